@@ -1,0 +1,29 @@
+// Named arrays in one HDF5 file: checkpoints and histories. Not for ParaView; the layout belongs to the phase.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/exchange/provenance.hpp"
+
+namespace breach::exchange {
+
+struct Archive {
+    std::string kind;  ///< "fem_checkpoint", "mpm_history", ...; checked on reading
+    int version = 1;
+    std::map<std::string, std::vector<double>> reals;
+    std::map<std::string, std::vector<std::int64_t>> integers;
+    std::map<std::string, std::string> texts;
+    std::map<std::string, std::string> units;  ///< unit of an array, by its name; optional
+};
+
+void write_archive(const std::filesystem::path& path, const Archive& archive,
+                   const Provenance& provenance);
+
+/// Throws BadInput if the kind or version differs or an array is damaged, IoError if it cannot be opened.
+Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version);
+
+}  // namespace breach::exchange

@@ -1,0 +1,57 @@
+// The FEM's whole state at one time: mesh, nodal and Gauss fields. File: VTKHDF UnstructuredGrid 1.0 (nodes at
+// their displaced places, cell data = Gauss averages) with the Gauss fields in the group /breachline beside it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/exchange/provenance.hpp"
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::exchange {
+
+struct MeshSnapshot {
+    double time = 0.0;      ///< [s] since the first dynamic stage began
+    std::int64_t step = 0;  ///< time step number
+    double thickness = 1.0; ///< [m]
+
+    std::vector<std::string> regions;  ///< names, by region index
+    std::vector<std::string> materials_of_regions;  ///< material name of each region
+
+    // nodes [n_nodes]
+    std::vector<mechanics::Vec2> position_0;    ///< undeformed [m]
+    std::vector<mechanics::Vec2> displacement;  ///< since the first dynamic stage began [m]
+    std::vector<mechanics::Vec2> velocity;      ///< [m/s]
+    std::vector<mechanics::Vec2> acceleration;  ///< [m/s2]
+    std::vector<double> nodal_mass;             ///< lumped, for the ledger [kg]
+    std::vector<double> pore_pressure;          ///< [Pa]; empty in a scene without water
+
+    // elements [n_elements]
+    std::vector<std::array<std::int32_t, 4>> quads;  ///< corners counter-clockwise
+    std::vector<std::int32_t> region_of_element;
+    std::vector<double> density;  ///< undeformed mass density [kg/m3]
+
+    // Gauss points [n_elements * gauss_per_element], element by element, in the order of gauss_positions
+    int gauss_per_element = 4;
+    std::vector<mechanics::Vec2> gauss_positions;  ///< natural coordinates (xi, eta) of each, [gauss_per_element]
+    std::vector<mechanics::Voigt> stress;          ///< effective [Pa], tension positive
+    std::vector<mechanics::Voigt> strain;          ///< total, since the first dynamic stage began [-]
+    std::vector<double> epsilon_q;                 ///< sqrt(2/3 e:e) of that total strain [-]
+    std::vector<double> epsilon_q_plastic;         ///< accumulated by the law [-]
+};
+
+void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& snapshot,
+                         const Provenance& provenance);
+
+struct MeshSnapshotFile {
+    MeshSnapshot snapshot;
+    Provenance provenance;
+};
+/// Throws BadInput (wrong kind or version, missing or misshapen dataset, non-finite value, checksum: each named by its
+/// dataset path) or IoError (missing, truncated).
+MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path);
+
+}  // namespace breach::exchange

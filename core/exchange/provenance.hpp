@@ -1,0 +1,30 @@
+// Where a file comes from: what every output carries so that a number can be traced to its inputs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace breach::exchange {
+
+struct InputDigest {
+    std::string path;
+    std::string sha256;
+};
+
+struct Provenance {
+    std::string phase;                   ///< "fem_solver", ...
+    std::string version;                 ///< Breachline version
+    std::string scene;                   ///< completed scene, JSON text
+    std::vector<std::string> overrides;  ///< "/pointer=value" as given
+    std::vector<InputDigest> inputs;
+    int threads = 1;
+    double wall_seconds = 0.0;  ///< when the file was written
+    double cpu_seconds = 0.0;
+};
+
+/// SHA-256 of a file as 64 hexadecimal digits. Throws IoError.
+std::string sha256_of_file(const std::filesystem::path& path);
+std::string sha256_of_text(const std::string& text);
+
+}  // namespace breach::exchange

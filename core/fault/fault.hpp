@@ -1,0 +1,54 @@
+// What can go wrong at the door, and the exit code that says so. Expected outcomes of the physics
+// (not converged, mesh entangled) are return values of the phases, not exceptions.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace breach::fault {
+
+/// Exit codes of every phase; the scheduler's retry rule reads nothing else.
+enum class ExitCode : int {
+    done = 0,
+    usage = 2,
+    bad_input = 65,
+    breakdown = 70,
+    io = 74,
+    try_again = 75,
+    interrupted = 130,
+    terminated = 143,
+};
+
+/// One thing that is wrong with an input: where (JSON pointer or dataset path), why, and how to mend it.
+struct Fault {
+    std::string pointer;
+    std::string cause;
+    std::string remedy;
+};
+
+/// An input that cannot be used; carries every fault that was found. Exit code 65.
+class BadInput : public std::runtime_error {
+  public:
+    BadInput(std::string file, std::vector<Fault> faults);
+    const std::string& file() const { return file_; }
+    const std::vector<Fault>& faults() const { return faults_; }
+
+  private:
+    std::string file_;
+    std::vector<Fault> faults_;
+};
+
+/// A file that cannot be read or written (missing, damaged, disk full). Exit code 74.
+class IoError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The numbers gave up: what, where and when. The thrower has saved the last good state. Exit code 70.
+class Breakdown : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace breach::fault

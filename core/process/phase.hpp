@@ -1,0 +1,40 @@
+// What being a phase means: one door for all executables. Owns arguments, log, progress, signals and exit codes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/process/plan.hpp"
+#include "core/process/session.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::process {
+
+/// How many --input files a phase takes.
+struct InputRule {
+    int least;
+    int most;
+    std::string what;  ///< "a FEM snapshot (.vtkhdf)"
+};
+
+/// How a phase ended when nothing was wrong.
+enum class Outcome {
+    done,
+    stopped,  ///< the session asked to stop; a checkpoint was saved
+};
+
+struct Phase {
+    std::string name;     ///< "fem_solver"
+    std::string purpose;  ///< one line for --help
+    InputRule inputs;
+    std::function<Plan(const scene::Scene&)> plan;
+    std::function<Outcome(Session&)> run;
+};
+
+/// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes (architecture.md, "What a
+/// phase promises"). Returns the exit code. Never throws.
+int run_phase(int argc, char** argv, const Phase& phase);
+
+}  // namespace breach::process

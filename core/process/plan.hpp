@@ -1,0 +1,24 @@
+// What a scene needs and what it does not: each line of a plan names a feature, whether it is on, why, and the
+// scene entry that decides it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace breach::process {
+
+enum class Use { on, left_out };
+
+struct PlanLine {
+    std::string feature;  ///< "pore pressure"
+    Use use;
+    std::string reason;   ///< "no region lies below water"
+    std::string pointer;  ///< JSON pointer of the scene entry that decides
+};
+
+using Plan = std::vector<PlanLine>;
+
+/// Aligned text for people.
+std::string as_text(const Plan& plan);
+
+}  // namespace breach::process

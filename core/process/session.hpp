@@ -1,0 +1,79 @@
+// One execution of a phase as the phase sees it: what to read, where to write, how to report, when to stop.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/exchange/provenance.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::process {
+
+enum class ProgressStyle { none, bar, json };
+enum class Start { fresh, resume };
+
+struct SessionSettings {
+    std::string phase;
+    std::filesystem::path output;
+    std::vector<std::filesystem::path> inputs;
+    std::vector<std::string> overrides;
+    Start start = Start::fresh;
+    int threads = 1;
+    ProgressStyle progress = ProgressStyle::none;
+};
+
+class Session {
+  public:
+    Session(SessionSettings settings, scene::Scene scene);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const scene::Scene& scene() const { return scene_; }
+    const SessionSettings& settings() const { return settings_; }
+    const std::filesystem::path& input(std::size_t i = 0) const { return settings_.inputs.at(i); }
+    std::filesystem::path output(const std::string& name) const { return settings_.output / name; }
+
+    /// Provenance with the times of now.
+    exchange::Provenance provenance() const;
+    double wall_seconds() const;
+    double cpu_seconds() const;
+
+    /// Shows how far the work is. fraction in [0, 1]; cheap, throttled to a few per second.
+    void progress(double fraction, const std::string& message);
+
+    /// Appends one JSON line to telemetry.jsonl, flushed. A resumed session first drops the lines past its
+    /// checkpoint with truncate_telemetry.
+    void telemetry(const nlohmann::json& line);
+    /// Keeps the first `lines` whole lines; returns how many are kept.
+    std::int64_t truncate_telemetry(std::int64_t lines);
+    std::int64_t telemetry_lines() const { return telemetry_lines_; }
+
+    /// Tells the outside that a file now exists (a snapshot): a progress line {"event":"artifact",...}.
+    void announce(const std::filesystem::path& file, const nlohmann::json& what);
+
+    /// True after SIGINT or SIGTERM: save a checkpoint and return Outcome::stopped.
+    bool stop_requested() const;
+
+    /// The facts of result.json; published by the door when the phase ends well.
+    nlohmann::json& result() { return result_; }
+
+  private:
+    void emit(const nlohmann::json& line);
+
+    SessionSettings settings_;
+    scene::Scene scene_;
+    std::vector<exchange::InputDigest> digests_;
+    std::chrono::steady_clock::time_point began_;
+    std::chrono::steady_clock::time_point shown_{};
+    std::ofstream telemetry_;
+    std::int64_t telemetry_lines_ = 0;
+    nlohmann::json result_ = nlohmann::json::object();
+};
+
+}  // namespace breach::process

@@ -1,0 +1,33 @@
+// Plane polygons of the cross-section: rings without the repeated last vertex, counter-clockwise.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::scene {
+
+using mechanics::Vec2;
+using Polygon = std::vector<Vec2>;
+
+/// Signed area [m2], positive when counter-clockwise.
+double signed_area(const Polygon& polygon);
+double area(const Polygon& polygon);
+/// True inside or on the border (within `tolerance` [m]).
+bool contains(const Polygon& polygon, const Vec2& point, double tolerance = 0.0);
+double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
+
+/// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it is one.
+std::optional<std::string> defect(const Polygon& polygon);
+/// Area that two simple polygons share [m2].
+double overlap_area(const Polygon& a, const Polygon& b);
+
+struct Box {
+    Vec2 low;
+    Vec2 high;
+};
+Box bounding_box(const Polygon& polygon);
+
+}  // namespace breach::scene

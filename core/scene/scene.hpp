@@ -1,0 +1,206 @@
+// The scene: one physical problem, read from JSON, checked whole, held as plain structs in SI and radians.
+// Every field's meaning, unit, range and default is in workflows/schema/scene.schema.json.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "core/materials/law.hpp"
+#include "core/scene/polygon.hpp"
+
+namespace breach::scene {
+
+struct Material {
+    std::string name;
+    double density;  ///< [kg/m3]
+    materials::Law law;
+};
+
+/// How a region is meshed: a block mapped between four of its vertices, or unstructured quads.
+enum class RegionMesh { block, unstructured };
+
+struct Region {
+    std::string name;
+    std::size_t material;  ///< index into Scene::materials
+    Polygon polygon;       ///< counter-clockwise, first vertex not repeated
+    RegionMesh mesh = RegionMesh::block;
+    std::array<std::size_t, 4> corners{};    ///< block: indices into polygon, counter-clockwise
+    std::array<int, 2> divisions{};          ///< block: elements along corner 0-1 and along corner 1-2
+    double element_size = 0.0;               ///< unstructured: wanted edge length [m]
+};
+
+struct Section {
+    std::vector<Region> regions;
+};
+
+// ---------------------------------------------------------------- lem_tool
+
+struct Circle {
+    Vec2 center;
+    double radius;
+};
+
+struct SlipSearch {
+    std::array<double, 2> entry;  ///< x range of the upper end of the surface [m]
+    std::array<double, 2> exit;   ///< x range of the lower end [m]
+    int entry_points;
+    int exit_points;
+    int depths;            ///< circles per pair of ends, from shallow to deep
+    double minimum_depth;  ///< least depth of sliding mass below ground [m]
+};
+
+struct Lem {
+    std::optional<Circle> circle;
+    std::optional<SlipSearch> search;
+    int slices;
+};
+
+// ---------------------------------------------------------------- fem_solver
+
+enum class Kinematics { small_strain, updated_lagrangian };
+
+struct MeshSource {
+    std::optional<std::filesystem::path> msh_file;  ///< absolute; otherwise meshed from the regions
+};
+
+/// Nodes on the segment from-to are held in x, y or both.
+struct Support {
+    std::string name;
+    Vec2 from;
+    Vec2 to;
+    bool fixes_x;
+    bool fixes_y;
+};
+
+enum class StageKind { static_equilibrium, dynamic };
+enum class StageLaws { elastic, scene };
+
+struct Stage {
+    std::string name;
+    StageKind kind;
+    StageLaws laws;
+    int load_steps = 1;              ///< static: equal parts of gravity
+    double duration = 0.0;           ///< dynamic [s]
+    double time_step = 0.0;          ///< dynamic, largest [s]
+    double least_time_step = 0.0;    ///< dynamic: below this the run ends [s]
+};
+
+struct Fem {
+    Kinematics kinematics;
+    MeshSource mesh;
+    std::vector<Support> supports;
+    std::vector<Stage> stages;
+    double newmark_beta;
+    double newmark_gamma;
+    double rayleigh_mass;       ///< alpha [1/s]
+    double rayleigh_stiffness;  ///< beta [s]
+    double force_tolerance;     ///< residual norm over reference force norm [-]
+    int largest_iterations;
+    double least_jacobian_ratio;     ///< entangled below this: stop with the last good state [-]
+    Vec2 crest;                      ///< monitored point; nearest node is used [m]
+    double strain_threshold;         ///< averages are over elements with epsilon_q above this [-]
+    std::vector<double> snapshot_times;  ///< ascending [s]
+    double telemetry_interval;       ///< [s]
+};
+
+// ---------------------------------------------------------------- transfer_tool
+
+enum class Interpolation { local, paper };
+enum class SofteningStart { carried, zero };
+
+struct Transfer {
+    int points_per_direction;
+    Interpolation interpolation;
+    int neighbours;
+    SofteningStart softening_start;
+    double largest_mass_loss;      ///< relative; more fails the transfer
+    double largest_momentum_loss;  ///< relative
+};
+
+// ---------------------------------------------------------------- mpm_solver
+
+enum class Kernel { gimp, linear };
+enum class UpdateOrder { usl, musl };
+enum class AntiLocking { on, off };
+enum class Wall { roller, fixed, open };
+
+/// Coulomb friction of the floor for x in [from, to].
+struct FrictionZone {
+    double from;
+    double to;
+    double coefficient;
+};
+
+struct Floor {
+    double level;  ///< y of the floor [m]
+    std::vector<FrictionZone> friction;  ///< ascending in x, empty: fixed (no slip)
+};
+
+struct Runout {
+    Vec2 toe;
+    std::vector<std::string> regions;  ///< mobile regions that count; empty: all
+};
+
+struct Mpm {
+    double cell_size;               ///< [m]
+    std::array<double, 2> domain_x;  ///< [m]
+    std::array<double, 2> domain_y;  ///< [m]
+    Wall left;
+    Wall right;
+    Floor floor;
+    Kernel kernel;
+    double gimp_half_size;   ///< fraction of the cell [-]
+    UpdateOrder order;
+    double blending_rate;    ///< affine PIC rate beta [1/s]
+    AntiLocking anti_locking;
+    bool gap_closure;
+    double stiffness_scale;  ///< factor on E, reported [-]
+    std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
+    double cfl;              ///< [-]
+    double duration;         ///< longest [s]
+    double rest_change;      ///< the front moved less than this over rest_window: stop [m]
+    double rest_window;      ///< [s]
+    double rest_earliest;    ///< never stop before [s]
+    Runout runout;
+    double snapshot_interval;    ///< [s]
+    double telemetry_interval;   ///< [s]
+    double checkpoint_interval;  ///< wall clock [s]
+    double largest_energy_gain;  ///< relative to the energy released; more ends the run [-]
+    int fill_points;             ///< points per cell and direction when no particles are given
+};
+
+struct Scene {
+    std::string name;
+    std::string title;
+    double gravity;    ///< [m/s2], downwards
+    double thickness;  ///< [m]
+    std::vector<Material> materials;
+    Section section;
+    std::optional<Lem> lem;
+    std::optional<Fem> fem;
+    std::optional<Transfer> transfer;
+    std::optional<Mpm> mpm;
+    std::string completed;  ///< the JSON text with every default filled in, keys sorted
+};
+
+/// Reads and checks a scene; `overrides` are "/json/pointer=value". Throws BadInput with every fault, IoError if the
+/// file cannot be read.
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same from text; relative paths in it are taken from `folder`, `name` is used in messages.
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder = ".",
+                  const std::vector<std::string>& overrides = {});
+
+/// Throws BadInput when the scene has no part for this phase ("/mpm" missing).
+const Fem& fem_of(const Scene& scene);
+const Lem& lem_of(const Scene& scene);
+const Transfer& transfer_of(const Scene& scene);
+const Mpm& mpm_of(const Scene& scene);
+
+}  // namespace breach::scene
