@@ -5,8 +5,8 @@ namespace breach::fault {
 namespace {
 
 std::string list_all(const std::string& file, const std::vector<Fault>& faults) {
-    std::string text = file + ": " + std::to_string(faults.size()) +
-                       (faults.size() == 1 ? " fault" : " faults");
+    std::string text =
+        file + ": " + std::to_string(faults.size()) + (faults.size() == 1 ? " fault" : " faults");
     for (const Fault& each : faults) {
         text += "\n  " + (each.pointer.empty() ? "/" : each.pointer) + ": " + each.cause;
         if (!each.remedy.empty()) text += "\n      remedy: " + each.remedy;
@@ -17,6 +17,8 @@ std::string list_all(const std::string& file, const std::vector<Fault>& faults) 
 }  // namespace
 
 BadInput::BadInput(std::string file, std::vector<Fault> faults)
-    : std::runtime_error(list_all(file, faults)), file_(std::move(file)), faults_(std::move(faults)) {}
+    : std::runtime_error(list_all(file, faults)),
+      file_(std::move(file)),
+      faults_(std::move(faults)) {}
 
 }  // namespace breach::fault

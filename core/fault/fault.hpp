@@ -20,7 +20,8 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
-/// One thing that is wrong with an input: where (JSON pointer or dataset path), why, and how to mend it.
+/// One thing that is wrong with an input: where (JSON pointer or dataset path), why, and how to
+/// mend it.
 struct Fault {
     std::string pointer;
     std::string cause;
@@ -45,7 +46,8 @@ class IoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The numbers gave up: what, where and when. The thrower has saved the last good state. Exit code 70.
+/// The numbers gave up: what, where and when. The thrower has saved the last good state. Exit
+/// code 70.
 class Breakdown : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -1,4 +1,5 @@
-// Plane-strain tensors in Voigt order (xx, yy, zz, xy) and their invariants. No material behaviour here.
+// Plane-strain tensors in Voigt order (xx, yy, zz, xy) and their invariants. No material behaviour
+// here.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,28 +30,31 @@ double double_dot(const Voigt& sigma, const Voigt& epsilon);
 /// Stress seen after turning the material by `angle` [rad], counter-clockwise: R sigma R^T, exact.
 Voigt rotated_stress(const Voigt& sigma, double angle);
 
-/// Rotation angle [rad] of the polar decomposition F = R U of a plane deformation gradient, det F > 0.
+/// Rotation angle [rad] of the polar decomposition F = R U of a plane deformation gradient, det F >
+/// 0.
 double rotation_angle(const Matrix2& F);
 
 /// Principal stresses in the plane and out of it, with the direction of the larger in-plane one.
 struct Principal {
-    double major;    ///< larger in-plane principal stress [Pa]
-    double minor;    ///< smaller in-plane principal stress [Pa]
-    double normal;   ///< out-of-plane stress zz [Pa]
-    double cos_2a;   ///< cosine of twice the angle from x to the major direction
-    double sin_2a;   ///< sine of the same
+    double major;   ///< larger in-plane principal stress [Pa]
+    double minor;   ///< smaller in-plane principal stress [Pa]
+    double normal;  ///< out-of-plane stress zz [Pa]
+    double cos_2a;  ///< cosine of twice the angle from x to the major direction
+    double sin_2a;  ///< sine of the same
 };
 
 Principal principal(const Voigt& sigma);
 Voigt from_principal(const Principal& principal);
 
-/// Smallest twice-area Jacobian over the four corners of a quad and at its centre, relative to a reference quad.
+/// Smallest twice-area Jacobian over the four corners of a quad and at its centre, relative to a
+/// reference quad.
 struct JacobianRatio {
     double centre;  ///< |J_t| / |J_0| at the centre: area change only, blind to shear
     double least;   ///< least corner ratio: sees shear distortion; <= 0 means entangled
 };
 
-/// Corner k uses the edges (k, k+1) and (k, k-1). Both quads counter-clockwise, columns are corners.
+/// Corner k uses the edges (k, k+1) and (k, k-1). Both quads counter-clockwise, columns are
+/// corners.
 JacobianRatio jacobian_ratio(const Eigen::Matrix<double, 2, 4>& current,
                              const Eigen::Matrix<double, 2, 4>& reference);
 

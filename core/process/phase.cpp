@@ -1,0 +1,217 @@
+#include "core/process/phase.hpp"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "core/exchange/publish.hpp"
+#include "core/process/signals.hpp"
+
+namespace breach::process {
+
+using fault::ExitCode;
+using nlohmann::json;
+
+namespace {
+
+enum class Question { none, plan, check };
+
+struct Arguments {
+    std::filesystem::path scene;
+    SessionSettings settings;
+    Question question = Question::none;
+};
+
+/// The parsed arguments, or the exit code when there is nothing to run (help, version, wrong
+/// usage).
+struct ParsedArguments {
+    std::optional<Arguments> arguments;
+    ExitCode code = ExitCode::done;
+};
+
+ParsedArguments usage_fault(const std::string& message) {
+    std::cerr << message << "\nRun with --help for more information.\n";
+    return {std::nullopt, ExitCode::usage};
+}
+
+ParsedArguments parse(int argc, char** argv, const Phase& phase) {
+    CLI::App app(phase.purpose, phase.name);
+    Arguments a;
+    a.settings.phase = phase.name;
+    std::string progress = "auto";
+    bool plan = false;
+    bool check = false;
+    bool resume = false;
+    app.add_option("scene", a.scene, "scene file (JSON)")->required();
+    app.add_option("--input", a.settings.inputs, phase.inputs.what)->allow_extra_args(false);
+    app.add_option("--output", a.settings.output, "folder for results, made if absent");
+    app.add_option("--set", a.settings.overrides,
+                   "/json/pointer=value, changes the scene; repeatable")
+        ->allow_extra_args(false);
+    app.add_flag("--plan", plan, "print what the scene needs and what is left out, and stop");
+    app.add_flag("--check", check, "check the scene and stop");
+    app.add_flag("--resume", resume,
+                 "go on from the checkpoint in the output folder, if there is one");
+    app.add_option("--threads", a.settings.threads, "threads to use")->check(CLI::Range(1, 1024));
+    app.add_option("--progress", progress, "auto, bar, json or none")
+        ->check(CLI::IsMember({"auto", "bar", "json", "none"}));
+    app.set_version_flag("--version", phase.name + " " BREACH_VERSION);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return {std::nullopt, app.exit(error) == 0 ? ExitCode::done : ExitCode::usage};
+    }
+    if (plan) a.question = Question::plan;
+    if (check) a.question = Question::check;
+    a.settings.start = resume ? Start::resume : Start::fresh;
+    const bool terminal = isatty(STDERR_FILENO) == 1;
+    if (progress == "json") a.settings.progress = ProgressStyle::json;
+    if (progress == "bar" || (progress == "auto" && terminal))
+        a.settings.progress = ProgressStyle::bar;
+    if (a.question != Question::none) return {a, ExitCode::done};
+    if (a.settings.output.empty()) return usage_fault("--output is required");
+    const int inputs = static_cast<int>(a.settings.inputs.size());
+    if (inputs < phase.inputs.least || inputs > phase.inputs.most) {
+        return usage_fault(phase.name + " takes " + std::to_string(phase.inputs.least) + " to " +
+                           std::to_string(phase.inputs.most) + " --input (" + phase.inputs.what +
+                           "), not " + std::to_string(inputs));
+    }
+    return {a, ExitCode::done};
+}
+
+json as_json(const Plan& plan) {
+    json lines = json::array();
+    for (const PlanLine& line : plan) {
+        lines.push_back({{"feature", line.feature},
+                         {"on", line.use == Use::on},
+                         {"reason", line.reason},
+                         {"pointer", line.pointer}});
+    }
+    return lines;
+}
+
+json as_json(const exchange::Provenance& p) {
+    json inputs = json::array();
+    for (const auto& each : p.inputs)
+        inputs.push_back({{"path", each.path}, {"sha256", each.sha256}});
+    return {{"phase", p.phase},
+            {"version", p.version},
+            {"scene", json::parse(p.scene)},
+            {"overrides", p.overrides},
+            {"inputs", inputs},
+            {"threads", p.threads},
+            {"wall_seconds", p.wall_seconds},
+            {"cpu_seconds", p.cpu_seconds}};
+}
+
+void make_output_folder(const std::filesystem::path& folder, Start start) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
+    if (access(folder.c_str(), W_OK) != 0)
+        throw fault::IoError(folder.string() + ": is not writable");
+    std::filesystem::remove(folder / "fault.json", error);
+    std::filesystem::remove(folder / "result.json",
+                            error);  // an old result must not pass for a new one
+    if (start == Start::fresh) std::filesystem::remove(folder / "checkpoint.h5", error);
+}
+
+ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene) {
+    const Plan plan = phase.plan(scene);
+    spdlog::info("plan\n{}", as_text(plan));
+    make_output_folder(arguments.settings.output, arguments.settings.start);
+    Session session(arguments.settings, std::move(scene));
+    exchange::publish_text(session.output("scene.completed.json"),
+                           json::parse(session.scene().completed).dump(2) + "\n");
+    if (phase.run(session) == Outcome::stopped) {
+        spdlog::warn("stopped; go on with --resume");
+        return code_of_stop();
+    }
+    json result = session.result();
+    result["phase"] = phase.name;
+    result["scene"] = session.scene().name;
+    result["plan"] = as_json(plan);
+    result["wall_seconds"] = session.wall_seconds();
+    result["cpu_seconds"] = session.cpu_seconds();
+    result["provenance"] = as_json(session.provenance());
+    exchange::publish_text(session.output("result.json"), result.dump(2) + "\n");
+    if (session.settings().progress == ProgressStyle::json) {
+        result.erase("provenance");
+        result.erase("plan");
+        std::cout << json{{"event", "result"}, {"result", result}}.dump() << std::endl;
+    }
+    return ExitCode::done;
+}
+
+ExitCode answer(const Phase& phase, Arguments& arguments) {
+    scene::Scene scene = scene::read_scene(arguments.scene, arguments.settings.overrides);
+    if (arguments.question == Question::none) return simulate(phase, arguments, std::move(scene));
+    const Plan plan = phase.plan(scene);
+    if (arguments.question == Question::plan) {
+        std::cout << as_text(plan);
+    } else {
+        std::cout << arguments.scene.string() << ": no faults\n";
+    }
+    return ExitCode::done;
+}
+
+/// Says what went wrong to people (stderr), to the scheduler (fault.json) and to a listener
+/// (--progress json).
+ExitCode report(const Arguments& arguments, ExitCode code, const std::string& summary,
+                const std::vector<fault::Fault>& faults) {
+    std::cerr << arguments.settings.phase << ": " << summary << "\n";
+    json line{
+        {"exit_code", static_cast<int>(code)}, {"summary", summary}, {"faults", json::array()}};
+    for (const fault::Fault& each : faults) {
+        line["faults"].push_back(
+            {{"pointer", each.pointer}, {"cause", each.cause}, {"remedy", each.remedy}});
+    }
+    try {
+        if (std::filesystem::is_directory(arguments.settings.output)) {
+            exchange::publish_text(arguments.settings.output / "fault.json", line.dump(2) + "\n");
+        }
+    } catch (const fault::IoError& error) {
+        std::cerr << error.what() << "\n";
+    }
+    if (arguments.settings.progress == ProgressStyle::json) {
+        line["event"] = "fault";
+        std::cout << line.dump() << std::endl;
+    }
+    return code;
+}
+
+ExitCode guarded(const Phase& phase, Arguments& arguments) {
+    try {
+        return answer(phase, arguments);
+    } catch (const fault::BadInput& error) {
+        return report(arguments, ExitCode::bad_input, error.what(), error.faults());
+    } catch (const fault::Breakdown& error) {
+        return report(arguments, ExitCode::breakdown, error.what(), {});
+    } catch (const fault::IoError& error) {
+        return report(arguments, ExitCode::io, error.what(), {});
+    } catch (const std::bad_alloc&) {
+        return report(arguments, ExitCode::try_again, "not enough memory", {});
+    } catch (const std::filesystem::filesystem_error& error) {
+        return report(arguments, ExitCode::io, error.what(), {});
+    } catch (const std::exception& error) {
+        return report(arguments, ExitCode::breakdown,
+                      std::string("internal fault: ") + error.what(), {});
+    }
+}
+
+}  // namespace
+
+int run_phase(int argc, char** argv, const Phase& phase) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt(phase.name));
+    spdlog::set_pattern("%H:%M:%S %n %l: %v");
+    watch_signals();
+    ParsedArguments parsed = parse(argc, argv, phase);
+    if (!parsed.arguments) return static_cast<int>(parsed.code);
+    return static_cast<int>(guarded(phase, *parsed.arguments));
+}
+
+}  // namespace breach::process

@@ -1,4 +1,5 @@
-// What being a phase means: one door for all executables. Owns arguments, log, progress, signals and exit codes.
+// What being a phase means: one door for all executables. Owns arguments, log, progress, signals
+// and exit codes.
 #pragma once
 
 #include <filesystem>
@@ -33,8 +34,8 @@ struct Phase {
     std::function<Outcome(Session&)> run;
 };
 
-/// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes (architecture.md, "What a
-/// phase promises"). Returns the exit code. Never throws.
+/// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes
+/// (architecture.md, "What a phase promises"). Returns the exit code. Never throws.
 int run_phase(int argc, char** argv, const Phase& phase);
 
 }  // namespace breach::process

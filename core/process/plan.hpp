@@ -1,5 +1,5 @@
-// What a scene needs and what it does not: each line of a plan names a feature, whether it is on, why, and the
-// scene entry that decides it.
+// What a scene needs and what it does not: each line of a plan names a feature, whether it is on,
+// why, and the scene entry that decides it.
 #pragma once
 
 #include <string>

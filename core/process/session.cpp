@@ -1,0 +1,130 @@
+#include "core/process/session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <iostream>
+
+#include "core/exchange/publish.hpp"
+#include "core/process/signals.hpp"
+
+namespace breach::process {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr auto least_time_between_lines = std::chrono::milliseconds(250);
+constexpr int bar_width = 30;
+
+void draw_bar(double fraction, const std::string& message) {
+    const int filled = static_cast<int>(fraction * bar_width);
+    const std::string bar = std::string(filled, '#') + std::string(bar_width - filled, '.');
+    std::fprintf(stderr, "\r[%s] %3.0f %%  %s\033[K", bar.c_str(), 100.0 * fraction,
+                 message.c_str());
+    if (fraction >= 1.0) std::fputc('\n', stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace
+
+Session::Session(SessionSettings settings, scene::Scene scene)
+    : settings_(std::move(settings)),
+      scene_(std::move(scene)),
+      began_(std::chrono::steady_clock::now()) {
+    for (const auto& input : settings_.inputs) {
+        digests_.push_back({input.string(), exchange::sha256_of_file(input)});
+    }
+    const auto file = output("telemetry.jsonl");
+    if (settings_.start == Start::resume && std::filesystem::exists(file)) {
+        std::ifstream old(file);
+        telemetry_lines_ = std::count(std::istreambuf_iterator<char>(old), {}, '\n');
+        truncate_telemetry(telemetry_lines_);  // drops a torn last line
+    } else {
+        telemetry_.open(file, std::ios::trunc);
+    }
+    if (!telemetry_) throw fault::IoError(file.string() + ": cannot be written");
+}
+
+Session::~Session() = default;
+
+exchange::Provenance Session::provenance() const {
+    return {.phase = settings_.phase,
+            .version = BREACH_VERSION,
+            .scene = scene_.completed,
+            .overrides = settings_.overrides,
+            .inputs = digests_,
+            .threads = settings_.threads,
+            .wall_seconds = wall_seconds(),
+            .cpu_seconds = cpu_seconds()};
+}
+
+double Session::wall_seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+}
+
+double Session::cpu_seconds() const {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+void Session::progress(double fraction, const std::string& message) {
+    if (settings_.progress == ProgressStyle::none) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (fraction < 1.0 && now - shown_ < least_time_between_lines) return;
+    shown_ = now;
+    fraction = std::clamp(fraction, 0.0, 1.0);
+    if (settings_.progress == ProgressStyle::bar) {
+        draw_bar(fraction, message);
+    } else {
+        emit({{"event", "progress"}, {"fraction", fraction}, {"message", message}});
+    }
+}
+
+void Session::telemetry(const json& line) {
+    telemetry_ << line.dump() << '\n';
+    telemetry_.flush();
+    if (!telemetry_) {
+        throw fault::IoError(output("telemetry.jsonl").string() +
+                             ": cannot be written (disk full?)");
+    }
+    ++telemetry_lines_;
+}
+
+std::int64_t Session::truncate_telemetry(std::int64_t lines) {
+    const auto file = output("telemetry.jsonl");
+    telemetry_.close();
+    std::ifstream old(file);
+    std::string kept;
+    std::string line;
+    std::int64_t count = 0;
+    while (count < lines && std::getline(old, line) && !old.eof()) {
+        kept += line + '\n';
+        ++count;
+    }
+    old.close();
+    exchange::publish_text(file, kept);
+    telemetry_.clear();
+    telemetry_.open(file, std::ios::app);
+    if (!telemetry_) throw fault::IoError(file.string() + ": cannot be written");
+    telemetry_lines_ = count;
+    return count;
+}
+
+void Session::announce(const std::filesystem::path& file, const json& what) {
+    spdlog::info("wrote {}", file.filename().string());
+    if (settings_.progress != ProgressStyle::json) return;
+    json line = what;
+    line["event"] = "artifact";
+    line["file"] = file.filename().string();
+    emit(line);
+}
+
+bool Session::stop_requested() const { return stop_was_requested(); }
+
+void Session::emit(const json& line) { std::cout << line.dump() << std::endl; }
+
+}  // namespace breach::process

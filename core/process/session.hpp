@@ -1,4 +1,5 @@
-// One execution of a phase as the phase sees it: what to read, where to write, how to report, when to stop.
+// One execution of a phase as the phase sees it: what to read, where to write, how to report, when
+// to stop.
 #pragma once
 
 #include <chrono>
@@ -47,14 +48,15 @@ class Session {
     /// Shows how far the work is. fraction in [0, 1]; cheap, throttled to a few per second.
     void progress(double fraction, const std::string& message);
 
-    /// Appends one JSON line to telemetry.jsonl, flushed. A resumed session first drops the lines past its
-    /// checkpoint with truncate_telemetry.
+    /// Appends one JSON line to telemetry.jsonl, flushed. A resumed session first drops the lines
+    /// past its checkpoint with truncate_telemetry.
     void telemetry(const nlohmann::json& line);
     /// Keeps the first `lines` whole lines; returns how many are kept.
     std::int64_t truncate_telemetry(std::int64_t lines);
     std::int64_t telemetry_lines() const { return telemetry_lines_; }
 
-    /// Tells the outside that a file now exists (a snapshot): a progress line {"event":"artifact",...}.
+    /// Tells the outside that a file now exists (a snapshot): a progress line
+    /// {"event":"artifact",...}.
     void announce(const std::filesystem::path& file, const nlohmann::json& what);
 
     /// True after SIGINT or SIGTERM: save a checkpoint and return Outcome::stopped.

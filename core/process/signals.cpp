@@ -1,0 +1,32 @@
+#include "core/process/signals.hpp"
+
+#include <csignal>
+
+namespace breach::process {
+
+namespace {
+
+// Written by the handler: a signal handler may touch nothing else.
+volatile std::sig_atomic_t received = 0;
+
+void note(int signal) { received = signal; }
+
+}  // namespace
+
+void watch_signals() {
+    struct sigaction action {};
+    action.sa_handler = note;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, nullptr);
+}
+
+bool stop_was_requested() { return received != 0; }
+
+fault::ExitCode code_of_stop() {
+    return received == SIGINT ? fault::ExitCode::interrupted : fault::ExitCode::terminated;
+}
+
+}  // namespace breach::process

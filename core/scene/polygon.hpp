@@ -19,7 +19,8 @@ double area(const Polygon& polygon);
 bool contains(const Polygon& polygon, const Vec2& point, double tolerance = 0.0);
 double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 
-/// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it is one.
+/// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it
+/// is one.
 std::optional<std::string> defect(const Polygon& polygon);
 /// Area that two simple polygons share [m2].
 double overlap_area(const Polygon& a, const Polygon& b);

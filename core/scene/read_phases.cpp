@@ -1,0 +1,259 @@
+// What each phase does with the scene: /lem, /fem, /transfer, /mpm.
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/reader.hpp"
+
+namespace breach::scene {
+
+using nlohmann::json;
+
+namespace {
+
+void check_ascending(Reader& reader, const std::array<double, 2>& range,
+                     const std::string& pointer) {
+    if (range[0] >= range[1])
+        reader.add(pointer, "is not ascending", "write [from, to] with from < to");
+}
+
+/// Needed when a list's own entries are sound but their order is not.
+template <class List, class Before>
+void check_order(Reader& reader, const List& list, Before before, const std::string& pointer,
+                 const std::string& remedy) {
+    for (std::size_t i = 1; i < list.size(); ++i) {
+        if (!before(list[i - 1], list[i])) {
+            reader.add(pointer + "/" + std::to_string(i), "is out of order", remedy);
+        }
+    }
+}
+
+Stage stage_from(const json& stage) {
+    const StageLaws laws = stage.at("laws") == "elastic" ? StageLaws::elastic : StageLaws::scene;
+    if (stage.at("type") == "static") {
+        return {.name = stage.at("name"),
+                .kind = StageKind::static_equilibrium,
+                .laws = laws,
+                .load_steps = stage.at("load_steps")};
+    }
+    return {.name = stage.at("name"),
+            .kind = StageKind::dynamic,
+            .laws = laws,
+            .duration = stage.at("duration"),
+            .time_step = stage.at("time_step"),
+            .least_time_step = stage.at("least_time_step")};
+}
+
+Support support_from(const json& support) {
+    const std::string fixes = support.at("fixes");
+    return {.name = support.at("name"),
+            .from = point_from(support.at("from")),
+            .to = point_from(support.at("to")),
+            .fixes_x = fixes != "y",
+            .fixes_y = fixes != "x"};
+}
+
+void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
+    double span = 0.0;
+    bool moving = false;
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const Stage& stage = fem.stages[i];
+        const std::string pointer = "/fem/stages/" + std::to_string(i);
+        if (stage.kind == StageKind::static_equilibrium && moving) {
+            reader.add(pointer, "is a static stage after a dynamic one", "put static stages first");
+        }
+        moving = moving || stage.kind == StageKind::dynamic;
+        span += stage.duration;
+        if (stage.kind == StageKind::dynamic && stage.least_time_step > stage.time_step) {
+            reader.add(pointer + "/least_time_step", "is above time_step", "give a smaller one");
+        }
+    }
+    if (!fem.snapshot_times.empty() && fem.snapshot_times.back() > span * (1 + 1e-12)) {
+        reader.add("/fem/snapshot_times", "reach beyond the end of the dynamic stages",
+                   "lengthen the last stage, or drop the later times");
+    }
+    const double stable = 0.25 * (fem.newmark_gamma + 0.5) * (fem.newmark_gamma + 0.5);
+    if (fem.newmark_beta < stable - 1e-12) {
+        reader.add("/fem/newmark_beta", "makes the scheme unstable at large steps",
+                   "give at least (newmark_gamma + 0.5)^2 / 4 = " + std::to_string(stable));
+    }
+    if (fem.mesh.msh_file) return;
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        const std::string pointer = "/section/regions/" + std::to_string(i);
+        if (reader.document().at(json::json_pointer(pointer)).contains("mesh")) continue;
+        reader.add(pointer, "lacks \"mesh\", which the FEM needs",
+                   "add a block or unstructured mesh, or give /fem/msh_file");
+    }
+}
+
+void check_grid(Reader& reader, const Mpm& mpm) {
+    const auto whole = [&](double from, double to) {
+        const double cells = (to - from) / mpm.cell_size;
+        return std::abs(cells - std::nearbyint(cells)) < 1e-6;
+    };
+    if (!whole(mpm.domain_x[0], mpm.domain_x[1])) {
+        reader.add("/mpm/domain_x", "is not a whole number of cells",
+                   "make its length a multiple of cell_size");
+    }
+    if (!whole(mpm.domain_y[0], mpm.domain_y[1])) {
+        reader.add("/mpm/domain_y", "is not a whole number of cells",
+                   "make its length a multiple of cell_size");
+    }
+    const double level = mpm.floor.level;
+    if (level < mpm.domain_y[0] - 1e-9 || level > mpm.domain_y[1] ||
+        !whole(mpm.domain_y[0], level)) {
+        reader.add("/mpm/floor/level", "is not a grid line inside domain_y",
+                   "move it or domain_y by less than a cell");
+    }
+}
+
+void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
+    check_grid(reader, mpm);
+    check_order(
+        reader, mpm.floor.friction,
+        [](const FrictionZone& a, const FrictionZone& b) { return a.to <= b.from + 1e-9; },
+        "/mpm/floor/friction", "list the zones from left to right without overlap");
+    for (std::size_t i = 0; i < mpm.runout.regions.size(); ++i) {
+        const auto& regions = scene.section.regions;
+        const auto same = [&](const Region& r) { return r.name == mpm.runout.regions[i]; };
+        if (std::any_of(regions.begin(), regions.end(), same)) continue;
+        reader.add("/mpm/runout/regions/" + std::to_string(i),
+                   "names \"" + mpm.runout.regions[i] + "\", which is no region of the section",
+                   "use a name from /section/regions");
+    }
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        const Polygon& polygon = scene.section.regions[i].polygon;
+        if (polygon.empty()) continue;
+        const Box box = bounding_box(polygon);
+        const bool inside =
+            box.low.x() >= mpm.domain_x[0] - 1e-9 && box.high.x() <= mpm.domain_x[1] + 1e-9 &&
+            box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;
+        if (inside) continue;
+        reader.add("/section/regions/" + std::to_string(i) + "/polygon",
+                   "reaches outside the MPM grid or below its floor",
+                   "enlarge /mpm/domain_x, /mpm/domain_y or lower /mpm/floor/level");
+    }
+}
+
+Wall wall_from(const std::string& text) {
+    if (text == "roller") return Wall::roller;
+    return text == "fixed" ? Wall::fixed : Wall::open;
+}
+
+}  // namespace
+
+void read_lem(Reader& reader, Scene& scene) {
+    if (!reader.sound("/lem")) return;
+    const json& lem = reader.document().at("lem");
+    Lem result{.circle = {}, .search = {}, .slices = lem.at("slices")};
+    if (lem.contains("circle")) {
+        result.circle =
+            Circle{point_from(lem.at("circle").at("center")), lem.at("circle").at("radius")};
+    }
+    if (lem.contains("search")) {
+        const json& search = lem.at("search");
+        result.search = SlipSearch{.entry = range_from(search.at("entry")),
+                                   .exit = range_from(search.at("exit")),
+                                   .entry_points = search.at("entry_points"),
+                                   .exit_points = search.at("exit_points"),
+                                   .depths = search.at("depths"),
+                                   .minimum_depth = search.at("minimum_depth")};
+        check_ascending(reader, result.search->entry, "/lem/search/entry");
+        check_ascending(reader, result.search->exit, "/lem/search/exit");
+    }
+    if (!result.circle && !result.search) {
+        reader.add("/lem", "has neither a circle nor a search", "give one of them, or both");
+    }
+    scene.lem = result;
+}
+
+void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene) {
+    if (!reader.sound("/fem")) return;
+    const json& fem = reader.document().at("fem");
+    Fem result{};
+    result.kinematics = fem.at("kinematics") == "small_strain" ? Kinematics::small_strain
+                                                               : Kinematics::updated_lagrangian;
+    if (fem.contains("msh_file")) {
+        result.mesh.msh_file =
+            std::filesystem::absolute(folder / fem.at("msh_file").get<std::string>());
+        if (!std::filesystem::exists(*result.mesh.msh_file)) {
+            reader.add("/fem/msh_file", "does not exist: " + result.mesh.msh_file->string(),
+                       "give a path relative to the scene file");
+        }
+    }
+    for (const json& each : fem.at("supports")) result.supports.push_back(support_from(each));
+    for (const json& each : fem.at("stages")) result.stages.push_back(stage_from(each));
+    result.newmark_beta = fem.at("newmark_beta");
+    result.newmark_gamma = fem.at("newmark_gamma");
+    result.rayleigh_mass = fem.at("rayleigh_mass");
+    result.rayleigh_stiffness = fem.at("rayleigh_stiffness");
+    result.force_tolerance = fem.at("force_tolerance");
+    result.largest_iterations = fem.at("largest_iterations");
+    result.least_jacobian_ratio = fem.at("least_jacobian_ratio");
+    result.crest = point_from(fem.at("crest"));
+    result.strain_threshold = fem.at("strain_threshold");
+    result.snapshot_times = fem.at("snapshot_times").get<std::vector<double>>();
+    result.telemetry_interval = fem.at("telemetry_interval");
+    check_order(reader, result.snapshot_times, std::less<>(), "/fem/snapshot_times",
+                "list the times in ascending order, each once");
+    check_fem(reader, scene, result);
+    scene.fem = std::move(result);
+}
+
+void read_transfer(Reader& reader, Scene& scene) {
+    if (!reader.sound("/transfer")) return;
+    const json& transfer = reader.document().at("transfer");
+    scene.transfer = Transfer{
+        .points_per_direction = transfer.at("points_per_direction"),
+        .interpolation =
+            transfer.at("interpolation") == "local" ? Interpolation::local : Interpolation::paper,
+        .neighbours = transfer.at("neighbours"),
+        .softening_start = transfer.at("softening_start") == "carried" ? SofteningStart::carried
+                                                                       : SofteningStart::zero,
+        .largest_mass_loss = transfer.at("largest_mass_loss"),
+        .largest_momentum_loss = transfer.at("largest_momentum_loss"),
+    };
+}
+
+void read_mpm(Reader& reader, Scene& scene) {
+    if (!reader.sound("/mpm")) return;
+    const json& mpm = reader.document().at("mpm");
+    Mpm result{};
+    result.cell_size = mpm.at("cell_size");
+    result.domain_x = range_from(mpm.at("domain_x"));
+    result.domain_y = range_from(mpm.at("domain_y"));
+    check_ascending(reader, result.domain_x, "/mpm/domain_x");
+    check_ascending(reader, result.domain_y, "/mpm/domain_y");
+    result.left = wall_from(mpm.at("left"));
+    result.right = wall_from(mpm.at("right"));
+    result.floor.level = mpm.at("floor").at("level");
+    for (const json& zone : mpm.at("floor").at("friction")) {
+        result.floor.friction.push_back({zone.at("from"), zone.at("to"), zone.at("coefficient")});
+        if (zone.at("from") < zone.at("to")) continue;
+        reader.add("/mpm/floor/friction/" + std::to_string(result.floor.friction.size() - 1),
+                   "ends before it begins", "give from < to");
+    }
+    result.kernel = mpm.at("kernel") == "gimp" ? Kernel::gimp : Kernel::linear;
+    result.gimp_half_size = mpm.at("gimp_half_size");
+    result.order = mpm.at("order") == "usl" ? UpdateOrder::usl : UpdateOrder::musl;
+    result.blending_rate = mpm.at("blending_rate");
+    result.anti_locking = mpm.at("anti_locking") == "on" ? AntiLocking::on : AntiLocking::off;
+    result.gap_closure = mpm.at("gap_closure");
+    result.stiffness_scale = mpm.at("stiffness_scale");
+    if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
+    result.cfl = mpm.at("cfl");
+    result.duration = mpm.at("duration");
+    result.rest_change = mpm.at("rest_change");
+    result.rest_window = mpm.at("rest_window");
+    result.rest_earliest = mpm.at("rest_earliest");
+    result.runout.toe = point_from(mpm.at("runout").at("toe"));
+    result.runout.regions = mpm.at("runout").at("regions").get<std::vector<std::string>>();
+    result.snapshot_interval = mpm.at("snapshot_interval");
+    result.telemetry_interval = mpm.at("telemetry_interval");
+    result.checkpoint_interval = mpm.at("checkpoint_interval");
+    result.largest_energy_gain = mpm.at("largest_energy_gain");
+    result.fill_points = mpm.at("fill_points");
+    check_mpm(reader, scene, result);
+    scene.mpm = std::move(result);
+}
+
+}  // namespace breach::scene

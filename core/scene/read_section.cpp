@@ -1,0 +1,215 @@
+// Materials and the cross-section.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/scene/reader.hpp"
+
+namespace breach::scene {
+
+using nlohmann::json;
+
+namespace {
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+std::optional<materials::Softening> softening_from(Reader& reader, const json& law, double c,
+                                                   double phi, const std::string& pointer) {
+    if (!law.contains("softening")) return std::nullopt;
+    const json& s = law.at("softening");
+    const double phi_residual = radians(s.at("phi_residual_deg"));
+    materials::Softening softening{
+        .epsilon_q_start = s.at("epsilon_q_start"),
+        .epsilon_q_end = s.at("epsilon_q_end"),
+        .c_residual = 1e3 * s.at("c_residual_kPa").get<double>(),
+        .tan_phi_residual = std::tan(phi_residual),
+        .driver = s.at("driver") == "total" ? materials::SofteningDriver::total
+                                            : materials::SofteningDriver::plastic,
+    };
+    if (softening.epsilon_q_end <= softening.epsilon_q_start) {
+        reader.add(pointer + "/epsilon_q_end", "is not above epsilon_q_start",
+                   "softening needs a strain interval to happen in");
+    }
+    if (softening.c_residual > c) {
+        reader.add(pointer + "/c_residual_kPa", "is above the peak c_kPa",
+                   "soil softens, it does not harden");
+    }
+    if (phi_residual > phi) {
+        reader.add(pointer + "/phi_residual_deg", "is above the peak phi_deg",
+                   "soil softens, it does not harden");
+    }
+    return softening;
+}
+
+materials::Law law_from(Reader& reader, const json& law, const std::string& pointer) {
+    const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
+    if (law.at("type") == "linear_elastic") return materials::LinearElastic{elasticity};
+    const double c = 1e3 * law.at("c_kPa").get<double>();
+    const double phi = radians(law.at("phi_deg"));
+    const double psi = radians(law.at("psi_deg"));
+    if (psi > phi) {
+        reader.add(pointer + "/psi_deg", "is above phi_deg",
+                   "such a soil would create energy; give psi_deg <= phi_deg");
+    }
+    return materials::MohrCoulomb{
+        .elasticity = elasticity,
+        .c = c,
+        .phi = phi,
+        .psi = psi,
+        .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>(),
+        .softening = softening_from(reader, law, c, phi, pointer + "/softening"),
+    };
+}
+
+Polygon polygon_from(Reader& reader, const json& ring, const std::string& pointer) {
+    Polygon polygon;
+    for (const json& vertex : ring) polygon.push_back(point_from(vertex));
+    if (polygon.front() != polygon.back()) {
+        reader.add(pointer, "is open: the last vertex is not the first",
+                   "repeat the first vertex at the end of the ring");
+        return {};
+    }
+    polygon.pop_back();
+    if (const auto what = defect(polygon)) {
+        reader.add(pointer, *what, "list the vertices of a simple polygon in order");
+        return {};
+    }
+    if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+    return polygon;
+}
+
+std::array<std::size_t, 4> corners_from(Reader& reader, const json& mesh, const Polygon& polygon,
+                                        const std::string& pointer) {
+    std::array<std::size_t, 4> corners{0, 1, 2, 3};
+    if (!mesh.contains("corners")) {
+        if (polygon.size() == 4) return corners;
+        reader.add(pointer,
+                   "is a block of " + std::to_string(polygon.size()) + " vertices without corners",
+                   "name in \"corners\" the four vertices that become the block's corners");
+        return corners;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 wanted = point_from(mesh.at("corners").at(k));
+        const auto found = std::find(polygon.begin(), polygon.end(), wanted);
+        if (found == polygon.end()) {
+            reader.add(pointer + "/corners/" + std::to_string(k), "is not a vertex of the polygon",
+                       "copy one of the polygon's vertices");
+            return {0, 1, 2, 3};
+        }
+        corners[k] = static_cast<std::size_t>(found - polygon.begin());
+    }
+    // Counter-clockwise order, however the scene lists them: the second divisions entry follows the
+    // corners.
+    std::size_t ascents = 0;
+    for (std::size_t k = 0; k < 4; ++k) ascents += corners[k] < corners[(k + 1) % 4] ? 1 : 0;
+    if (ascents == 1) {
+        std::swap(corners[0], corners[1]);
+        std::swap(corners[2], corners[3]);
+        ascents = 3;
+    }
+    if (ascents != 3 || std::set<std::size_t>(corners.begin(), corners.end()).size() != 4) {
+        reader.add(pointer + "/corners", "are not four different vertices in the ring's order",
+                   "list them in the order in which the polygon passes them");
+    }
+    return corners;
+}
+
+/// The corners of a quadrilateral as the scene wrote it, so that `divisions` mean what the author
+/// sees.
+std::array<std::size_t, 4> written_order(const json& ring, const Polygon& polygon) {
+    std::array<std::size_t, 4> corners{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto found = std::find(polygon.begin(), polygon.end(), point_from(ring.at(k)));
+        corners[k] = static_cast<std::size_t>(found - polygon.begin());
+    }
+    const bool reversed = corners[1] != (corners[0] + 1) % 4;
+    if (reversed) {
+        std::swap(corners[0], corners[1]);
+        std::swap(corners[2], corners[3]);
+    }
+    return corners;
+}
+
+void read_region_mesh(Reader& reader, const json& mesh, const json& ring,
+                      const std::string& pointer, Region& region) {
+    if (mesh.at("type") == "unstructured") {
+        region.mesh = RegionMesh::unstructured;
+        region.element_size = mesh.at("element_size");
+        return;
+    }
+    region.mesh = RegionMesh::block;
+    region.divisions = {mesh.at("divisions").at(0), mesh.at("divisions").at(1)};
+    if (region.polygon.empty()) return;
+    const bool implied = !mesh.contains("corners") && region.polygon.size() == 4;
+    region.corners = implied ? written_order(ring, region.polygon)
+                             : corners_from(reader, mesh, region.polygon, pointer);
+}
+
+void check_overlaps(Reader& reader, const Scene& scene) {
+    const auto& regions = scene.section.regions;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        for (std::size_t j = i + 1; j < regions.size(); ++j) {
+            if (regions[i].polygon.empty() || regions[j].polygon.empty()) continue;
+            const double shared = overlap_area(regions[i].polygon, regions[j].polygon);
+            const double least = std::min(area(regions[i].polygon), area(regions[j].polygon));
+            if (shared <= 1e-9 * least) continue;
+            reader.add(
+                "/section/regions/" + std::to_string(j) + "/polygon",
+                "overlaps region \"" + regions[i].name + "\" by " + std::to_string(shared) + " m2",
+                "regions may touch, never overlap: move a vertex");
+        }
+    }
+}
+
+}  // namespace
+
+void read_materials(Reader& reader, Scene& scene) {
+    const json& document = reader.document();
+    if (!document.contains("materials") || !document.at("materials").is_object()) return;
+    for (const auto& [name, material] : document.at("materials").items()) {
+        const std::string pointer = "/materials/" + name;
+        if (!reader.sound(pointer)) continue;
+        scene.materials.push_back({.name = name,
+                                   .density = material.at("density"),
+                                   .law = law_from(reader, material.at("law"), pointer + "/law")});
+    }
+}
+
+void read_section(Reader& reader, Scene& scene) {
+    const json& document = reader.document();
+    const json::json_pointer at("/section/regions");
+    if (!document.contains(at) || !document.at(at).is_array()) return;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < document.at(at).size(); ++i) {
+        const json& each = document.at(at).at(i);
+        const std::string pointer = "/section/regions/" + std::to_string(i);
+        Region region{};
+        if (reader.sound(pointer + "/name")) region.name = each.at("name");
+        if (!region.name.empty() && !names.insert(region.name).second) {
+            reader.add(pointer + "/name", "is used twice", "give every region its own name");
+        }
+        if (reader.sound(pointer + "/material")) {
+            const std::string wanted = each.at("material");
+            const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                            [&](const Material& m) { return m.name == wanted; });
+            region.material = static_cast<std::size_t>(found - scene.materials.begin());
+            if (!document.contains("materials") || !document.at("materials").contains(wanted)) {
+                reader.add(pointer + "/material",
+                           "names \"" + wanted + "\", which /materials does not have",
+                           "add the material, or name one that exists");
+            }
+        }
+        if (reader.sound(pointer + "/polygon")) {
+            region.polygon = polygon_from(reader, each.at("polygon"), pointer + "/polygon");
+        }
+        if (reader.sound(pointer + "/mesh")) {
+            read_region_mesh(reader, each.at("mesh"), each.at("polygon"), pointer + "/mesh",
+                             region);
+        }
+        scene.section.regions.push_back(std::move(region));
+    }
+    check_overlaps(reader, scene);
+}
+
+}  // namespace breach::scene

@@ -1,0 +1,77 @@
+#include "core/scene/scene.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "core/scene/reader.hpp"
+#include "core/scene/schema.hpp"
+
+namespace breach::scene {
+
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream || std::filesystem::is_directory(file)) {
+        throw fault::IoError(file.string() +
+                             ": cannot be read; check the path and its permissions");
+    }
+    return text.str();
+}
+
+template <class Part>
+const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
+    if (part) return *part;
+    throw fault::BadInput(scene.name,
+                          {{pointer, "is missing, and this phase needs it",
+                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+    json document = parse_json(text, name);
+    std::vector<Fault> faults;
+    for (const std::string& each : overrides) {
+        for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
+    }
+    for (Fault& found : complete_and_check(document, scene_schema()))
+        faults.push_back(std::move(found));
+    if (!document.is_object()) throw fault::BadInput(name, faults);
+
+    Scene scene{};
+    Reader reader(document, std::move(faults));
+    read_materials(reader, scene);
+    read_section(reader, scene);
+    read_lem(reader, scene);
+    read_fem(reader, folder, scene);
+    read_transfer(reader, scene);
+    read_mpm(reader, scene);
+    if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
+
+    scene.name = document.at("name");
+    scene.title = document.at("title");
+    scene.gravity = document.at("gravity");
+    scene.thickness = document.at("thickness");
+    scene.completed = document.dump();
+    return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return parse_scene(text_of(file), file.string(), file.parent_path(), overrides);
+}
+
+const Fem& fem_of(const Scene& scene) { return part_of(scene.fem, scene, "/fem"); }
+const Lem& lem_of(const Scene& scene) { return part_of(scene.lem, scene, "/lem"); }
+const Transfer& transfer_of(const Scene& scene) {
+    return part_of(scene.transfer, scene, "/transfer");
+}
+const Mpm& mpm_of(const Scene& scene) { return part_of(scene.mpm, scene, "/mpm"); }
+
+}  // namespace breach::scene

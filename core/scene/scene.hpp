@@ -1,5 +1,5 @@
-// The scene: one physical problem, read from JSON, checked whole, held as plain structs in SI and radians.
-// Every field's meaning, unit, range and default is in workflows/schema/scene.schema.json.
+// The scene: one physical problem, read from JSON, checked whole, held as plain structs in SI and
+// radians. Every field's meaning, unit, range and default is in workflows/schema/scene.schema.json.
 #pragma once
 
 #include <array>
@@ -29,9 +29,9 @@ struct Region {
     std::size_t material;  ///< index into Scene::materials
     Polygon polygon;       ///< counter-clockwise, first vertex not repeated
     RegionMesh mesh = RegionMesh::block;
-    std::array<std::size_t, 4> corners{};    ///< block: indices into polygon, counter-clockwise
-    std::array<int, 2> divisions{};          ///< block: elements along corner 0-1 and along corner 1-2
-    double element_size = 0.0;               ///< unstructured: wanted edge length [m]
+    std::array<std::size_t, 4> corners{};  ///< block: indices into polygon, counter-clockwise
+    std::array<int, 2> divisions{};  ///< block: elements along corner 0-1 and along corner 1-2
+    double element_size = 0.0;       ///< unstructured: wanted edge length [m]
 };
 
 struct Section {
@@ -84,10 +84,10 @@ struct Stage {
     std::string name;
     StageKind kind;
     StageLaws laws;
-    int load_steps = 1;              ///< static: equal parts of gravity
-    double duration = 0.0;           ///< dynamic [s]
-    double time_step = 0.0;          ///< dynamic, largest [s]
-    double least_time_step = 0.0;    ///< dynamic: below this the run ends [s]
+    int load_steps = 1;            ///< static: equal parts of gravity
+    double duration = 0.0;         ///< dynamic [s]
+    double time_step = 0.0;        ///< dynamic, largest [s]
+    double least_time_step = 0.0;  ///< dynamic: below this the run ends [s]
 };
 
 struct Fem {
@@ -101,11 +101,11 @@ struct Fem {
     double rayleigh_stiffness;  ///< beta [s]
     double force_tolerance;     ///< residual norm over reference force norm [-]
     int largest_iterations;
-    double least_jacobian_ratio;     ///< entangled below this: stop with the last good state [-]
-    Vec2 crest;                      ///< monitored point; nearest node is used [m]
-    double strain_threshold;         ///< averages are over elements with epsilon_q above this [-]
+    double least_jacobian_ratio;  ///< entangled below this: stop with the last good state [-]
+    Vec2 crest;                   ///< monitored point; nearest node is used [m]
+    double strain_threshold;      ///< averages are over elements with epsilon_q above this [-]
     std::vector<double> snapshot_times;  ///< ascending [s]
-    double telemetry_interval;       ///< [s]
+    double telemetry_interval;           ///< [s]
 };
 
 // ---------------------------------------------------------------- transfer_tool
@@ -137,7 +137,7 @@ struct FrictionZone {
 };
 
 struct Floor {
-    double level;  ///< y of the floor [m]
+    double level;                        ///< y of the floor [m]
     std::vector<FrictionZone> friction;  ///< ascending in x, empty: fixed (no slip)
 };
 
@@ -147,25 +147,25 @@ struct Runout {
 };
 
 struct Mpm {
-    double cell_size;               ///< [m]
+    double cell_size;                ///< [m]
     std::array<double, 2> domain_x;  ///< [m]
     std::array<double, 2> domain_y;  ///< [m]
     Wall left;
     Wall right;
     Floor floor;
     Kernel kernel;
-    double gimp_half_size;   ///< fraction of the cell [-]
+    double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
-    double blending_rate;    ///< affine PIC rate beta [1/s]
+    double blending_rate;  ///< affine PIC rate beta [1/s]
     AntiLocking anti_locking;
     bool gap_closure;
-    double stiffness_scale;  ///< factor on E, reported [-]
+    double stiffness_scale;           ///< factor on E, reported [-]
     std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
-    double cfl;              ///< [-]
-    double duration;         ///< longest [s]
-    double rest_change;      ///< the front moved less than this over rest_window: stop [m]
-    double rest_window;      ///< [s]
-    double rest_earliest;    ///< never stop before [s]
+    double cfl;                       ///< [-]
+    double duration;                  ///< longest [s]
+    double rest_change;               ///< the front moved less than this over rest_window: stop [m]
+    double rest_window;               ///< [s]
+    double rest_earliest;             ///< never stop before [s]
     Runout runout;
     double snapshot_interval;    ///< [s]
     double telemetry_interval;   ///< [s]
@@ -188,8 +188,8 @@ struct Scene {
     std::string completed;  ///< the JSON text with every default filled in, keys sorted
 };
 
-/// Reads and checks a scene; `overrides` are "/json/pointer=value". Throws BadInput with every fault, IoError if the
-/// file cannot be read.
+/// Reads and checks a scene; `overrides` are "/json/pointer=value". Throws BadInput with every
+/// fault, IoError if the file cannot be read.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from text; relative paths in it are taken from `folder`, `name` is used in messages.

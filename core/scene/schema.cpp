@@ -1,0 +1,323 @@
+#include "core/scene/schema.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <regex>
+#include <set>
+
+namespace breach::scene {
+
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+constexpr int deepest_nesting = 64;
+
+std::string escaped(std::string token) {
+    std::string out;
+    for (const char c : token) {
+        if (c == '~') {
+            out += "~0";
+        } else if (c == '/') {
+            out += "~1";
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string listed(const json& values) {
+    std::string text;
+    for (const json& value : values) text += (text.empty() ? "" : ", ") + value.dump();
+    return text;
+}
+
+bool is_of_type(const json& value, const std::string& type) {
+    if (type == "object") return value.is_object();
+    if (type == "array") return value.is_array();
+    if (type == "string") return value.is_string();
+    if (type == "boolean") return value.is_boolean();
+    if (type == "number") return value.is_number();
+    if (type == "integer") {
+        return value.is_number_integer() ||
+               (value.is_number_float() &&
+                std::nearbyint(value.get<double>()) == value.get<double>());
+    }
+    return false;
+}
+
+/// Walks document and schema together; fills defaults in, collects faults.
+class Walker {
+  public:
+    explicit Walker(const json& root) : root_(root) {}
+
+    void visit(json& value, const json& schema_or_ref, const std::string& pointer) {
+        const json& schema = resolved(schema_or_ref);
+        if (schema.contains("oneOf")) {
+            if (const json* chosen = choose(value, schema.at("oneOf"), pointer)) {
+                visit(value, *chosen, pointer);
+            }
+            return;
+        }
+        if (schema.contains("const") && value != schema.at("const")) {
+            add(pointer, "is " + brief(value), "must be " + schema.at("const").dump());
+            return;
+        }
+        if (schema.contains("type") && !is_of_type(value, schema.at("type"))) {
+            add(pointer, "is " + brief(value),
+                "must be of type " + schema.at("type").get<std::string>() + meaning(schema));
+            return;
+        }
+        if (schema.contains("enum")) check_enum(value, schema, pointer);
+        if (value.is_number()) check_number(value, schema, pointer);
+        if (value.is_string()) check_string(value, schema, pointer);
+        if (value.is_array()) visit_array(value, schema, pointer);
+        if (value.is_object()) visit_object(value, schema, pointer);
+    }
+
+    std::vector<Fault> faults;
+
+  private:
+    const json& resolved(const json& schema) const {
+        if (!schema.contains("$ref")) return schema;
+        return root_.at(json::json_pointer(schema.at("$ref").get<std::string>().substr(1)));
+    }
+
+    void add(const std::string& pointer, std::string cause, std::string remedy) {
+        faults.push_back({pointer, std::move(cause), std::move(remedy)});
+    }
+
+    static std::string brief(const json& value) {
+        const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+        return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+    }
+
+    /// " [unit]: description" as far as the schema says.
+    static std::string meaning(const json& schema) {
+        std::string text;
+        if (schema.contains("unit") && schema.at("unit") != "1") {
+            text += " [" + schema.at("unit").get<std::string>() + "]";
+        }
+        if (schema.contains("description"))
+            text += ": " + schema.at("description").get<std::string>();
+        return text;
+    }
+
+    void check_enum(const json& value, const json& schema, const std::string& pointer) {
+        const json& allowed = schema.at("enum");
+        if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
+        add(pointer, "is " + brief(value), "must be one of " + listed(allowed) + meaning(schema));
+    }
+
+    void check_number(const json& value, const json& schema, const std::string& pointer) {
+        const double number = value.get<double>();
+        const auto limit = [&](const char* key, auto violated, const char* sign) {
+            if (schema.contains(key) && violated(number, schema.at(key).get<double>())) {
+                add(pointer, "is " + brief(value),
+                    "must be " + std::string(sign) + " " + schema.at(key).dump() + meaning(schema));
+            }
+        };
+        limit("minimum", std::less<>(), ">=");
+        limit("exclusiveMinimum", std::less_equal<>(), ">");
+        limit("maximum", std::greater<>(), "<=");
+        limit("exclusiveMaximum", std::greater_equal<>(), "<");
+    }
+
+    void check_string(const json& value, const json& schema, const std::string& pointer) {
+        const auto& text = value.get_ref<const std::string&>();
+        if (schema.contains("minLength") &&
+            text.size() < schema.at("minLength").get<std::size_t>()) {
+            add(pointer, "is too short",
+                "give at least " + schema.at("minLength").dump() + " characters" + meaning(schema));
+        }
+        if (schema.contains("pattern") &&
+            !std::regex_search(text, std::regex(schema.at("pattern").get<std::string>()))) {
+            add(pointer, "is " + brief(value),
+                "must match " + schema.at("pattern").get<std::string>() + meaning(schema));
+        }
+    }
+
+    void visit_array(json& value, const json& schema, const std::string& pointer) {
+        if (schema.contains("minItems") &&
+            value.size() < schema.at("minItems").get<std::size_t>()) {
+            add(pointer, "has " + std::to_string(value.size()) + " items",
+                "needs at least " + schema.at("minItems").dump() + meaning(schema));
+        }
+        if (schema.contains("maxItems") &&
+            value.size() > schema.at("maxItems").get<std::size_t>()) {
+            add(pointer, "has " + std::to_string(value.size()) + " items",
+                "takes at most " + schema.at("maxItems").dump() + meaning(schema));
+        }
+        if (!schema.contains("items")) return;
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            visit(value[i], schema.at("items"), pointer + "/" + std::to_string(i));
+        }
+    }
+
+    void visit_object(json& value, const json& schema, const std::string& pointer) {
+        static const json none = json::object();
+        const json& properties = schema.contains("properties") ? schema.at("properties") : none;
+        visit_members(value, schema, properties, pointer);
+        if (schema.contains("required")) require(value, schema, properties, pointer);
+        if (schema.contains("minProperties") &&
+            value.size() < schema.at("minProperties").get<std::size_t>()) {
+            add(pointer, "is empty", "needs at least one entry" + meaning(schema));
+        }
+        for (const auto& [key, property] : properties.items()) {
+            if (value.contains(key) || !resolved(property).contains("default")) continue;
+            value[key] = resolved(property).at("default");
+            visit(value[key], property, pointer + "/" + escaped(key));
+        }
+    }
+
+    void visit_members(json& value, const json& schema, const json& properties,
+                       const std::string& pointer) {
+        for (auto& [key, member] : value.items()) {
+            const std::string here = pointer + "/" + escaped(key);
+            if (properties.contains(key)) {
+                visit(member, properties.at(key), here);
+            } else if (!schema.contains("additionalProperties")) {
+                continue;
+            } else if (schema.at("additionalProperties").is_object()) {
+                visit(member, schema.at("additionalProperties"), here);
+            } else {
+                add(here, "is not a known key", suggestion(key, properties));
+            }
+        }
+    }
+
+    void require(const json& value, const json& schema, const json& properties,
+                 const std::string& pointer) {
+        for (const json& key : schema.at("required")) {
+            if (value.contains(key.get<std::string>())) continue;
+            add(pointer, "lacks \"" + key.get<std::string>() + "\"",
+                "add it" + meaning(resolved(properties.at(key.get<std::string>()))));
+        }
+    }
+
+    static std::string suggestion(const std::string& key, const json& properties) {
+        std::string nearest;
+        std::size_t least = 1 + key.size() / 3;
+        std::string all;
+        for (const auto& [name, property] : properties.items()) {
+            all += (all.empty() ? "" : ", ") + name;
+            const std::size_t distance = edit_distance(key, name);
+            if (distance <= least) {
+                least = distance;
+                nearest = name;
+            }
+        }
+        if (!nearest.empty()) return "did you mean \"" + nearest + "\"?";
+        return "remove it; known keys here: " + all;
+    }
+
+    /// The alternative that the value means: by its "type" where the alternatives have one, else by
+    /// its JSON type.
+    const json* choose(const json& value, const json& alternatives, const std::string& pointer) {
+        std::string known;
+        for (const json& each : alternatives) {
+            const json& candidate = resolved(each);
+            if (const auto tag = tag_of(candidate)) {
+                known += (known.empty() ? "" : ", ") + tag->dump();
+                if (value.is_object() && value.contains("type") && value.at("type") == *tag)
+                    return &candidate;
+            } else if (is_of_type(value, candidate.at("type"))) {
+                return &candidate;
+            } else {
+                known += (known.empty() ? "" : " or ") + candidate.at("type").get<std::string>();
+            }
+        }
+        if (value.is_object() && value.contains("type")) {
+            add(pointer + "/type", "is " + brief(value.at("type")), "must be one of " + known);
+        } else if (value.is_object()) {
+            add(pointer, "lacks \"type\"", "add it; known: " + known);
+        } else {
+            add(pointer, "is " + brief(value), "must be: " + known);
+        }
+        return nullptr;
+    }
+
+    static const json* tag_of(const json& schema) {
+        if (!schema.contains("properties") || !schema.at("properties").contains("type"))
+            return nullptr;
+        const json& type = schema.at("properties").at("type");
+        return type.contains("const") ? &type.at("const") : nullptr;
+    }
+
+    const json& root_;
+};
+
+}  // namespace
+
+json parse_json(std::string_view text, const std::string& file) {
+    std::vector<std::set<std::string>> keys;
+    std::vector<Fault> faults;
+    const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
+        if (depth > deepest_nesting) {
+            throw fault::BadInput(file, {{"", "is nested deeper than 64 levels", "flatten it"}});
+        }
+        if (event == json::parse_event_t::object_start) keys.emplace_back();
+        if (event == json::parse_event_t::object_end) keys.pop_back();
+        if (event == json::parse_event_t::key &&
+            !keys.back().insert(parsed.get<std::string>()).second) {
+            faults.push_back(
+                {"", "has the key \"" + parsed.get<std::string>() + "\" twice in one object",
+                 "keep one of them"});
+        }
+        return true;
+    };
+    json document;
+    try {
+        document = json::parse(text, watch);
+    } catch (const json::exception& error) {
+        throw fault::BadInput(file, {{"", std::string("is not valid JSON: ") + error.what(),
+                                      "mend the text at the place named"}});
+    }
+    if (!faults.empty()) throw fault::BadInput(file, faults);
+    return document;
+}
+
+std::vector<Fault> apply_override(json& document, const std::string& assignment) {
+    const std::size_t equals = assignment.find('=');
+    const Fault malformed{"", "--set " + assignment + " is not an assignment",
+                          "write --set /json/pointer=value"};
+    if (equals == std::string::npos || assignment.empty() || assignment[0] != '/')
+        return {malformed};
+    const std::string pointer = assignment.substr(0, equals);
+    const std::string text = assignment.substr(equals + 1);
+    json value = json::parse(text, nullptr, false);
+    if (value.is_discarded()) value = text;
+    try {
+        document[json::json_pointer(pointer)] = std::move(value);
+    } catch (const json::exception& error) {
+        return {{pointer, std::string("cannot be set: ") + error.what(),
+                 "name an entry that exists, or a new key of an existing object"}};
+    }
+    return {};
+}
+
+std::vector<Fault> complete_and_check(json& document, const json& schema) {
+    Walker walker(schema);
+    walker.visit(document, schema, "");
+    return std::move(walker.faults);
+}
+
+}  // namespace breach::scene

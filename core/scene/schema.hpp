@@ -1,5 +1,6 @@
-// A JSON document against its schema: parsed strictly, checked whole, completed with the schema's defaults.
-// The schema language is the part of JSON Schema 2020-12 that our schemas use, plus the annotation "unit".
+// A JSON document against its schema: parsed strictly, checked whole, completed with the schema's
+// defaults. The schema language is the part of JSON Schema 2020-12 that our schemas use, plus the
+// annotation "unit".
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,13 +15,17 @@ namespace breach::scene {
 const nlohmann::json& scene_schema();
 const nlohmann::json& study_schema();
 
-/// Text -> JSON. Refuses duplicate keys, comments, numbers out of range, nesting deeper than 64. Throws BadInput.
+/// Text -> JSON. Refuses duplicate keys, comments, numbers out of range, nesting deeper than 64.
+/// Throws BadInput.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
-/// Sets one "/json/pointer=value" (value: JSON, or a bare word taken as string). Returns the faults found.
+/// Sets one "/json/pointer=value" (value: JSON, or a bare word taken as string). Returns the faults
+/// found.
 std::vector<fault::Fault> apply_override(nlohmann::json& document, const std::string& assignment);
 
-/// Adds the schema's defaults to `document` in place and returns every fault: pointer, cause, remedy.
-std::vector<fault::Fault> complete_and_check(nlohmann::json& document, const nlohmann::json& schema);
+/// Adds the schema's defaults to `document` in place and returns every fault: pointer, cause,
+/// remedy.
+std::vector<fault::Fault> complete_and_check(nlohmann::json& document,
+                                             const nlohmann::json& schema);
 
 }  // namespace breach::scene

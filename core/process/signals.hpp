@@ -1,0 +1,15 @@
+// SIGINT and SIGTERM as a question that the work asks now and then.
+#pragma once
+
+#include "core/fault/fault.hpp"
+
+namespace breach::process {
+
+/// From now on SIGINT and SIGTERM only leave a note; SIGPIPE is ignored (a lost reader shows as a
+/// write error).
+void watch_signals();
+bool stop_was_requested();
+/// 130 after SIGINT, 143 after SIGTERM.
+fault::ExitCode code_of_stop();
+
+}  // namespace breach::process

@@ -1,0 +1,58 @@
+// Inside core/scene only: the completed document, the faults found so far, and which parts of it
+// can be trusted.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace breach::scene {
+
+class Reader {
+  public:
+    Reader(const nlohmann::json& document, std::vector<fault::Fault> faults)
+        : document_(document), faults_(std::move(faults)) {}
+
+    const nlohmann::json& document() const { return document_; }
+    const std::vector<fault::Fault>& faults() const { return faults_; }
+    void add(std::string pointer, std::string cause, std::string remedy) {
+        faults_.push_back({std::move(pointer), std::move(cause), std::move(remedy)});
+    }
+
+    /// True when the entry exists and the schema found nothing wrong at it or below it, so that it
+    /// may be read even though other parts of the scene are faulty.
+    bool sound(const std::string& pointer) const {
+        if (!document_.contains(nlohmann::json::json_pointer(pointer))) return false;
+        for (const fault::Fault& each : faults_) {
+            const bool at = each.pointer == pointer;
+            const bool below = each.pointer.rfind(pointer + "/", 0) == 0;
+            if (at || below) return false;
+        }
+        return true;
+    }
+
+  private:
+    const nlohmann::json& document_;
+    std::vector<fault::Fault> faults_;
+};
+
+inline Vec2 point_from(const nlohmann::json& value) {
+    return {value.at(0).get<double>(), value.at(1).get<double>()};
+}
+
+inline std::array<double, 2> range_from(const nlohmann::json& value) {
+    return {value.at(0).get<double>(), value.at(1).get<double>()};
+}
+
+/// Materials and section. Each checks what the schema cannot say, and fills `scene` as far as it is
+/// sound.
+void read_materials(Reader& reader, Scene& scene);
+void read_section(Reader& reader, Scene& scene);
+void read_lem(Reader& reader, Scene& scene);
+void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene);
+void read_transfer(Reader& reader, Scene& scene);
+void read_mpm(Reader& reader, Scene& scene);
+
+}  // namespace breach::scene
