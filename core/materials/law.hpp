@@ -1,6 +1,6 @@
-// The list of all constitutive laws and the one way to call them. Laws are pure: (parameters, state, strain
-// increment) -> (new state[, tangent]); no I/O, nothing hidden. Dispatch is per zone: visit the Law once,
-// then loop over the zone's points with the concrete law.
+// The list of all constitutive laws and the one way to call them. Laws are pure: (parameters,
+// state, strain increment) -> (new state[, tangent]); no I/O, nothing hidden. Dispatch is per zone:
+// visit the Law once, then loop over the zone's points with the concrete law.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,8 @@ struct LinearElastic {
 /// Which epsilon_q drives softening: plastic deviatoric strain, or total deviatoric strain.
 enum class SofteningDriver { plastic, total };
 
-/// c and tan(phi) fall linearly from their peak at `start` to the residual values at `end` (Sordo et al. 2024).
+/// c and tan(phi) fall linearly from their peak at `start` to the residual values at `end` (Sordo
+/// et al. 2024).
 struct Softening {
     double epsilon_q_start;   ///< [-]
     double epsilon_q_end;     ///< [-], > start
@@ -30,13 +31,15 @@ struct Softening {
     SofteningDriver driver = SofteningDriver::plastic;
 };
 
-/// Mohr-Coulomb with tension cut-off; sigma_1 - sigma_3 + (sigma_1 + sigma_3) sin phi <= 2 c cos phi, tension positive.
+/// Mohr-Coulomb with tension cut-off; sigma_1 - sigma_3 + (sigma_1 + sigma_3) sin phi <= 2 c cos
+/// phi, tension positive.
 struct MohrCoulomb {
     mechanics::Elasticity elasticity;
     double c;               ///< peak cohesion [Pa]
     double phi;             ///< peak friction angle [rad]
     double psi;             ///< dilatancy angle [rad]
-    double tension_cutoff;  ///< largest principal stress allowed [Pa], clipped to the cone's apex c / tan(phi)
+    double tension_cutoff;  ///< largest principal stress allowed [Pa], clipped to the cone's apex c
+                            ///< / tan(phi)
     std::optional<Softening> softening;
 };
 
@@ -65,13 +68,17 @@ struct Strength {
 };
 Strength strength(const MohrCoulomb& law, double epsilon_q);
 
-/// New state after the strain increment d_epsilon; softening is explicit (strength at the old epsilon_q).
+/// New state after the strain increment d_epsilon; softening is explicit (strength at the old
+/// epsilon_q).
 Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon);
 Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon);
 
-/// The same, and the consistent tangent d sigma / d epsilon [Pa] at fixed strength (not symmetric when psi != phi).
-Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon, Matrix4& tangent);
-Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon, Matrix4& tangent);
+/// The same, and the consistent tangent d sigma / d epsilon [Pa] at fixed strength (not symmetric
+/// when psi != phi).
+Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon,
+                 Matrix4& tangent);
+Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+                 Matrix4& tangent);
 
 /// Amount by which sigma lies outside the yield surface at this epsilon_q [Pa]; <= 0 inside.
 double yield_excess(const MohrCoulomb& law, const State& state);

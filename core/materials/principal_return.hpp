@@ -1,0 +1,67 @@
+// Exact return to the Mohr-Coulomb cone with tension cut-off, in sorted principal stresses. No
+// tensors, no softening: one strength, one trial point, the facet of the polyhedron on which the
+// return ends.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/mechanics/elasticity.hpp"
+
+namespace breach::materials {
+
+/// Principal values s1 >= s2 >= s3: stresses [Pa], tension positive, or strains [-] of the same
+/// axes.
+using Triple = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// The yield surface at one strength:  k s1 - s3 <= q  and  s1 <= T  for every order of the axes.
+/// Flow is m e_i - e_j on the cone (associated when m = k) and e_i on the cut-off (always
+/// associated).
+struct Cone {
+    double k;  ///< (1 + sin phi) / (1 - sin phi) [-], >= 1
+    double m;  ///< the same of psi [-], 1 <= m <= k
+    double q;  ///< uniaxial compressive strength 2 c sqrt(k) [Pa]
+    double T;  ///< largest principal stress [Pa]: the cut-off, or the apex if that is lower; may be
+               ///< infinite
+    enum class Tip { apex, cut_off } tip;  ///< which of the two T is
+};
+
+/// c [Pa] >= 0, tan_phi >= tan_psi >= 0, cut-off [Pa] >= 0.
+Cone make_cone(double c, double tan_phi, double tan_psi, double tension_cutoff);
+
+/// Moduli [Pa] of isotropic elasticity as the return uses them.
+struct Moduli {
+    double G;
+    double K;
+    double lambda;
+};
+Moduli make_moduli(const mechanics::Elasticity& elasticity);
+
+/// Where on the polyhedron a return ends; Q = k T - q is s3 where cone and cut-off meet.
+enum class Facet {
+    cone_plane,             ///< k s1 - s3 = q
+    cone_edge_major,        ///< and s1 = s2
+    cone_edge_minor,        ///< and s2 = s3
+    cut_plane,              ///< s1 = T
+    cut_edge,               ///< s1 = s2 = T
+    cut_cone_edge,          ///< s1 = T, s3 = Q
+    cut_cone_corner_major,  ///< s1 = s2 = T, s3 = Q
+    cut_cone_corner_minor,  ///< s1 = T, s2 = s3 = Q
+    tip,                    ///< s1 = s2 = s3 = T
+};
+
+struct PrincipalReturn {
+    Triple sigma;
+    Triple d_epsilon_plastic;
+    Facet facet;
+};
+
+/// Returns a trial point that lies outside. Solves Koiter's rule exactly: the one facet on which
+/// every multiplier is non-negative and no other plane is violated (Clausen, Damkilde & Andersen
+/// 2006, extended by the cut-off).
+PrincipalReturn return_to_cone(const Cone& cone, const Moduli& moduli, const Triple& trial);
+
+/// d sigma / d epsilon of the return in principal axes [Pa].
+Matrix3 principal_tangent(const Cone& cone, const Moduli& moduli, Facet facet);
+
+}  // namespace breach::materials
