@@ -1,0 +1,103 @@
+#include "core/scene/schema.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using breach::fault::BadInput;
+using breach::scene::apply_override;
+using breach::scene::complete_and_check;
+using breach::scene::parse_json;
+using nlohmann::json;
+
+const json schema = json::parse(R"({
+    "type": "object", "additionalProperties": false, "required": ["speed"],
+    "properties": {
+        "speed": {"type": "number", "exclusiveMinimum": 0, "unit": "m/s", "description": "how fast"},
+        "count": {"type": "integer", "minimum": 1, "default": 3},
+        "mode": {"type": "string", "enum": ["slow", "fast"], "default": "slow"},
+        "part": {"type": "object", "additionalProperties": false, "default": {},
+                 "properties": {"depth": {"type": "number", "default": 2.5}}},
+        "shape": {"oneOf": [{"$ref": "#/$defs/disc"}, {"$ref": "#/$defs/box"}]}
+    },
+    "$defs": {
+        "disc": {"type": "object", "additionalProperties": false, "required": ["radius"],
+                 "properties": {"type": {"const": "disc"}, "radius": {"type": "number"}}},
+        "box": {"type": "object", "additionalProperties": false, "required": ["side"],
+                "properties": {"type": {"const": "box"}, "side": {"type": "number"}}}
+    }})");
+
+TEST(Schema, FillsDefaultsAtEveryDepth) {
+    json document = json::parse(R"({"speed": 1})");
+    EXPECT_TRUE(complete_and_check(document, schema).empty());
+    EXPECT_EQ(document, json::parse(R"({"speed":1,"count":3,"mode":"slow","part":{"depth":2.5}})"));
+}
+
+TEST(Schema, NamesEveryFaultAtOnceWithItsPointer) {
+    json document =
+        json::parse(R"({"speeed": 1, "count": 0.5, "mode": "medium", "part": {"depth": "deep"},
+                                    "shape": {"type": "disc", "radius": "wide", "side": 1}})");
+    std::vector<std::string> pointers;
+    for (const auto& fault : complete_and_check(document, schema))
+        pointers.push_back(fault.pointer);
+    std::sort(pointers.begin(), pointers.end());
+    const std::vector<std::string> expected{
+        "", "/count", "/mode", "/part/depth", "/shape/radius", "/shape/side", "/speeed"};
+    EXPECT_EQ(pointers, expected);
+}
+
+TEST(Schema, SuggestsTheKeyThatWasMeant) {
+    json document = json::parse(R"({"sped": 1, "speed": 1})");
+    const auto faults = complete_and_check(document, schema);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].remedy, "did you mean \"speed\"?");
+}
+
+TEST(Schema, ChoosesTheAlternativeByItsType) {
+    json good = json::parse(R"({"speed": 1, "shape": {"type": "box", "side": 2}})");
+    EXPECT_TRUE(complete_and_check(good, schema).empty());
+    json bad = json::parse(R"({"speed": 1, "shape": {"type": "cone"}})");
+    const auto faults = complete_and_check(bad, schema);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].pointer, "/shape/type");
+    EXPECT_NE(faults[0].remedy.find("disc"), std::string::npos);
+}
+
+TEST(Schema, RefusesEveryWrongType) {
+    for (const char* text :
+         {R"({"speed": null})", R"({"speed": "1"})", R"({"speed": [1]})", R"({"speed": 0})",
+          R"({"speed": true})", R"([1])", R"(7)", R"({"speed":1,"shape":3})"}) {
+        json document = json::parse(text);
+        EXPECT_FALSE(complete_and_check(document, schema).empty()) << text;
+    }
+}
+
+TEST(StrictJson, RefusesWhatOrdinaryParsersLetPass) {
+    EXPECT_THROW(parse_json(R"({"a": 1, "a": 2})", "x"), BadInput);
+    EXPECT_THROW(parse_json(R"({"a": 1e400})", "x"), BadInput);
+    EXPECT_THROW(parse_json(R"({"a": NaN})", "x"), BadInput);
+    EXPECT_THROW(parse_json("{\"a\": \"\xff\"}", "x"), BadInput);
+    EXPECT_THROW(parse_json("{\"a\": 1", "x"), BadInput);
+    EXPECT_THROW(parse_json("", "x"), BadInput);
+    EXPECT_THROW(parse_json(std::string(100, '[') + std::string(100, ']'), "x"), BadInput);
+    EXPECT_NO_THROW(parse_json(R"({"a": {"b": 1}, "c": {"b": 2}})", "x"));
+}
+
+TEST(Override, SetsNumbersWordsAndNewKeys) {
+    json document = json::parse(R"({"a": {"b": 1}, "list": [1, 2]})");
+    EXPECT_TRUE(apply_override(document, "/a/b=2.5").empty());
+    EXPECT_TRUE(apply_override(document, "/a/word=fast").empty());
+    EXPECT_TRUE(apply_override(document, "/list=[3]").empty());
+    EXPECT_EQ(document, json::parse(R"({"a": {"b": 2.5, "word": "fast"}, "list": [3]})"));
+}
+
+TEST(Override, SaysWhatIsWrongWithAnAssignment) {
+    json document = json::parse(R"({"a": {"b": 1}, "list": [1, 2]})");
+    EXPECT_FALSE(apply_override(document, "a/b=1").empty());
+    EXPECT_FALSE(apply_override(document, "/a/b").empty());
+    EXPECT_FALSE(apply_override(document, "/a/b/c=1").empty());
+    EXPECT_FALSE(apply_override(document, "/list/x=1").empty());
+    EXPECT_EQ(document, json::parse(R"({"a": {"b": 1}, "list": [1, 2]})"));
+}
+
+}  // namespace
