@@ -32,10 +32,13 @@ Triple plastic_strain(const Moduli& moduli, const Triple& trial, const Triple& s
     return (removed.array() - mean) / (2.0 * moduli.G) + mean / (3.0 * moduli.K);
 }
 
-/// a : D^-1 b
+/// a : D^-1 b, again deviator and volume apart.
 double compliance_product(const Moduli& moduli, const Triple& a, const Triple& b) {
-    const double sums = a.sum() * b.sum();
-    return (a.dot(b) - sums / 3.0) / (2.0 * moduli.G) + sums / (9.0 * moduli.K);
+    const double mean_a = a.sum() / 3.0;
+    const double mean_b = b.sum() / 3.0;
+    const Triple deviator_a = a.array() - mean_a;
+    const Triple deviator_b = b.array() - mean_b;
+    return deviator_a.dot(deviator_b) / (2.0 * moduli.G) + mean_a * mean_b / moduli.K;
 }
 
 struct Line {
