@@ -1,0 +1,44 @@
+# Sourced by quickstart and test: installs what is missing and builds. Needs `root` (the project's folder).
+
+say() { printf '\n==> %s\n' "$*"; }
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        echo "Packages are missing and this is neither root nor is there sudo. Install them as root: $*" >&2
+        exit 1
+    fi
+}
+
+# install_packages LIST...: the Debian packages named in the files that are not there yet.
+install_packages() {
+    local missing=() package
+    for package in $(sed 's/#.*//' "$@"); do
+        # Node.js may have come from elsewhere than Debian, with an npm of its own that Debian's would displace.
+        case $package in
+            nodejs) command -v node >/dev/null && continue ;;
+            npm) command -v npm >/dev/null && continue ;;
+        esac
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return
+    say "installing ${#missing[@]} Debian packages: ${missing[*]}"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
+
+# build tests|programs: configures and builds the release preset.
+build() {
+    local tests=OFF
+    [ "$1" = tests ] && tests=ON
+    say "building ($1)"
+    (cd "$root" && cmake --preset release -DBREACH_TESTS=$tests >"$root/.configure.log" 2>&1) || {
+        cat "$root/.configure.log"
+        exit 1
+    }
+    rm -f "$root/.configure.log"
+    (cd "$root" && cmake --build --preset release)
+}
