@@ -30,15 +30,12 @@ install_packages() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# build tests|programs: configures and builds the release preset.
+# build programs|tests: configures and builds the release preset. Programs alone need no test libraries; a folder that
+# has been configured with tests keeps them.
 build() {
-    local tests=OFF
-    [ "$1" = tests ] && tests=ON
+    local options=()
+    [ "$1" = tests ] && options=(-DBREACH_TESTS=ON)
+    [ "$1" = programs ] && [ ! -f "$root/build/release/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
     say "building ($1)"
-    (cd "$root" && cmake --preset release -DBREACH_TESTS=$tests >"$root/.configure.log" 2>&1) || {
-        cat "$root/.configure.log"
-        exit 1
-    }
-    rm -f "$root/.configure.log"
-    (cd "$root" && cmake --build --preset release)
+    (cd "$root" && cmake --preset release "${options[@]}" && cmake --build --preset release)
 }
