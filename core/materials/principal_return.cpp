@@ -177,22 +177,30 @@ class Candidates {
 PrincipalReturn return_to_cone(const Cone& cone, const Moduli& moduli, const Triple& trial) {
     const Candidates facets(cone, moduli, trial);
     // Exactly one facet is right up to round-off; on the border between two, both give the same
-    // point.
+    // point. So the order of trying is only a matter of speed, and the least violation is the
+    // answer if round-off leaves none.
     const double tolerance = 1e-12 * (trial.cwiseAbs().maxCoeff() + cone.q);
     Candidate best = facets.cone_plane();
     const auto settled = [&](const Candidate& next) {
         if (next.violation < best.violation) best = next;
         return best.violation <= tolerance;
     };
+    const auto on_the_edges = [&] {
+        return settled(facets.cone_edge_major()) || settled(facets.cone_edge_minor());
+    };
     if (best.violation <= tolerance) return best.point;
-    if (settled(facets.cone_edge_major()) || settled(facets.cone_edge_minor())) return best.point;
-    if (!std::isfinite(cone.T)) return best.point;
-    if (settled(facets.tip()) || cone.tip == Cone::Tip::apex) return best.point;
-    if (settled(facets.cut_plane()) || settled(facets.cut_edge()) ||
-        settled(facets.cut_cone_edge()) || settled(facets.cut_cone_corner_major()) ||
-        settled(facets.cut_cone_corner_minor())) {
-        return best.point;
+    const bool beyond_tip = best.point.sigma[0] > cone.T;
+    if (!beyond_tip && on_the_edges()) return best.point;
+    if (std::isfinite(cone.T)) {
+        if (settled(facets.tip())) return best.point;
+        if (cone.tip == Cone::Tip::cut_off &&
+            (settled(facets.cut_plane()) || settled(facets.cut_edge()) ||
+             settled(facets.cut_cone_edge()) || settled(facets.cut_cone_corner_major()) ||
+             settled(facets.cut_cone_corner_minor()))) {
+            return best.point;
+        }
     }
+    if (beyond_tip) on_the_edges();
     return best.point;
 }
 

@@ -1,0 +1,44 @@
+#include "core/mechanics/elasticity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace breach::mechanics {
+namespace {
+
+constexpr Elasticity soil{2e7, 0.3};
+const Voigt some_strain{1e-3, -4e-4, 2e-4, 6e-4};
+
+TEST(Elasticity, UniaxialStressGivesYoungAndPoisson) {
+    const Voigt e = elastic_strain(soil, {1e4, 0, 0, 0});
+    EXPECT_NEAR(e[0], 1e4 / soil.E, 1e-18);
+    EXPECT_NEAR(e[1], -soil.nu * e[0], 1e-18);
+    EXPECT_NEAR(e[2], -soil.nu * e[0], 1e-18);
+}
+
+TEST(Elasticity, StrainAndStressAreInverses) {
+    for (const double nu : {0.0, 0.3, 0.4999}) {
+        const Elasticity each{2e7, nu};
+        const Voigt back = elastic_strain(each, elastic_stress(each, some_strain));
+        EXPECT_LT((back - some_strain).cwiseAbs().maxCoeff(), 1e-15);
+    }
+}
+
+TEST(Elasticity, StiffnessMatrixIsTheSameMap) {
+    const Voigt by_matrix = elastic_stiffness(soil) * some_strain;
+    EXPECT_LT((by_matrix - elastic_stress(soil, some_strain)).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(Elasticity, ConstrainedCompressionHasTheConstrainedModulus) {
+    EXPECT_NEAR(elastic_stress(soil, {1e-3, 0, 0, 0})[0], 1e-3 * soil.constrained_modulus(), 1e-9);
+    EXPECT_NEAR(soil.wave_speed(1800.0), std::sqrt(soil.constrained_modulus() / 1800.0), 1e-12);
+}
+
+TEST(Elasticity, EnergyIsHalfTheWork) {
+    const Voigt sigma = elastic_stress(soil, some_strain);
+    EXPECT_NEAR(elastic_energy_density(soil, sigma), 0.5 * double_dot(sigma, some_strain), 1e-12);
+}
+
+}  // namespace
+}  // namespace breach::mechanics
