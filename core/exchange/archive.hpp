@@ -1,4 +1,5 @@
-// Named arrays in one HDF5 file: checkpoints and histories. Not for ParaView; the layout belongs to the phase.
+// Named arrays in one HDF5 file: checkpoints and histories. Not for ParaView; the layout belongs to
+// the phase.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,8 @@ struct Archive {
 void write_archive(const std::filesystem::path& path, const Archive& archive,
                    const Provenance& provenance);
 
-/// Throws BadInput if the kind or version differs or an array is damaged, IoError if it cannot be opened.
+/// Throws BadInput if the kind or version differs or an array is damaged, IoError if it cannot be
+/// opened.
 Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version);
 
 }  // namespace breach::exchange

@@ -1,5 +1,6 @@
-// The FEM's whole state at one time: mesh, nodal and Gauss fields. File: VTKHDF UnstructuredGrid 1.0 (nodes at
-// their displaced places, cell data = Gauss averages) with the Gauss fields in the group /breachline beside it.
+// The FEM's whole state at one time: mesh, nodal and Gauss fields. File: VTKHDF
+// UnstructuredGrid 1.0 (nodes at their displaced places, cell data = Gauss averages) with the Gauss
+// fields in the group /breachline beside it.
 #pragma once
 
 #include <array>
@@ -14,11 +15,11 @@
 namespace breach::exchange {
 
 struct MeshSnapshot {
-    double time = 0.0;      ///< [s] since the first dynamic stage began
-    std::int64_t step = 0;  ///< time step number
-    double thickness = 1.0; ///< [m]
+    double time = 0.0;       ///< [s] since the first dynamic stage began
+    std::int64_t step = 0;   ///< time step number
+    double thickness = 1.0;  ///< [m]
 
-    std::vector<std::string> regions;  ///< names, by region index
+    std::vector<std::string> regions;               ///< names, by region index
     std::vector<std::string> materials_of_regions;  ///< material name of each region
 
     // nodes [n_nodes]
@@ -34,13 +35,15 @@ struct MeshSnapshot {
     std::vector<std::int32_t> region_of_element;
     std::vector<double> density;  ///< undeformed mass density [kg/m3]
 
-    // Gauss points [n_elements * gauss_per_element], element by element, in the order of gauss_positions
+    // Gauss points [n_elements * gauss_per_element], element by element, in the order of
+    // gauss_positions
     int gauss_per_element = 4;
-    std::vector<mechanics::Vec2> gauss_positions;  ///< natural coordinates (xi, eta) of each, [gauss_per_element]
-    std::vector<mechanics::Voigt> stress;          ///< effective [Pa], tension positive
-    std::vector<mechanics::Voigt> strain;          ///< total, since the first dynamic stage began [-]
-    std::vector<double> epsilon_q;                 ///< sqrt(2/3 e:e) of that total strain [-]
-    std::vector<double> epsilon_q_plastic;         ///< accumulated by the law [-]
+    std::vector<mechanics::Vec2>
+        gauss_positions;  ///< natural coordinates (xi, eta) of each, [gauss_per_element]
+    std::vector<mechanics::Voigt> stress;   ///< effective [Pa], tension positive
+    std::vector<mechanics::Voigt> strain;   ///< total, since the first dynamic stage began [-]
+    std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]
+    std::vector<double> epsilon_q_plastic;  ///< accumulated by the law [-]
 };
 
 void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& snapshot,
@@ -50,8 +53,9 @@ struct MeshSnapshotFile {
     MeshSnapshot snapshot;
     Provenance provenance;
 };
-/// Throws BadInput (wrong kind or version, missing or misshapen dataset, non-finite value, checksum: each named by its
-/// dataset path) or IoError (missing, truncated).
+/// Throws BadInput (truncated, wrong kind or version, missing or misshapen dataset, non-finite
+/// value, checksum: each named by its dataset path) or IoError (the file is missing or cannot be
+/// opened).
 MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path);
 
 }  // namespace breach::exchange

@@ -1,4 +1,5 @@
-// A file that exists under its final name is whole: written beside it, fsynced, renamed, folder fsynced.
+// A file that exists under its final name is whole: written beside it, fsynced, renamed, folder
+// fsynced.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +8,9 @@
 
 namespace breach::exchange {
 
-/// Calls write(temporary path), then publishes the result as `path`. On any exception the temporary is removed
-/// and nothing appears under the final name. Throws IoError (disk full, no permission), naming path and cause.
+/// Calls write(temporary path), then publishes the result as `path`. On any exception the temporary
+/// is removed and nothing appears under the final name. Throws IoError (disk full, no permission),
+/// naming path and cause.
 void publish(const std::filesystem::path& path,
              const std::function<void(const std::filesystem::path&)>& write);
 

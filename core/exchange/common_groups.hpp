@@ -1,0 +1,56 @@
+// The parts that mesh and particle files share: the VTKHDF grid, regions and provenance. Private to
+// core/exchange.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/exchange/hdf5_file.hpp"
+#include "core/exchange/provenance.hpp"
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::exchange {
+
+/// VTK's numbers for the cells we write.
+enum class Cell : std::uint8_t { vertex = 1, quad = 9 };
+
+/// Group /VTKHDF, UnstructuredGrid in the version 1.0 layout, cells all of one type; with empty
+/// PointData, CellData and the time in FieldData. corners: point numbers, cell by cell.
+void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Cell cell,
+                std::span<const std::int64_t> corners, double time);
+
+void write_regions(Hdf5Image& image, const std::vector<std::string>& regions,
+                   const std::vector<std::string>& materials);
+/// Notes a fault when the two lists differ in length or are empty.
+void read_regions(Hdf5Reader& reader, std::vector<std::string>& regions,
+                  std::vector<std::string>& materials);
+/// Notes a fault when an index does not belong to a region.
+void check_region_indices(Hdf5Reader& reader, const std::string& path,
+                          const std::vector<std::int32_t>& indices, std::size_t regions);
+/// Notes a fault at the first value that is not positive.
+void check_positive(Hdf5Reader& reader, const std::string& path, const std::vector<double>& values);
+
+void write_provenance(Hdf5Image& image, const Provenance& provenance);
+Provenance read_provenance(Hdf5Reader& reader);
+
+/// The same numbers seen one by one, row after row.
+template <int n>
+std::span<const double> flat(const std::vector<Eigen::Matrix<double, n, 1>>& rows) {
+    return {rows.empty() ? nullptr : rows.front().data(), rows.size() * n};
+}
+template <int n>
+std::span<double> flat(std::vector<Eigen::Matrix<double, n, 1>>& rows) {
+    return {rows.empty() ? nullptr : rows.front().data(), rows.size() * n};
+}
+
+/// (x, y) -> (x, y, 0): what ParaView takes for a vector.
+std::vector<double> as_3d(const std::vector<mechanics::Vec2>& vectors);
+/// (xx, yy, zz, xy) -> (xx, yy, zz, xy, 0, 0): what ParaView takes for a symmetric tensor.
+std::vector<double> as_3d(const std::vector<mechanics::Voigt>& tensors);
+/// Reads what as_3d wrote; `values` has its final size.
+void read_3d(Hdf5Reader& reader, const std::string& path, std::vector<mechanics::Vec2>& values);
+void read_3d(Hdf5Reader& reader, const std::string& path, std::vector<mechanics::Voigt>& values);
+
+}  // namespace breach::exchange

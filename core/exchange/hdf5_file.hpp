@@ -1,0 +1,143 @@
+// HDF5 as this room uses it: an image built in memory and published whole, and a reader that names
+// every fault. Private to core/exchange: nobody else includes hdf5.h. Not for concurrent use from
+// several threads.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::exchange {
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+  public:
+    using Close = herr_t (*)(hid_t);
+    Handle(hid_t id, Close closer) : id_(id), close_(closer) {}
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    Handle& operator=(Handle&&) = delete;
+    ~Handle() {
+        if (id_ >= 0) close_(id_);
+    }
+    hid_t get() const { return id_; }
+    explicit operator bool() const { return id_ >= 0; }
+    /// Closes now; false if that failed.
+    bool close() { return close_(std::exchange(id_, -1)) >= 0; }
+
+  private:
+    hid_t id_;
+    Close close_;
+};
+
+/// What a file says it is, in the attributes of /breachline.
+struct Kind {
+    std::string name;  ///< "mesh_snapshot"
+    int version;
+};
+
+/// The bytes of a file that HDF5 builds in memory and leaves to us when it closes it.
+struct MemoryFile {
+    MemoryFile() = default;
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile();
+    void* begin = nullptr;
+};
+
+/// An HDF5 file under construction. It lives in memory until save(), so that a full disk is met by
+/// publish() and not inside HDF5. The same calls give the same bytes: no creation times are stored.
+class Hdf5Image {
+  public:
+    explicit Hdf5Image(const Kind& kind);
+
+    void group(const std::string& path);
+
+    /// [rows] when width is 0, otherwise [rows, width]; chunked with Fletcher-32 checksums.
+    void array(const std::string& path, std::span<const double> values, std::size_t width,
+               const std::string& unit = "");
+    void array(const std::string& path, std::span<const std::int64_t> values,
+               std::size_t width = 0);
+    void array(const std::string& path, std::span<const std::int32_t> values,
+               std::size_t width = 0);
+    void array(const std::string& path, std::span<const std::uint8_t> values,
+               std::size_t width = 0);
+    void strings(const std::string& path, const std::vector<std::string>& values);
+
+    void attribute(const std::string& object, const std::string& name, const std::string& value);
+    void attribute(const std::string& object, const std::string& name, double value);
+    void attribute(const std::string& object, const std::string& name,
+                   std::span<const std::int64_t> values);
+
+    /// Closes the file and publishes it under its final name. Throws IoError.
+    void save(const std::filesystem::path& path) &&;
+
+  private:
+    void dataset(const std::string& path, const void* values, std::size_t count, std::size_t width,
+                 hid_t type, const std::string& unit);
+
+    MemoryFile memory_;
+    Handle file_;
+};
+
+/// A published file, read with suspicion: every call that finds something wrong notes a fault,
+/// named by dataset path, and returns zeros or empty text; refuse_if_faulty() throws them all.
+class Hdf5Reader {
+  public:
+    /// Throws IoError if the file cannot be opened, BadInput if it is not whole or not of this
+    /// kind. `remedy`: how to get a good one ("give a FEM snapshot written by fem_solver").
+    Hdf5Reader(const std::filesystem::path& path, const Kind& kind, std::string remedy);
+
+    bool exists(const std::string& path) const;
+    bool has_attribute(const std::string& object, const std::string& name) const;
+    /// Names of what lies in a group, ascending.
+    std::vector<std::string> names_in(const std::string& group);
+
+    /// Reads exactly [rows] or [rows, width] values; non-finite values are a fault.
+    void array(const std::string& path, std::span<double> values, std::size_t width);
+    void array(const std::string& path, std::span<std::int32_t> values, std::size_t width = 0);
+    /// One-dimensional arrays of any length; any value.
+    std::vector<double> any_reals(const std::string& path);
+    std::vector<std::int64_t> any_integers(const std::string& path);
+    std::vector<std::string> strings(const std::string& path);
+
+    std::string text_attribute(const std::string& object, const std::string& name);
+    double real_attribute(const std::string& object, const std::string& name);
+    std::int64_t integer_attribute(const std::string& object, const std::string& name);
+    /// A number of rows: not negative, and not more than a file of this size can hold.
+    std::size_t count_attribute(const std::string& object, const std::string& name);
+
+    void fault(const std::string& path, const std::string& cause);
+    void refuse_if_faulty() const;
+
+  private:
+    struct Dataset {
+        Handle id;
+        std::vector<hsize_t> shape;
+    };
+    std::optional<Dataset> open(const std::string& path, H5T_class_t type_class);
+    template <typename T>
+    bool read(const std::string& path, H5T_class_t type_class, std::span<T> values,
+              std::size_t width);
+    template <typename T>
+    std::vector<T> read_any(const std::string& path, H5T_class_t type_class);
+    bool read_attribute(const std::string& object, const std::string& name, hid_t type,
+                        void* value);
+
+    std::filesystem::path path_;
+    std::string remedy_;
+    std::uintmax_t bytes_;
+    Handle file_;
+    std::vector<fault::Fault> faults_;
+};
+
+}  // namespace breach::exchange

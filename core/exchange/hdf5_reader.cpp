@@ -1,0 +1,282 @@
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "core/exchange/hdf5_file.hpp"
+
+namespace breach::exchange {
+namespace {
+
+template <typename T>
+hid_t native_type();
+template <>
+hid_t native_type<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t native_type<std::int32_t>() {
+    return H5T_NATIVE_INT32;
+}
+template <>
+hid_t native_type<std::int64_t>() {
+    return H5T_NATIVE_INT64;
+}
+
+std::string as_text(std::span<const hsize_t> shape) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < shape.size(); ++i)
+        text += (i > 0 ? ", " : "") + std::to_string(shape[i]);
+    return text + "]";
+}
+
+/// The system's view of the file, before HDF5 has one: missing and unreadable files are not bad
+/// input.
+std::uintmax_t readable_bytes(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw fault::IoError(path.string() + ": is not a regular file");
+    errno = 0;
+    const std::ifstream stream(path, std::ios::binary);
+    if (!stream)
+        throw fault::IoError(path.string() + ": cannot be opened: " + std::strerror(errno));
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (error) throw fault::IoError(path.string() + ": cannot be read: " + error.message());
+    return bytes;
+}
+
+hid_t open_file(const std::filesystem::path& path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access.get(), false, true);  // network folders without locks
+    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
+}
+
+}  // namespace
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const Kind& kind, std::string remedy)
+    : path_(path),
+      remedy_(std::move(remedy)),
+      bytes_(readable_bytes(path)),
+      file_(open_file(path), H5Fclose) {
+    if (!file_) {
+        fault("/", bytes_ == 0 ? "the file is empty"
+                               : "not a whole HDF5 file: truncated, damaged or of another format");
+        refuse_if_faulty();
+    }
+    if (!exists("/breachline")) {
+        fault("/breachline", "missing: not a file of Breachline");
+        refuse_if_faulty();
+    }
+    const std::string name = text_attribute("/breachline", "kind");
+    const std::int64_t version = integer_attribute("/breachline", "version");
+    refuse_if_faulty();
+    if (name != kind.name)
+        fault("/breachline@kind", "is '" + name + "', expected '" + kind.name + "'");
+    else if (version != kind.version)
+        fault("/breachline@version", "is " + std::to_string(version) + ", this version reads " +
+                                         std::to_string(kind.version));
+    refuse_if_faulty();
+}
+
+bool Hdf5Reader::exists(const std::string& path) const {
+    // H5Lexists needs every parent to exist.
+    for (std::size_t end = path.find('/', 1); end != std::string::npos;
+         end = path.find('/', end + 1))
+        if (H5Lexists(file_.get(), path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
+    return exists(object) &&
+           H5Aexists_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
+    std::vector<std::string> names;
+    const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+    };
+    const Handle id(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose);
+    if (!id || H5Literate(id.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names) < 0) {
+        fault(group, exists(group) ? "damaged" : "missing");
+        return {};
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
+                                                    H5T_class_t type_class) {
+    if (!exists(path)) {
+        fault(path, "missing");
+        return std::nullopt;
+    }
+    Handle id(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle type(id ? H5Dget_type(id.get()) : -1, H5Tclose);
+    const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
+    if (!type || !space) {
+        fault(path, "damaged, or not a dataset");
+        return std::nullopt;
+    }
+    if (H5Tget_class(type.get()) != type_class) {
+        fault(path, "holds another type of value than expected");
+        return std::nullopt;
+    }
+    std::vector<hsize_t> shape(
+        static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+    // Nothing is compressed: a dataset larger than its file is a damaged one.
+    double bytes = static_cast<double>(H5Tget_size(type.get()));
+    for (const hsize_t n : shape) bytes *= static_cast<double>(n);
+    if (bytes > static_cast<double>(bytes_)) {
+        fault(path, "shape " + as_text(shape) + " is more than the file can hold");
+        return std::nullopt;
+    }
+    return Dataset{std::move(id), std::move(shape)};
+}
+
+template <typename T>
+bool Hdf5Reader::read(const std::string& path, H5T_class_t type_class, std::span<T> values,
+                      std::size_t width) {
+    std::ranges::fill(values, T{});
+    const auto dataset = open(path, type_class);
+    if (!dataset) return false;
+    std::vector<hsize_t> expected{values.size() / std::max<std::size_t>(width, 1)};
+    if (width > 0) expected.push_back(width);
+    if (dataset->shape != expected) {
+        fault(path, "shape is " + as_text(dataset->shape) + ", expected " + as_text(expected));
+        return false;
+    }
+    if (values.empty()) return true;
+    if (H5Dread(dataset->id.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) <
+        0) {
+        fault(path, "cannot be read: checksum mismatch or damaged storage");
+        return false;
+    }
+    return true;
+}
+
+void Hdf5Reader::array(const std::string& path, std::span<double> values, std::size_t width) {
+    if (!read(path, H5T_FLOAT, values, width)) return;
+    const auto bad = std::ranges::find_if_not(values, [](double x) { return std::isfinite(x); });
+    if (bad != values.end())
+        fault(path, "value in row " +
+                        std::to_string(static_cast<std::size_t>(bad - values.begin()) /
+                                       std::max<std::size_t>(width, 1)) +
+                        " is not finite");
+}
+
+void Hdf5Reader::array(const std::string& path, std::span<std::int32_t> values, std::size_t width) {
+    read(path, H5T_INTEGER, values, width);
+}
+
+template <typename T>
+std::vector<T> Hdf5Reader::read_any(const std::string& path, H5T_class_t type_class) {
+    std::size_t rows = 0;
+    {
+        const auto dataset = open(path, type_class);
+        if (!dataset) return {};
+        if (dataset->shape.size() == 1) rows = dataset->shape[0];
+    }
+    std::vector<T> values(rows);
+    read(path, type_class, std::span<T>(values), 0);
+    return values;
+}
+
+std::vector<double> Hdf5Reader::any_reals(const std::string& path) {
+    return read_any<double>(path, H5T_FLOAT);
+}
+
+std::vector<std::int64_t> Hdf5Reader::any_integers(const std::string& path) {
+    return read_any<std::int64_t>(path, H5T_INTEGER);
+}
+
+std::vector<std::string> Hdf5Reader::strings(const std::string& path) {
+    const auto dataset = open(path, H5T_STRING);
+    if (!dataset) return {};
+    const Handle type(H5Dget_type(dataset->id.get()), H5Tclose);
+    if (dataset->shape.size() != 1 || H5Tis_variable_str(type.get()) != 0) {
+        fault(path, "expected a list of fixed-length texts");
+        return {};
+    }
+    const std::size_t length = H5Tget_size(type.get());
+    std::vector<char> cells(length * dataset->shape[0]);
+    if (!cells.empty() &&
+        H5Dread(dataset->id.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, cells.data()) < 0) {
+        fault(path, "cannot be read: checksum mismatch or damaged storage");
+        return {};
+    }
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < dataset->shape[0]; ++i) {
+        const char* begin = cells.data() + i * length;
+        values.emplace_back(begin, std::find(begin, begin + length, '\0'));
+    }
+    return values;
+}
+
+bool Hdf5Reader::read_attribute(const std::string& object, const std::string& name, hid_t type,
+                                void* value) {
+    const std::string where = object + "@" + name;
+    if (!has_attribute(object, name)) {
+        fault(where, "missing");
+        return false;
+    }
+    const Handle id(
+        H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+    const Handle space(id ? H5Aget_space(id.get()) : -1, H5Sclose);
+    const Handle stored(id ? H5Aget_type(id.get()) : -1, H5Tclose);
+    if (!space || !stored || H5Sget_simple_extent_npoints(space.get()) != 1 ||
+        H5Tget_class(stored.get()) != H5Tget_class(type) || H5Aread(id.get(), type, value) < 0) {
+        fault(where, "damaged, or of another type than expected");
+        return false;
+    }
+    return true;
+}
+
+std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) {
+    constexpr std::size_t longest = std::size_t{1} << 16;  // HDF5's own limit for an attribute
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type.get(), longest);
+    H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+    std::string value(longest, '\0');
+    if (!read_attribute(object, name, type.get(), value.data())) return {};
+    value.resize(std::strlen(value.c_str()));
+    return value;
+}
+
+double Hdf5Reader::real_attribute(const std::string& object, const std::string& name) {
+    double value = 0.0;
+    if (read_attribute(object, name, H5T_NATIVE_DOUBLE, &value) && !std::isfinite(value))
+        fault(object + "@" + name, "is not finite");
+    return std::isfinite(value) ? value : 0.0;
+}
+
+std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) {
+    std::int64_t value = 0;
+    read_attribute(object, name, H5T_NATIVE_INT64, &value);
+    return value;
+}
+
+std::size_t Hdf5Reader::count_attribute(const std::string& object, const std::string& name) {
+    const std::int64_t value = integer_attribute(object, name);
+    if (value < 0 || static_cast<std::uintmax_t>(value) > bytes_) {
+        fault(object + "@" + name, std::to_string(value) + " rows cannot lie in this file");
+        return 0;
+    }
+    return static_cast<std::size_t>(value);
+}
+
+void Hdf5Reader::fault(const std::string& path, const std::string& cause) {
+    faults_.push_back({path, cause, remedy_});
+}
+
+void Hdf5Reader::refuse_if_faulty() const {
+    if (!faults_.empty()) throw fault::BadInput(path_.string(), faults_);
+}
+
+}  // namespace breach::exchange

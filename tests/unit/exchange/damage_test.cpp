@@ -1,0 +1,116 @@
+// What a bad disk, a broken transfer or another program does to a file: the reader names it or
+// reads the very same.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/fault/fault.hpp"
+#include "tests/unit/exchange/samples.hpp"
+
+namespace breach::exchange {
+namespace {
+
+using samples::Folder;
+
+std::string whole_file(const Folder& folder) {
+    write_mesh_snapshot(folder / "whole.vtkhdf", samples::mesh(3), samples::provenance());
+    return samples::content(folder / "whole.vtkhdf");
+}
+
+TEST(DamagedFile, TruncatedAnywhereIsBadInputThatNamesTheFile) {
+    const Folder folder;
+    const std::string whole = whole_file(folder);
+    std::size_t refused = 0;
+    std::size_t tried = 0;
+    for (std::size_t length = 0; length < whole.size(); length += 1 + length / 40, ++tried) {
+        samples::overwrite(folder / "cut.vtkhdf", whole.substr(0, length));
+        try {
+            read_mesh_snapshot(folder / "cut.vtkhdf");
+            ADD_FAILURE() << "read a file cut to " << length << " of " << whole.size();
+        } catch (const fault::BadInput& refusal) {
+            if (refusal.file().find("cut.vtkhdf") != std::string::npos) ++refused;
+        }
+    }
+    EXPECT_EQ(refused, tried);
+}
+
+TEST(DamagedFile, AnyFlippedByteIsRefusedOrHarmless) {
+    const Folder folder;
+    const std::string whole = whole_file(folder);
+    const MeshSnapshot s = samples::mesh(3);
+    std::size_t refused = 0;
+    std::size_t harmless = 0;
+    for (std::size_t at = 0; at < whole.size(); at += at < 600 ? 1 : 13) {
+        std::string flipped = whole;
+        flipped[at] = static_cast<char>(flipped[at] ^ 0x55);
+        samples::overwrite(folder / "flipped.vtkhdf", flipped);
+        try {
+            const MeshSnapshot r = read_mesh_snapshot(folder / "flipped.vtkhdf").snapshot;
+            ++harmless;
+            EXPECT_TRUE(r.stress == s.stress && r.strain == s.strain && r.velocity == s.velocity &&
+                        r.displacement == s.displacement && r.quads == s.quads &&
+                        r.density == s.density && r.regions == s.regions && r.time == s.time &&
+                        r.position_0 == s.position_0 && r.epsilon_q == s.epsilon_q)
+                << "byte " << at << " changed a value without being noticed";
+        } catch (const fault::BadInput&) {
+            ++refused;
+        }
+    }
+    std::cout << "  refused " << refused << ", harmless (unused space, data for ParaView only) "
+              << harmless << " of " << whole.size() << " bytes\n";
+    EXPECT_GT(refused, harmless / 2);
+}
+
+/// Runs HDF5 on the file as another program would.
+template <typename Change>
+void tamper(const std::filesystem::path& path, Change change) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(file, 0);
+    change(file);
+    EXPECT_GE(H5Fclose(file), 0);
+}
+
+TEST(DamagedFile, EveryMissingOrMisshapenDatasetIsNamed) {
+    const Folder folder;
+    whole_file(folder);
+    tamper(folder / "whole.vtkhdf", [](hid_t file) {
+        H5Ldelete(file, "/VTKHDF/PointData/velocity", H5P_DEFAULT);
+        H5Ldelete(file, "/breachline/gauss/stress", H5P_DEFAULT);
+        const hsize_t shape[2] = {7, 4};
+        const hid_t space = H5Screate_simple(2, shape, nullptr);
+        H5Dclose(H5Dcreate2(file, "/breachline/gauss/stress", H5T_IEEE_F64LE, space, H5P_DEFAULT,
+                            H5P_DEFAULT, H5P_DEFAULT));
+        H5Sclose(space);
+    });
+    try {
+        read_mesh_snapshot(folder / "whole.vtkhdf");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        ASSERT_EQ(refusal.faults().size(), 2u) << refusal.what();
+        EXPECT_EQ(refusal.faults()[0].pointer, "/VTKHDF/PointData/velocity");
+        EXPECT_EQ(refusal.faults()[0].cause, "missing");
+        EXPECT_EQ(refusal.faults()[1].cause, "shape is [7, 4], expected [12, 4]");
+    }
+}
+
+TEST(DamagedFile, ANewerVersionIsRefusedWithBothNumbers) {
+    const Folder folder;
+    whole_file(folder);
+    tamper(folder / "whole.vtkhdf", [](hid_t file) {
+        const hid_t group = H5Gopen2(file, "/breachline", H5P_DEFAULT);
+        const hid_t version = H5Aopen(group, "version", H5P_DEFAULT);
+        const std::int64_t newer = 2;
+        EXPECT_GE(H5Awrite(version, H5T_NATIVE_INT64, &newer), 0);
+        H5Aclose(version);
+        H5Gclose(group);
+    });
+    try {
+        read_mesh_snapshot(folder / "whole.vtkhdf");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        EXPECT_EQ(refusal.faults().at(0).cause, "is 2, this version reads 1");
+    }
+}
+
+}  // namespace
+}  // namespace breach::exchange

@@ -1,0 +1,91 @@
+#include "core/exchange/particle_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/fault/fault.hpp"
+#include "tests/unit/exchange/samples.hpp"
+
+namespace breach::exchange {
+namespace {
+
+using samples::Folder;
+
+TEST(ParticleState, ComesBackBitForBit) {
+    const Folder folder;
+    const ParticleState s = samples::particles(9);
+    write_particle_state(folder / "p.vtkhdf", s, samples::provenance());
+    const ParticleStateFile file = read_particle_state(folder / "p.vtkhdf");
+    const ParticleState& r = file.state;
+    EXPECT_EQ(r.time, s.time);
+    EXPECT_EQ(r.transfer_time, s.transfer_time);
+    EXPECT_EQ(r.step, s.step);
+    EXPECT_EQ(r.thickness, s.thickness);
+    EXPECT_EQ(r.regions, s.regions);
+    EXPECT_EQ(r.materials_of_regions, s.materials_of_regions);
+    EXPECT_EQ(r.position, s.position);
+    EXPECT_EQ(r.velocity, s.velocity);
+    EXPECT_EQ(r.velocity_gradient, s.velocity_gradient);
+    EXPECT_EQ(r.mass, s.mass);
+    EXPECT_EQ(r.volume_0, s.volume_0);
+    EXPECT_EQ(r.volume, s.volume);
+    EXPECT_EQ(r.stress, s.stress);
+    EXPECT_EQ(r.epsilon_q, s.epsilon_q);
+    EXPECT_EQ(r.epsilon_q_plastic, s.epsilon_q_plastic);
+    EXPECT_EQ(r.gap, s.gap);
+    EXPECT_EQ(r.region, s.region);
+    EXPECT_TRUE(file.ledger.empty());
+}
+
+TEST(ParticleState, CarriesTheLedgerOfItsTransfer) {
+    const Folder folder;
+    const Ledger ledger{{"tailings", "mass", "kg", 1e6, 1e6 + 1e-6, 1e-12},
+                        {"total", "momentum x", "kg m/s", -3.0, -3.5, 0.1}};
+    write_particle_state(folder / "p.vtkhdf", samples::particles(2), {}, ledger);
+    const Ledger r = read_particle_state(folder / "p.vtkhdf").ledger;
+    ASSERT_EQ(r.size(), 2u);
+    EXPECT_EQ(r[1].region, "total");
+    EXPECT_EQ(r[1].quantity, "momentum x");
+    EXPECT_EQ(r[1].unit, "kg m/s");
+    EXPECT_EQ(r[0].before, 1e6);
+    EXPECT_EQ(r[0].after, 1e6 + 1e-6);
+    EXPECT_EQ(r[0].difference, 1e-12);
+}
+
+TEST(ParticleState, AHundredThousandPointsAreSeveralChunks) {
+    const Folder folder;
+    const ParticleState s = samples::particles(100000);
+    write_particle_state(folder / "p.vtkhdf", s, {});
+    EXPECT_EQ(read_particle_state(folder / "p.vtkhdf").state.stress, s.stress);
+}
+
+TEST(ParticleState, AMeshIsNotParticles) {
+    const Folder folder;
+    write_mesh_snapshot(folder / "m.vtkhdf", samples::mesh(2), {});
+    try {
+        read_particle_state(folder / "m.vtkhdf");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        EXPECT_NE(refusal.faults().at(0).cause.find("mesh_snapshot"), std::string::npos);
+        EXPECT_EQ(refusal.faults().at(0).pointer, "/breachline@kind");
+    }
+}
+
+TEST(ParticleState, AMassOfZeroIsRefused) {
+    const Folder folder;
+    ParticleState s = samples::particles(4);
+    s.mass[2] = 0.0;
+    s.volume[3] = -1.0;
+    write_particle_state(folder / "p.vtkhdf", s, {});
+    try {
+        read_particle_state(folder / "p.vtkhdf");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        ASSERT_EQ(refusal.faults().size(), 2u) << "every fault is named";
+        EXPECT_EQ(refusal.faults()[0].pointer, "/VTKHDF/PointData/mass");
+        EXPECT_EQ(refusal.faults()[1].pointer, "/VTKHDF/PointData/volume");
+    }
+}
+
+}  // namespace
+}  // namespace breach::exchange
