@@ -1,0 +1,109 @@
+#include "mpm_solver/checkpoint.hpp"
+
+#include "core/exchange/archive.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+using exchange::Archive;
+
+constexpr const char* kind = "mpm_checkpoint";
+constexpr int version = 1;
+constexpr const char* history_prefix = "history/";
+
+/// The numbers of the run that are not per point. Calls visit(name, value).
+template <class AnyClock, class AnyStart, class AnyTally, class Visit>
+void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& visit) {
+    visit("time", clock.time), visit("dt", clock.dt);
+    visit("dt_min", clock.dt_min), visit("dt_max", clock.dt_max);
+    visit("transfer_time", clock.transfer_time);
+    visit("start_kinetic", start.energy.kinetic);
+    visit("start_gravitational", start.energy.gravitational);
+    visit("start_elastic", start.energy.elastic);
+    visit("start_mobile_volume", start.mobile_volume);
+    visit("plastic", tally.plastic), visit("friction", tally.friction);
+    visit("kinetic", tally.kinetic), visit("fastest", tally.fastest);
+}
+
+std::string digests(const exchange::Provenance& provenance) {
+    std::string text;
+    for (const exchange::InputDigest& input : provenance.inputs) text += input.sha256 + "\n";
+    return text;
+}
+
+void refuse_if_different(const Archive& archive, const std::string& name, const std::string& here,
+                         const std::string& file) {
+    const auto there = archive.texts.find(name);
+    if (there != archive.texts.end() && there->second == here) return;
+    throw fault::BadInput(file, {{"/" + name, "is not that of this run",
+                                  "resume with the scene, overrides and input of the run that was "
+                                  "stopped, or start afresh without --resume"}});
+}
+
+Points load_points(const Archive& archive) {
+    Points points;
+    for_each_real(points, [&](const char* name, std::vector<double>& values) {
+        values = archive.reals.at(name);
+    });
+    for_each_integer(points, [&](const char* name, std::vector<std::int32_t>& values) {
+        const auto& stored = archive.integers.at(name);
+        values.assign(stored.begin(), stored.end());
+    });
+    return points;
+}
+
+}  // namespace
+
+void save_checkpoint(const std::filesystem::path& file, const Simulation& simulation,
+                     std::int64_t telemetry_lines, const exchange::Provenance& provenance) {
+    Archive archive{
+        .kind = kind, .version = version, .reals = {}, .integers = {}, .texts = {}, .units = {}};
+    const Body& body = simulation.body();
+    for_each_real(body.points, [&](const char* name, const std::vector<double>& values) {
+        archive.reals[name] = values;
+    });
+    for_each_integer(body.points, [&](const char* name, const std::vector<std::int32_t>& values) {
+        archive.integers[name].assign(values.begin(), values.end());
+    });
+    for_each_number(simulation.clock(), simulation.start(), body.tally,
+                    [&](const char* name, double value) {
+                        archive.reals[std::string("run/") + name] = {value};
+                    });
+    const Clock& clock = simulation.clock();
+    archive.integers["run/step"] = {clock.step};
+    archive.integers["run/frames"] = {clock.frames};
+    archive.integers["run/looks"] = {clock.looks};
+    archive.integers["run/telemetry_lines"] = {telemetry_lines};
+    store(simulation.history(), history_prefix, archive);
+    archive.texts["scene"] = provenance.scene;
+    archive.texts["inputs"] = digests(provenance);
+    write_archive(file, archive, provenance);
+}
+
+Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
+                        const exchange::Provenance& provenance) {
+    const Archive archive = exchange::read_archive(file, kind, version);
+    refuse_if_different(archive, "scene", provenance.scene, file.string());
+    refuse_if_different(archive, "inputs", digests(provenance), file.string());
+    try {
+        ZonedPoints points{load_points(archive), {}};
+        points.zones = zones_of(scene, points.points);
+        Body body = make_body(scene, std::move(points), file.string());
+        Clock clock;
+        Start start;
+        for_each_number(clock, start, body.tally, [&](const char* name, double& value) {
+            value = archive.reals.at(std::string("run/") + name).at(0);
+        });
+        clock.step = archive.integers.at("run/step").at(0);
+        clock.frames = archive.integers.at("run/frames").at(0);
+        clock.looks = archive.integers.at("run/looks").at(0);
+        return {Simulation(scene, std::move(body), clock, start, load(archive, history_prefix)),
+                archive.integers.at("run/telemetry_lines").at(0)};
+    } catch (const std::out_of_range&) {
+        throw fault::BadInput(file.string(), {{"/", "lacks an array of a checkpoint",
+                                               "start afresh without --resume"}});
+    }
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,22 @@
+// checkpoint.h5: everything that decides how a run goes on, bit for bit.
+#pragma once
+
+#include <filesystem>
+
+#include "mpm_solver/simulation.hpp"
+
+namespace breach::mpm {
+
+void save_checkpoint(const std::filesystem::path& file, const Simulation& simulation,
+                     std::int64_t telemetry_lines, const exchange::Provenance& provenance);
+
+struct Resumed {
+    Simulation simulation;
+    std::int64_t telemetry_lines;
+};
+
+/// Throws BadInput if the checkpoint belongs to another scene or input, or is damaged.
+Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
+                        const exchange::Provenance& provenance);
+
+}  // namespace breach::mpm

@@ -1,0 +1,30 @@
+// The section's polygons as material points at rest and without stress: for runs that start without
+// a transfer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/exchange/particle_state.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::mpm {
+
+struct SampledRegion {
+    std::string name;
+    double polygon_area;  ///< [m2]
+    double sampled_area;  ///< sum of the points' areas [m2]
+    std::size_t points;
+};
+
+struct FilledSection {
+    exchange::ParticleState state;
+    std::vector<SampledRegion> regions;
+};
+
+/// Cells are cut into fill_points^2 equal squares; each becomes a point with the area and at the
+/// centroid of its part inside the polygon, so areas and first moments are those of the polygon.
+/// Slivers join a neighbour.
+FilledSection fill_section(const scene::Scene& scene);
+
+}  // namespace breach::mpm

@@ -1,0 +1,97 @@
+#include "mpm_solver/grid.hpp"
+
+#include <cmath>
+
+namespace breach::mpm {
+
+namespace {
+
+/// Friction of the floor at x; where zones meet, the one on the right counts.
+double friction_at(const std::vector<scene::FrictionZone>& zones, double x, double tolerance) {
+    double coefficient = 0.0;
+    for (const scene::FrictionZone& zone : zones) {
+        if (x >= zone.from - tolerance && x <= zone.to + tolerance) coefficient = zone.coefficient;
+    }
+    return coefficient;
+}
+
+std::uint8_t wall_condition(scene::Wall wall) {
+    switch (wall) {
+        case scene::Wall::roller:
+            return condition::hold_x;
+        case scene::Wall::fixed:
+            return condition::hold_x | condition::hold_y;
+        default:
+            return 0;
+    }
+}
+
+}  // namespace
+
+Grid make_grid(const scene::Mpm& mpm) {
+    const double h = mpm.cell_size;
+    const auto cells = [h](double from, double to) {
+        return static_cast<std::int32_t>(std::lround((to - from) / h));
+    };
+    const std::int32_t cells_x = cells(mpm.domain_x[0], mpm.domain_x[1]);
+    const std::int32_t cells_y = cells(mpm.floor.level, mpm.domain_y[1]);
+
+    Grid grid{};
+    grid.h = h;
+    grid.origin = {mpm.domain_x[0] - h, mpm.floor.level - h};
+    grid.columns = cells_x + 3;
+    grid.rows = cells_y + 3;
+    grid.low = {mpm.domain_x[0], mpm.floor.level};
+    grid.high = {mpm.domain_x[1], mpm.domain_y[1]};
+    if (mpm.left != scene::Wall::open) grid.walls_x.low = 1;
+    if (mpm.right != scene::Wall::open) grid.walls_x.high = cells_x + 1;
+    grid.walls_y.low = 1;
+
+    const auto n = static_cast<std::size_t>(grid.nodes());
+    grid.conditions.assign(n, 0);
+    grid.friction.assign(grid.columns, 0.0);
+    const bool slips = !mpm.floor.friction.empty();
+    const std::uint8_t on_floor =
+        slips ? condition::floor : std::uint8_t{condition::hold_x | condition::hold_y};
+    for (std::int32_t i = 0; i < grid.columns; ++i) {
+        grid.conditions[i * grid.rows + 1] |= on_floor;
+        grid.friction[i] = friction_at(mpm.floor.friction, grid.origin.x() + i * h, 1e-6 * h);
+    }
+    for (std::int32_t j = 0; j < grid.rows; ++j) {
+        grid.conditions[grid.rows + j] |= wall_condition(mpm.left);
+        grid.conditions[(cells_x + 1) * grid.rows + j] |= wall_condition(mpm.right);
+    }
+    grid.mass.assign(n, 0.0);
+    grid.motion.assign(n, Lane::Zero());
+    grid.is_stencil.assign(n, 0);
+    grid.is_active.assign(n, 0);
+    grid.stencils.reserve(n);
+    grid.active.reserve(n);
+    return grid;
+}
+
+void clear(Grid& grid) {
+    for (const std::int32_t node : grid.active) {
+        grid.mass[node] = 0.0;
+        grid.motion[node].setZero();
+        grid.is_active[node] = 0;
+    }
+    for (const std::int32_t first : grid.stencils) grid.is_stencil[first] = 0;
+    grid.active.clear();
+    grid.stencils.clear();
+}
+
+void find_active_nodes(Grid& grid) {
+    for (const std::int32_t first : grid.stencils) {
+        for (std::int32_t i = 0; i < 3; ++i) {
+            for (std::int32_t node = first + i * grid.rows; node < first + i * grid.rows + 3;
+                 ++node) {
+                if (grid.is_active[node]) continue;
+                grid.is_active[node] = 1;
+                grid.active.push_back(node);
+            }
+        }
+    }
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,74 @@
+// The square background grid: places, walls, nodal arrays and the list of nodes that are in use.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "mpm_solver/kernel.hpp"
+
+namespace breach::mpm {
+
+using mechanics::Vec2;
+/// Four numbers of a node that are scattered and gathered together.
+using Lane = Eigen::Array4d;
+
+/// What a node must obey; interior nodes carry 0.
+namespace condition {
+constexpr std::uint8_t hold_x = 1;
+constexpr std::uint8_t hold_y = 2;
+constexpr std::uint8_t floor = 4;  ///< unilateral in y, Coulomb friction in x
+}  // namespace condition
+
+/// Nodes are stored column by column (y fastest), with one ghost row around the domain.
+struct Grid {
+    double h;     ///< edge of a cell [m]
+    Vec2 origin;  ///< of the first ghost node [m]
+    std::int32_t columns;
+    std::int32_t rows;
+    Vec2 low;  ///< walls and floor; a point outside [low, high] has left the grid [m]
+    Vec2 high;
+    WallRows walls_x;
+    WallRows walls_y;
+    std::vector<std::uint8_t> conditions;  ///< per node
+    std::vector<double> friction;          ///< coefficient of the floor per column [-]
+
+    // scattered by particle_to_grid
+    std::vector<double> mass;  ///< [kg]
+    /// After particle_to_grid: momentum [kg m/s] and internal force [N]; after update_momentum:
+    /// velocity at the end of the step [m/s] and its change over the step [m/s].
+    std::vector<Lane> motion;
+
+    // nodes in use
+    std::vector<std::int32_t> stencils;  ///< first node of every 3 x 3 stencil that a point uses
+    std::vector<std::uint8_t> is_stencil;
+    std::vector<std::int32_t> active;
+    std::vector<std::uint8_t> is_active;
+
+    std::int32_t nodes() const { return columns * rows; }
+    double xi(double x) const { return (x - origin.x()) / h; }
+    double eta(double y) const { return (y - origin.y()) / h; }
+    /// Cell that holds (xi, eta), numbered as its lower left node.
+    std::int32_t cell(double xi, double eta) const {
+        return static_cast<std::int32_t>(xi) * rows + static_cast<std::int32_t>(eta);
+    }
+    bool holds(double x, double y) const {
+        return x >= low.x() && x <= high.x() && y >= low.y() && y <= high.y();
+    }
+    void use_stencil(std::int32_t first) {
+        if (is_stencil[first]) return;
+        is_stencil[first] = 1;
+        stencils.push_back(first);
+    }
+};
+
+Grid make_grid(const scene::Mpm& mpm);
+
+/// Forgets the last step: zeroes the nodes that were in use.
+void clear(Grid& grid);
+
+/// Fills `active` from the stencils in use.
+void find_active_nodes(Grid& grid);
+
+}  // namespace breach::mpm

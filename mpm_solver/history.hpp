@@ -1,0 +1,58 @@
+// What a run looked like over time: one row per telemetry line.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/exchange/archive.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::mpm {
+
+struct Row {
+    double time = 0.0;
+    double step = 0.0;
+    double dt = 0.0;
+    double runout = 0.0;
+    double runout_beyond_toe = 0.0;
+    double runout_largest = 0.0;
+    double kinetic_energy = 0.0;
+    double gravitational_energy = 0.0;
+    double elastic_energy = 0.0;
+    double plastic_dissipation = 0.0;
+    double friction_dissipation = 0.0;
+    double energy_numerical = 0.0;
+    double energy_numerical_share = 0.0;
+    double volume_ratio = 0.0;
+    double overlap = 0.0;
+    double fastest = 0.0;
+};
+
+/// Calls visit(name, unit, value) for every column.
+template <class AnyRow, class Visit>
+void for_each_column(AnyRow& row, Visit&& visit) {
+    visit("time", "s", row.time), visit("step", "1", row.step), visit("dt", "s", row.dt);
+    visit("runout", "m", row.runout), visit("runout_beyond_toe", "m", row.runout_beyond_toe);
+    visit("runout_largest", "m", row.runout_largest);
+    visit("kinetic_energy", "J", row.kinetic_energy);
+    visit("gravitational_energy", "J", row.gravitational_energy);
+    visit("elastic_energy", "J", row.elastic_energy);
+    visit("plastic_dissipation", "J", row.plastic_dissipation);
+    visit("friction_dissipation", "J", row.friction_dissipation);
+    visit("energy_numerical", "J", row.energy_numerical);
+    visit("energy_numerical_share", "1", row.energy_numerical_share);
+    visit("volume_ratio", "1", row.volume_ratio), visit("overlap", "1", row.overlap);
+    visit("fastest", "m/s", row.fastest);
+}
+
+using History = std::vector<Row>;
+
+/// The rows as arrays "<prefix><column>" of an archive, and back.
+void store(const History& history, const std::string& prefix, exchange::Archive& archive);
+History load(const exchange::Archive& archive, const std::string& prefix);
+
+/// The front rests: over the last rest_window both percentiles of the runout stayed within
+/// rest_change, and the run is older than rest_earliest.
+bool at_rest(const History& history, const scene::Mpm& mpm);
+
+}  // namespace breach::mpm

@@ -1,0 +1,18 @@
+// mpm_solver: the runout of a failing mass by the material point method.
+#include "core/process/phase.hpp"
+#include "mpm_solver/run.hpp"
+
+int main(int argc, char** argv) {
+    using namespace breach;
+    return process::run_phase(
+        argc, argv,
+        {.name = "mpm_solver",
+         .purpose =
+             "Runout of a failing mass by the material point method (plane strain, explicit)",
+         .inputs = {.least = 0,
+                    .most = 1,
+                    .what = "points from transfer_tool (.vtkhdf); without them the section is "
+                            "filled with points at rest"},
+         .plan = mpm::plan,
+         .run = mpm::run});
+}

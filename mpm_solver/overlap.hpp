@@ -1,0 +1,27 @@
+// Overlap: soil that lies on top of soil. Points may clump although every tracked volume is right
+// (mpm.md, section 10), so a run reports it.
+#pragma once
+
+#include <vector>
+
+#include "mpm_solver/body.hpp"
+
+namespace breach::mpm {
+
+class OverlapMeter {
+  public:
+    explicit OverlapMeter(const Body& body, double thickness);
+
+    /// Volume-weighted mean over the points' cells of max(0, fill - 1), fill_i = sum_p V_p N_i /
+    /// capacity_i [-].
+    double measure(const Body& body);
+
+  private:
+    std::vector<double>
+        capacity_x_;  ///< integral of the nodal weight over the domain, per column [m]
+    std::vector<double> capacity_y_;
+    double thickness_;
+    std::vector<double> filled_;  ///< volume at each node [m3]
+};
+
+}  // namespace breach::mpm

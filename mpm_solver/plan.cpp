@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <sstream>
+
+#include "mpm_solver/run.hpp"
+#include "mpm_solver/sort.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+using process::Plan;
+using process::Use;
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+void plan_laws(const scene::Scene& scene, Plan& plan) {
+    for (const scene::Material& material : scene.materials) {
+        const std::string pointer = "/materials/" + material.name + "/law";
+        const auto* mohr_coulomb = std::get_if<materials::MohrCoulomb>(&material.law);
+        if (!mohr_coulomb) {
+            plan.push_back({"law of " + material.name, Use::on, "linear elastic", pointer});
+            continue;
+        }
+        plan.push_back(
+            {"law of " + material.name, Use::on, "Mohr-Coulomb with tension cut-off", pointer});
+        plan.push_back({"softening of " + material.name,
+                        mohr_coulomb->softening ? Use::on : Use::left_out,
+                        mohr_coulomb->softening ? "strength falls with epsilon_q"
+                                                : "the law has none: its strength is constant",
+                        pointer + "/softening"});
+    }
+    plan.push_back({"dispatch of laws", scene.materials.size() > 1 ? Use::on : Use::left_out,
+                    scene.materials.size() > 1
+                        ? "once per zone, points of a material are neighbours"
+                        : "one material, one loop",
+                    "/materials"});
+    plan.push_back({"pore pressure", Use::left_out, "no law of this scene uses it", "/materials"});
+}
+
+void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
+    const bool gimp = mpm.kernel == scene::Kernel::gimp;
+    plan.push_back(
+        {gimp ? "GIMP kernel" : "linear kernel", Use::on,
+         gimp ? "half size " + text_of(mpm.gimp_half_size) + " cells, clipped at walls and floor"
+              : "asked for: tests only",
+         "/mpm/kernel"});
+    const bool musl = mpm.order == scene::UpdateOrder::musl;
+    plan.push_back({"second momentum mapping (MUSL)", musl ? Use::on : Use::left_out,
+                    musl ? "asked for" : "usl: the gradient comes from the nodes' new velocities",
+                    "/mpm/order"});
+    plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
+                    "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
+    const bool averages = mpm.anti_locking == scene::AntiLocking::on;
+    plan.push_back({"anti-locking", averages ? Use::on : Use::left_out,
+                    averages ? "volumetric increment and mean stress averaged per cell and material"
+                             : "switched off",
+                    "/mpm/anti_locking"});
+    plan.push_back({"stiffness scaling", mpm.stiffness_scale != 1.0 ? Use::on : Use::left_out,
+                    "factor " + text_of(mpm.stiffness_scale) + " on every E",
+                    "/mpm/stiffness_scale"});
+    plan.push_back({"adaptive time step", mpm.time_step ? Use::left_out : Use::on,
+                    mpm.time_step ? "fixed at " + text_of(*mpm.time_step) + " s"
+                                  : "Courant number " + text_of(mpm.cfl),
+                    mpm.time_step ? "/mpm/time_step" : "/mpm/cfl"});
+}
+
+void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
+    const bool opens = std::any_of(
+        scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+            return std::holds_alternative<materials::MohrCoulomb>(material.law);
+        });
+    const bool closes = opens && scene.mpm->gap_closure;
+    plan.push_back({"gap closure after tension", closes ? Use::on : Use::left_out,
+                    !opens    ? "no law opens in tension"
+                    : !closes ? "switched off"
+                              : "opened volume closes before pressure builds again",
+                    "/mpm/gap_closure"});
+}
+
+void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {
+    const bool slips = !mpm.floor.friction.empty();
+    plan.push_back(
+        {"floor friction", slips ? Use::on : Use::left_out,
+         slips ? std::to_string(mpm.floor.friction.size()) + " zones, evaluated at floor nodes only"
+               : "no zones: the floor holds the soil",
+         "/mpm/floor/friction"});
+    const auto wall = [&](const char* side, scene::Wall kind) {
+        plan.push_back({std::string(side) + " wall",
+                        kind == scene::Wall::open ? Use::left_out : Use::on,
+                        kind == scene::Wall::open     ? "open: a point that reaches it ends the run"
+                        : kind == scene::Wall::roller ? "roller"
+                                                      : "fixed",
+                        std::string("/mpm/") + side});
+    };
+    wall("left", mpm.left);
+    wall("right", mpm.right);
+}
+
+}  // namespace
+
+Plan plan(const scene::Scene& scene) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    Plan plan;
+    plan_laws(scene, plan);
+    plan_scheme(mpm, plan);
+    plan_gap_closure(scene, plan);
+    plan_boundaries(mpm, plan);
+    plan.push_back({"total epsilon_q", Use::on, "for pictures; softening has its own", "/mpm"});
+    plan.push_back({"active nodes only", Use::on, "empty cells cost nothing", "/mpm/domain_x"});
+    plan.push_back({"sorting of points", Use::left_out,
+                    "starts by itself at " + std::to_string(least_points_to_sort) +
+                        " points: fewer fit the cache",
+                    "/mpm/fill_points"});
+    plan.push_back({"threads", Use::left_out, "one core does this scene", "/mpm"});
+    return plan;
+}
+
+}  // namespace breach::mpm

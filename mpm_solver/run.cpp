@@ -1,0 +1,208 @@
+#include "mpm_solver/run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "mpm_solver/checkpoint.hpp"
+#include "mpm_solver/fill.hpp"
+#include "mpm_solver/simulation.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+using nlohmann::json;
+using process::Outcome;
+using process::Session;
+
+constexpr const char* checkpoint_name = "checkpoint.h5";
+
+void log_sampling(const std::vector<SampledRegion>& regions) {
+    for (const SampledRegion& region : regions) {
+        spdlog::info("region {}: {} points sample {:.6f} m2 of the polygon's {:.6f} m2",
+                     region.name, region.points, region.sampled_area, region.polygon_area);
+    }
+}
+
+void log_input(const scene::Scene& scene, const exchange::ParticleState& state) {
+    for (std::size_t r = 0; r < state.regions.size(); ++r) {
+        double volume = 0.0;
+        std::size_t points = 0;
+        for (std::size_t p = 0; p < state.size(); ++p) {
+            if (static_cast<std::size_t>(state.region[p]) != r) continue;
+            volume += state.volume[p];
+            ++points;
+        }
+        double area = 0.0;
+        for (const scene::Region& region : scene.section.regions) {
+            if (region.name == state.regions[r]) area = scene::area(region.polygon);
+        }
+        spdlog::info("region {}: {} points hold {:.6f} m2, its polygon had {:.6f} m2",
+                     state.regions[r], points, volume / state.thickness, area);
+    }
+}
+
+Simulation begin(const Session& session) {
+    const scene::Scene& scene = session.scene();
+    if (session.settings().inputs.empty()) {
+        const FilledSection filled = fill_section(scene);
+        log_sampling(filled.regions);
+        const std::string source = scene.name + " (section filled with points)";
+        return {scene, make_body(scene, zoned_points(scene, filled.state, source), source), 0.0};
+    }
+    const exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
+    const std::string source = session.input().string();
+    log_input(scene, state);
+    return {scene, make_body(scene, zoned_points(scene, state, source), source),
+            state.transfer_time};
+}
+
+Simulation begin_or_resume(Session& session) {
+    const auto checkpoint = session.output(checkpoint_name);
+    if (session.settings().start == process::Start::resume && std::filesystem::exists(checkpoint)) {
+        Resumed resumed = load_checkpoint(checkpoint, session.scene(), session.provenance());
+        session.truncate_telemetry(resumed.telemetry_lines);
+        spdlog::info("goes on at t = {:.6f} s, step {}", resumed.simulation.clock().time,
+                     resumed.simulation.clock().step);
+        return std::move(resumed.simulation);
+    }
+    session.truncate_telemetry(0);
+    return begin(session);
+}
+
+void save(const Session& session, const Simulation& simulation) {
+    save_checkpoint(session.output(checkpoint_name), simulation, session.telemetry_lines(),
+                    session.provenance());
+}
+
+void write_frame(Session& session, Simulation& simulation) {
+    char name[64];
+    std::snprintf(name, sizeof name, "particles_%.6f.vtkhdf", simulation.clock().time);
+    const auto file = session.output(name);
+    exchange::write_particle_state(file, simulation.state(), session.provenance());
+    simulation.frame_taken();
+    session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
+}
+
+void report(Session& session, const Row& row, double toe_x) {
+    json line{{"phase", "mpm_solver"}};
+    for_each_column(row, [&](const char* name, const char*, double value) { line[name] = value; });
+    line["step"] = static_cast<std::int64_t>(row.step);
+    line["front"] = toe_x + row.runout_beyond_toe;
+    session.telemetry(line);
+}
+
+void show_progress(Session& session, const Simulation& simulation) {
+    const double time = simulation.clock().time;
+    char message[64];
+    std::snprintf(message, sizeof message, "t = %.2f s", time);
+    session.progress(time / session.scene().mpm->duration, message);
+}
+
+void look_and_write(Session& session, Simulation& simulation) {
+    if (simulation.look_due()) {
+        report(session, simulation.look(), session.scene().mpm->runout.toe.x());
+        show_progress(session, simulation);
+    }
+    if (simulation.frame_due()) write_frame(session, simulation);
+}
+
+/// Steps until the end; saves checkpoints on the way.
+Outcome advance_to_the_end(Session& session, Simulation& simulation) {
+    double saved = session.wall_seconds();
+    while (simulation.verdict() == Verdict::goes_on) {
+        if (session.stop_requested()) {
+            save(session, simulation);
+            return Outcome::stopped;
+        }
+        simulation.advance();
+        look_and_write(session, simulation);
+        if (session.wall_seconds() - saved >= session.scene().mpm->checkpoint_interval) {
+            save(session, simulation);
+            saved = session.wall_seconds();
+        }
+    }
+    return Outcome::done;
+}
+
+json energy_json(const Simulation& simulation, const Row& row) {
+    const Energy now = energy_of(simulation.body());
+    const Energy& start = simulation.start().energy;
+    const double available = released(start, now);
+    const auto share = [&](double J) { return available > 0.0 ? J / available : 0.0; };
+    const auto entry = [&](double J) { return json{{"J", J}, {"share", share(J)}}; };
+    return {{"released", entry(available)},
+            {"kinetic", entry(now.kinetic)},
+            {"gravitational", {{"J", now.gravitational}}},
+            {"elastic_change", entry(now.elastic - start.elastic)},
+            {"plastic", entry(now.plastic)},
+            {"friction", entry(now.friction)},
+            {"numerical", entry(row.energy_numerical)}};
+}
+
+void conclude(Session& session, const Simulation& simulation, const Row& row, double speed) {
+    const Clock& clock = simulation.clock();
+    const scene::Mpm& mpm = *session.scene().mpm;
+    json& result = session.result();
+    result["runout"] = row.runout;
+    result["runout_beyond_toe"] = row.runout_beyond_toe;
+    result["runout_largest"] = row.runout_largest;
+    result["at_rest"] = simulation.verdict() == Verdict::rests;
+    result["end_time"] = clock.time;
+    result["transfer_time"] = clock.transfer_time;
+    result["energy"] = energy_json(simulation, row);
+    result["volume_ratio"] = row.volume_ratio;
+    result["overlap"] = row.overlap;
+    result["steps"] = clock.step;
+    result["dt_min"] = clock.dt_min;
+    result["dt_max"] = clock.dt_max;
+    result["particles"] = simulation.body().points.size();
+    result["particle_steps_per_second"] = speed;
+    result["order"] = mpm.order == scene::UpdateOrder::usl ? "usl" : "musl";
+    result["stiffness_scale"] = mpm.stiffness_scale;
+}
+
+void write_history(const Session& session, const History& history) {
+    exchange::Archive archive{
+        .kind = "mpm_history", .version = 1, .reals = {}, .integers = {}, .texts = {}, .units = {}};
+    store(history, "", archive);
+    write_archive(session.output("history.h5"), archive, session.provenance());
+}
+
+void finish(Session& session, Simulation& simulation, double speed) {
+    if (simulation.history().back().step < static_cast<double>(simulation.clock().step)) {
+        report(session, simulation.look(), session.scene().mpm->runout.toe.x());
+    }
+    const auto file = session.output("final.vtkhdf");
+    exchange::write_particle_state(file, simulation.state(), session.provenance());
+    session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
+    write_history(session, simulation.history());
+    conclude(session, simulation, simulation.history().back(), speed);
+    std::filesystem::remove(session.output(checkpoint_name));
+    session.progress(1.0, "done");
+}
+
+}  // namespace
+
+Outcome run(Session& session) {
+    Simulation simulation = begin_or_resume(session);
+    const std::int64_t first_step = simulation.clock().step;
+    const double began = session.cpu_seconds();
+    try {
+        look_and_write(session, simulation);
+        if (advance_to_the_end(session, simulation) == Outcome::stopped) return Outcome::stopped;
+    } catch (const fault::Breakdown& breakdown) {
+        const auto file = session.output("last_good.vtkhdf");
+        exchange::write_particle_state(file, simulation.last_good_state(), session.provenance());
+        throw fault::Breakdown(std::string(breakdown.what()) + "; last good state in " +
+                               file.string());
+    }
+    const double seconds = session.cpu_seconds() - began;
+    const double work = static_cast<double>(simulation.body().points.size()) *
+                        static_cast<double>(simulation.clock().step - first_step);
+    finish(session, simulation, seconds > 0.0 ? work / seconds : 0.0);
+    return Outcome::done;
+}
+
+}  // namespace breach::mpm

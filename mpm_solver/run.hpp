@@ -1,0 +1,13 @@
+// The phase: from a session's scene and input to its outputs.
+#pragma once
+
+#include "core/process/phase.hpp"
+
+namespace breach::mpm {
+
+/// What the scene needs of this phase and what it does not.
+process::Plan plan(const scene::Scene& scene);
+
+process::Outcome run(process::Session& session);
+
+}  // namespace breach::mpm

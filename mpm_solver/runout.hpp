@@ -1,0 +1,27 @@
+// How far the soil has run, by three stated definitions, and whether the front has come to rest.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm_solver/points.hpp"
+
+namespace breach::mpm {
+
+/// Distances beyond the toe [m], of the mobile regions only.
+struct Runout {
+    double all = 0.0;      ///< mass-weighted 99th percentile of signed x - x_toe over all of it
+    double beyond = 0.0;   ///< the same over what lies at x > x_toe; 0 when nothing does
+    double largest = 0.0;  ///< of any point
+};
+
+/// Per region of the section: does its soil count for the runout?
+std::vector<std::uint8_t> mobile_regions(const scene::Scene& scene);
+
+Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, double toe_x);
+
+/// Mass-weighted percentile: the least x such that the mass at or below it is at least `share` of
+/// the whole. Sorts the pairs (x, mass) in place.
+double percentile(std::vector<std::pair<double, double>>& x_and_mass, double share);
+
+}  // namespace breach::mpm

@@ -1,0 +1,129 @@
+#include "mpm_solver/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "mpm_solver/step.hpp"
+
+namespace breach::mpm {
+
+Simulation::Simulation(const scene::Scene& scene, Body body, double transfer_time)
+    : Simulation(scene, std::move(body), Clock{.transfer_time = transfer_time}, Start{}, {}) {
+    start_ = {energy_of(body_), volume_of(body_.points, mobile_)};
+    limits_ = limits_of(body_, mpm_, start_.energy);
+}
+
+Simulation::Simulation(const scene::Scene& scene, Body body, Clock clock, Start start,
+                       History history)
+    : scene_(scene),
+      mpm_(scene::mpm_of(scene)),
+      body_(std::move(body)),
+      clock_(clock),
+      start_(start),
+      history_(std::move(history)),
+      mobile_(mobile_regions(scene)),
+      overlap_(body_, scene.thickness),
+      sorter_(body_),
+      limits_(limits_of(body_, mpm_, start_.energy)),
+      last_good_(body_.points),
+      last_good_time_(clock.time),
+      last_good_step_(clock.step) {}
+
+double Simulation::next_step() const {
+    const double dt = mpm_.time_step ? *mpm_.time_step : courant_step(body_, mpm_.cfl);
+    const double next_frame = static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
+    const double left = std::min(next_frame, mpm_.duration) - clock_.time;
+    if (left <= 0.0 || dt < 0.5 * left) return dt;
+    return dt < left ? 0.5 * left : left;  // two equal steps rather than a full one and a crumb
+}
+
+void Simulation::advance() {
+    if (body_.points.size() >= least_points_to_sort && clock_.step % steps_between_sorts == 0) {
+        sorter_.sort(body_);
+    }
+    const double dt = next_step();
+    step(body_, dt);
+    clock_.dt_min = clock_.step == 0 ? dt : std::min(clock_.dt_min, dt);
+    clock_.dt_max = std::max(clock_.dt_max, dt);
+    clock_.dt = dt;
+    clock_.time += dt;
+    ++clock_.step;
+    // Sums of steps miss round times by round-off; a frame's time is exact.
+    const double next_frame = static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
+    if (std::abs(clock_.time - next_frame) < 1e-9 * dt) clock_.time = next_frame;
+    if (const auto complaint = step_complaint(body_, limits_)) break_down(*complaint);
+}
+
+bool Simulation::frame_due() const {
+    return clock_.time >= static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
+}
+
+bool Simulation::look_due() const {
+    return clock_.time >= static_cast<double>(clock_.looks) * mpm_.telemetry_interval;
+}
+
+const Row& Simulation::look() {
+    const Energy now = energy_of(body_);
+    const Runout runout = runout_of(body_.points, mobile_, mpm_.runout.toe.x());
+    const double volume = volume_of(body_.points, mobile_);
+    history_.push_back(
+        {.time = clock_.time,
+         .step = static_cast<double>(clock_.step),
+         .dt = clock_.dt,
+         .runout = runout.all,
+         .runout_beyond_toe = runout.beyond,
+         .runout_largest = runout.largest,
+         .kinetic_energy = now.kinetic,
+         .gravitational_energy = now.gravitational,
+         .elastic_energy = now.elastic,
+         .plastic_dissipation = now.plastic,
+         .friction_dissipation = now.friction,
+         .energy_numerical = numerical_loss(start_.energy, now),
+         .energy_numerical_share = numerical_share(start_.energy, now),
+         .volume_ratio = start_.mobile_volume > 0.0 ? volume / start_.mobile_volume : 1.0,
+         .overlap = overlap_.measure(body_),
+         .fastest = body_.tally.fastest});
+    const Row& row = history_.back();
+    if (const auto complaint = budget_complaint(limits_, start_.energy, now, row.volume_ratio)) {
+        break_down(*complaint);
+    }
+    const double interval = mpm_.telemetry_interval;
+    clock_.looks =
+        interval > 0.0 ? static_cast<std::int64_t>(std::floor(clock_.time / interval)) + 1 : 0;
+    last_good_ = body_.points;
+    last_good_time_ = clock_.time;
+    last_good_step_ = clock_.step;
+    return row;
+}
+
+Verdict Simulation::verdict() const {
+    if (at_rest(history_, mpm_)) return Verdict::rests;
+    return clock_.time >= mpm_.duration ? Verdict::time_is_up : Verdict::goes_on;
+}
+
+exchange::ParticleState Simulation::stamped(const Points& points, double time,
+                                            std::int64_t step) const {
+    exchange::ParticleState state = particle_state(scene_, points);
+    state.time = time;
+    state.step = step;
+    state.transfer_time = clock_.transfer_time;
+    return state;
+}
+
+exchange::ParticleState Simulation::state() const {
+    return stamped(body_.points, clock_.time, clock_.step);
+}
+
+exchange::ParticleState Simulation::last_good_state() const {
+    return stamped(last_good_, last_good_time_, last_good_step_);
+}
+
+void Simulation::break_down(const std::string& complaint) const {
+    std::ostringstream text;
+    text << "numerical breakdown at t = " << clock_.time << " s (step " << clock_.step
+         << "): " << complaint;
+    throw fault::Breakdown(text.str());
+}
+
+}  // namespace breach::mpm

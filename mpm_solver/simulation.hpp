@@ -1,0 +1,80 @@
+// A run above the time step: when to look, to write, to stop. One Simulation is all that a
+// checkpoint has to hold.
+#pragma once
+
+#include "core/process/session.hpp"
+#include "mpm_solver/body.hpp"
+#include "mpm_solver/energy.hpp"
+#include "mpm_solver/guard.hpp"
+#include "mpm_solver/history.hpp"
+#include "mpm_solver/overlap.hpp"
+#include "mpm_solver/runout.hpp"
+#include "mpm_solver/sort.hpp"
+
+namespace breach::mpm {
+
+struct Clock {
+    double time = 0.0;  ///< [s]
+    double dt = 0.0;    ///< last step [s]
+    double dt_min = 0.0;
+    double dt_max = 0.0;
+    std::int64_t step = 0;
+    std::int64_t frames = 0;     ///< snapshots written so far
+    std::int64_t looks = 0;      ///< telemetry lines due so far
+    double transfer_time = 0.0;  ///< on the FEM's clock [s]
+};
+
+/// What the run is measured against.
+struct Start {
+    Energy energy;
+    double mobile_volume = 0.0;  ///< [m3]
+};
+
+enum class Verdict { goes_on, rests, time_is_up };
+
+class Simulation {
+  public:
+    /// `body` at time 0.
+    Simulation(const scene::Scene& scene, Body body, double transfer_time);
+    /// From a checkpoint.
+    Simulation(const scene::Scene& scene, Body body, Clock clock, Start start, History history);
+
+    /// One step; never past the next snapshot or the end. Throws Breakdown.
+    void advance();
+    /// Is a snapshot (a look) due at this time?
+    bool frame_due() const;
+    bool look_due() const;
+    void frame_taken() { ++clock_.frames; }
+    /// Measures, checks the budget (throws Breakdown) and adds a row to the history.
+    const Row& look();
+    Verdict verdict() const;
+
+    const Body& body() const { return body_; }
+    const Clock& clock() const { return clock_; }
+    const Start& start() const { return start_; }
+    const History& history() const { return history_; }
+    /// The points now, and at the last look that found all well.
+    exchange::ParticleState state() const;
+    exchange::ParticleState last_good_state() const;
+
+  private:
+    double next_step() const;
+    exchange::ParticleState stamped(const Points& points, double time, std::int64_t step) const;
+    [[noreturn]] void break_down(const std::string& complaint) const;
+
+    const scene::Scene& scene_;
+    const scene::Mpm& mpm_;
+    Body body_;
+    Clock clock_;
+    Start start_;
+    History history_;
+    std::vector<std::uint8_t> mobile_;
+    OverlapMeter overlap_;
+    Sorter sorter_;
+    Limits limits_;
+    Points last_good_;
+    double last_good_time_;
+    std::int64_t last_good_step_;
+};
+
+}  // namespace breach::mpm
