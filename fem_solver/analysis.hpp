@@ -1,0 +1,64 @@
+// The stages of an analysis in their order: how large each step is, when it is cut, what is written
+// when, and how it ends.
+#pragma once
+
+#include "core/process/phase.hpp"
+#include "fem_solver/checkpoint.hpp"
+#include "fem_solver/step.hpp"
+
+namespace breach::fem {
+
+class Analysis {
+  public:
+    /// Goes on from the session's checkpoint when it is resumed and there is one.
+    Analysis(process::Session& session, Model model);
+
+    /// All stages. Throws Breakdown when the mesh is entangled or the least step does not converge;
+    /// the last good state is then in a snapshot and in the checkpoint.
+    process::Outcome run();
+
+    const Model& model() const { return model_; }
+    const Motion& motion() const { return motion_; }
+    const Position& position() const { return position_; }
+    const std::vector<Reading>& history() const { return history_; }
+
+  private:
+    enum class StageEnd { reached, stopped };
+
+    StageEnd static_stage(const scene::Stage& stage);
+    StageEnd dynamic_stage(const scene::Stage& stage);
+    void make_newton(const scene::Stage& stage, const NewtonCounts& counts);
+    void begin_stage(const scene::Stage& stage);
+    double next_step_size(double stage_end) const;
+    double next_stop(double stage_end) const;
+    void accept(double dt, double stop, const NewtonOutcome& outcome);
+    void cut_step(const scene::Stage& stage, const NewtonOutcome& outcome);
+    void write_due_outputs(double dt, const NewtonOutcome& outcome);
+    void write_snapshot();
+    void write_checkpoint();
+    void write_history();
+    void resume();
+    bool checkpoint_is_due() const;
+    [[noreturn]] void give_up(const std::string& cause);
+    void report_facts(const std::string& end);
+    double stage_begin(std::int64_t stage) const;
+
+    process::Session& session_;
+    const scene::Fem& fem_;
+    Model model_;
+    Seconds seconds_;
+    Position position_;
+    Motion motion_, trial_;
+    Prediction prediction_;
+    std::vector<materials::Law> laws_;
+    std::optional<Newton> newton_;
+    NewtonCounts counts_;  ///< of the stages before this one
+    Distortion distortion_;
+    std::vector<Reading> history_;
+    std::size_t crest_node_;
+    double span_ = 0.0;                ///< all dynamic stages [s]
+    double checkpoint_written_ = 0.0;  ///< wall clock [s]
+    double last_snapshot_ = -1.0;      ///< its time [s]
+};
+
+}  // namespace breach::fem

@@ -1,0 +1,127 @@
+// What an analysis writes: telemetry, history, snapshots, checkpoints and the facts of its end.
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fem_solver/analysis.hpp"
+#include "fem_solver/snapshot.hpp"
+
+namespace breach::fem {
+
+namespace {
+constexpr double checkpoint_interval = 20.0;  // wall clock [s]
+}
+
+void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
+    const double slack = 1e-9 * std::max(fem_.telemetry_interval, span_);
+    if (position_.time >= position_.next_telemetry - slack) {
+        const Stopwatch watch(seconds_.output);
+        Reading reading =
+            read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
+        reading.step = static_cast<double>(position_.step);
+        reading.time = position_.time;
+        reading.dt = dt;
+        reading.iterations = outcome.iterations;
+        reading.residual = outcome.residual;
+        reading.external_work = position_.external_work;
+        reading.internal_work = position_.internal_work;
+        history_.push_back(reading);
+        session_.telemetry(telemetry_line(reading));
+        position_.telemetry_lines = session_.telemetry_lines();
+        const double interval = fem_.telemetry_interval;
+        position_.next_telemetry =
+            interval > 0.0 ? interval * (std::floor((position_.time + slack) / interval) + 1.0)
+                           : position_.time;
+    }
+    const auto& times = fem_.snapshot_times;
+    const auto next = static_cast<std::size_t>(position_.next_snapshot);
+    if (next < times.size() && position_.time >= times[next]) {
+        ++position_.next_snapshot;
+        write_snapshot();
+    }
+}
+
+void Analysis::write_snapshot() {
+    const Stopwatch watch(seconds_.output);
+    const auto file = session_.output(snapshot_name(position_.time));
+    exchange::write_mesh_snapshot(
+        file, snapshot_of(session_.scene(), model_, motion_, position_.time, position_.step),
+        session_.provenance());
+    session_.announce(file, {{"time", position_.time}});
+    last_snapshot_ = position_.time;
+}
+
+bool Analysis::checkpoint_is_due() const {
+    return session_.wall_seconds() - checkpoint_written_ >= checkpoint_interval;
+}
+
+void Analysis::write_checkpoint() {
+    const Stopwatch watch(seconds_.output);
+    Checkpoint checkpoint{position_, motion_, newton_->memory(), newton_->counts(), history_};
+    exchange::write_archive(session_.output("checkpoint.h5"),
+                            checkpoint_archive(checkpoint, session_.scene()),
+                            session_.provenance());
+    checkpoint_written_ = session_.wall_seconds();
+}
+
+void Analysis::resume() {
+    const auto file = session_.output("checkpoint.h5");
+    Checkpoint checkpoint =
+        checkpoint_from(exchange::read_archive(file, checkpoint_kind, checkpoint_version),
+                        session_.scene(), model_, file.string());
+    position_ = checkpoint.position;
+    motion_ = std::move(checkpoint.motion);
+    trial_ = motion_;
+    history_ = std::move(checkpoint.history);
+    session_.truncate_telemetry(position_.telemetry_lines);
+    make_newton(fem_.stages[position_.stage], checkpoint.counts);
+    newton_->restore(checkpoint.newton);
+    distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
+    spdlog::info("goes on at {} s (step {})", position_.time, position_.step);
+}
+
+void Analysis::write_history() {
+    exchange::write_archive(session_.output("history.h5"), history_archive(history_),
+                            session_.provenance());
+}
+
+/// Saves the last good state (the accepted one: `trial_` is dropped) and ends the run.
+void Analysis::give_up(const std::string& cause) {
+    if (last_snapshot_ != position_.time) write_snapshot();
+    write_checkpoint();
+    write_history();
+    throw fault::Breakdown(cause + "; the last good state is at " + std::to_string(position_.time) +
+                           " s in " + snapshot_name(position_.time));
+}
+
+void Analysis::report_facts(const std::string& end) {
+    const Quality quality = quality_of(model_.mesh);
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < motion_.u.size(); i += 2) {
+        largest = std::max(largest, motion_.u.segment<2>(i).norm());
+    }
+    auto& facts = session_.result();
+    facts["end"] = end;
+    facts["end_time"] = position_.time;
+    facts["steps"] = position_.step;
+    facts["cut_steps"] = position_.cut_steps;
+    facts["iterations"] = counts_.iterations;
+    facts["factorisations"] = counts_.factorisations;
+    facts["elastic_fallbacks"] = counts_.elastic_fallbacks;
+    facts["elements"] = model_.mesh.quads.size();
+    facts["nodes"] = model_.mesh.nodes.size();
+    facts["unknowns"] = model_.unknowns.count;
+    facts["largest_displacement"] = largest;
+    facts["mesh"] = {{"shortest_edge", quality.shortest_edge},
+                     {"longest_edge", quality.longest_edge},
+                     {"smallest_angle_deg", quality.smallest_angle * 180.0 / std::numbers::pi},
+                     {"largest_aspect", quality.largest_aspect},
+                     {"least_jacobian", quality.least_jacobian}};
+    facts["seconds"] = {{"assembly", seconds_.assembly},
+                        {"law", seconds_.law},
+                        {"solve", seconds_.solve},
+                        {"output", seconds_.output}};
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,130 @@
+#include "fem_solver/checkpoint.hpp"
+
+namespace breach::fem {
+namespace {
+
+using Reals = std::vector<double>;
+
+Reals flat(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+
+Eigen::VectorXd vector_from(const Reals& v) {
+    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+}
+
+constexpr const char* history_prefix = "history.";
+
+void put(exchange::Archive& archive, const Position& p) {
+    archive.reals["position"] = {p.load,           p.load_step,     p.time,         p.dt,
+                                 p.next_telemetry, p.external_work, p.internal_work};
+    archive.integers["position"] = {p.stage,         p.easy_steps,      p.step,        p.cut_steps,
+                                    p.next_snapshot, p.telemetry_lines, p.stage_begun, p.moving};
+}
+
+Position position_from(const exchange::Archive& archive) {
+    const Reals& r = archive.reals.at("position");
+    const auto& i = archive.integers.at("position");
+    return {.stage = i.at(0),
+            .load = r.at(0),
+            .load_step = r.at(1),
+            .time = r.at(2),
+            .dt = r.at(3),
+            .easy_steps = i.at(1),
+            .step = i.at(2),
+            .cut_steps = i.at(3),
+            .next_snapshot = i.at(4),
+            .next_telemetry = r.at(4),
+            .external_work = r.at(5),
+            .internal_work = r.at(6),
+            .telemetry_lines = i.at(5),
+            .stage_begun = i.at(6) != 0,
+            .moving = i.at(7) != 0};
+}
+
+void put(exchange::Archive& archive, const Motion& motion) {
+    archive.reals["u"] = flat(motion.u);
+    archive.reals["v"] = flat(motion.v);
+    archive.reals["a"] = flat(motion.a);
+    archive.reals["force"] = flat(motion.force);
+    Reals stress, epsilon_q, strain;
+    for (const State& point : motion.points) {
+        stress.insert(stress.end(), point.sigma.begin(), point.sigma.end());
+        epsilon_q.push_back(point.epsilon_q);
+    }
+    for (const Voigt& epsilon : motion.strain) {
+        strain.insert(strain.end(), epsilon.begin(), epsilon.end());
+    }
+    archive.reals["stress"] = std::move(stress);
+    archive.reals["epsilon_q"] = std::move(epsilon_q);
+    archive.reals["strain"] = std::move(strain);
+}
+
+Motion motion_from(const exchange::Archive& archive) {
+    Motion motion;
+    motion.u = vector_from(archive.reals.at("u"));
+    motion.v = vector_from(archive.reals.at("v"));
+    motion.a = vector_from(archive.reals.at("a"));
+    motion.force = vector_from(archive.reals.at("force"));
+    const Reals& stress = archive.reals.at("stress");
+    const Reals& strain = archive.reals.at("strain");
+    const Reals& epsilon_q = archive.reals.at("epsilon_q");
+    for (std::size_t p = 0; p < epsilon_q.size(); ++p) {
+        motion.points.push_back({Voigt(&stress.at(4 * p)), epsilon_q[p]});
+        motion.strain.push_back(Voigt(&strain.at(4 * p)));
+    }
+    return motion;
+}
+
+}  // namespace
+
+exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene) {
+    exchange::Archive archive;
+    archive.kind = checkpoint_kind;
+    archive.version = checkpoint_version;
+    archive.texts["scene"] = exchange::sha256_of_text(scene.completed);
+    put(archive, checkpoint.position);
+    put(archive, checkpoint.motion);
+    const NewtonMemory& newton = checkpoint.newton;
+    archive.reals["newton.values"] = newton.values;
+    archive.reals["newton.rule"] = {newton.rule.c_a, newton.rule.c_v};
+    archive.integers["newton.state"] = {newton.has_matrix, newton.last_iterations};
+    const NewtonCounts& counts = checkpoint.counts;
+    archive.integers["newton.counts"] = {counts.iterations, counts.factorisations,
+                                         counts.elastic_fallbacks};
+    for (auto& [name, values] : history_archive(checkpoint.history).reals) {
+        archive.reals[history_prefix + name] = values;
+    }
+    return archive;
+}
+
+Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
+                           const Model& model, const std::string& file) {
+    const auto dofs = static_cast<std::size_t>(model.dofs());
+    const bool same_scene = archive.texts.at("scene") == exchange::sha256_of_text(scene.completed);
+    if (!same_scene || archive.reals.at("u").size() != dofs ||
+        archive.reals.at("epsilon_q").size() != model.points()) {
+        throw fault::BadInput(
+            file, {{"/breachline/texts/scene", "the checkpoint belongs to another scene",
+                    "resume with the same scene, or start afresh"}});
+    }
+    Checkpoint c;
+    c.position = position_from(archive);
+    c.motion = motion_from(archive);
+    c.newton.values = archive.reals.at("newton.values");
+    const Reals& rule = archive.reals.at("newton.rule");
+    c.newton.rule = {rule.at(0), rule.at(1)};
+    const auto& state = archive.integers.at("newton.state");
+    c.newton.has_matrix = state.at(0) != 0;
+    c.newton.last_iterations = static_cast<int>(state.at(1));
+    const auto& counts = archive.integers.at("newton.counts");
+    c.counts = {counts.at(0), counts.at(1), counts.at(2)};
+    exchange::Archive history;
+    for (const auto& [name, values] : archive.reals) {
+        if (name.starts_with(history_prefix)) {
+            history.reals[name.substr(std::string(history_prefix).size())] = values;
+        }
+    }
+    c.history = history_from(history);
+    return c;
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,47 @@
+// Everything an analysis needs to go on as if it had never stopped, and its file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "fem_solver/monitors.hpp"
+#include "fem_solver/newton.hpp"
+
+namespace breach::fem {
+
+/// Where the analysis is.
+struct Position {
+    std::int64_t stage = 0;
+    double load = 0.0;            ///< static stage: share of gravity in place [-]
+    double load_step = 1.0;       ///< static stage: share applied per step [-]
+    double time = 0.0;            ///< since the first dynamic stage began [s]
+    double dt = 0.0;              ///< wanted time step now [s]; 0: the stage's own
+    std::int64_t easy_steps = 0;  ///< in a row
+    std::int64_t step = 0;
+    std::int64_t cut_steps = 0;
+    std::int64_t next_snapshot = 0;
+    double next_telemetry = 0.0;  ///< [s]
+    double external_work = 0.0;   ///< [J]
+    double internal_work = 0.0;   ///< [J]
+    std::int64_t telemetry_lines = 0;
+    bool stage_begun = false;  ///< the stage's laws are in force
+    bool moving = false;       ///< a dynamic stage has begun
+};
+
+struct Checkpoint {
+    Position position;
+    Motion motion;
+    NewtonMemory newton;
+    NewtonCounts counts;
+    std::vector<Reading> history;
+};
+
+exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene);
+/// Throws BadInput when the archive belongs to another scene or mesh.
+Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
+                           const Model& model, const std::string& file);
+
+inline constexpr const char* checkpoint_kind = "fem_checkpoint";
+inline constexpr int checkpoint_version = 1;
+
+}  // namespace breach::fem

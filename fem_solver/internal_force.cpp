@@ -1,0 +1,263 @@
+#include "fem_solver/internal_force.hpp"
+
+#include <Eigen/LU>
+#include <chrono>
+#include <cmath>
+
+namespace breach::fem {
+
+using mechanics::Matrix2;
+using mechanics::Matrix4;
+
+namespace {
+
+double now() {
+    const auto t = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(t).count();
+}
+
+Voigt rotated_strain(Voigt epsilon, double angle) {
+    epsilon[3] *= 0.5;  // engineering to tensor shear and back
+    epsilon = mechanics::rotated_stress(epsilon, angle);
+    epsilon[3] *= 2.0;
+    return epsilon;
+}
+
+Eigen::Matrix3d in_plane(const Matrix4& D) {
+    static constexpr int at[3] = {0, 1, 3};
+    Eigen::Matrix3d C;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) C(i, j) = D(at[i], at[j]);
+    }
+    return C;
+}
+
+Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
+    const Eigen::Vector3d e = B * d_u;
+    return {e[0], e[1], 0.0, e[2]};
+}
+
+}  // namespace
+
+Stopwatch::Stopwatch(double& total) : total_(total), began_(now()) {}
+Stopwatch::~Stopwatch() { total_ += now() - began_; }
+
+InternalForce::InternalForce(const Model& model, Seconds& seconds)
+    : model_(model), seconds_(seconds) {
+    d_epsilon_.resize(model.points());
+    tangent_.resize(model.points());
+    if (model.kinematics == scene::Kinematics::updated_lagrangian) {
+        half_angle_.resize(model.points());
+        current_.resize(model.mesh.quads.size());
+        gradients_.resize(model.mesh.quads.size());
+    }
+}
+
+const Quadrature& InternalForce::quadrature(std::size_t element) const {
+    return current_.empty() ? model_.reference[element] : current_[element];
+}
+
+Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
+    const std::size_t elements = model_.mesh.quads.size();
+    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
+        for (std::size_t e = 0; e < elements; ++e) {
+            if (moving_strains(e, old, trial) == Geometry::degenerate) return Geometry::degenerate;
+        }
+        return Geometry::sound;
+    }
+    for (std::size_t e = 0; e < elements; ++e) {
+        const Quad& quad = model_.mesh.quads[e];
+        const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
+        for (std::size_t g = 0; g < gauss_points; ++g) {
+            d_epsilon_[e * gauss_points + g] = strain_of(model_.reference[e].B[g], d_u);
+        }
+    }
+    return Geometry::sound;
+}
+
+/// Strain increment and rotation from the mid-configuration: both are exact for a rigid rotation
+/// (Hughes & Winget 1980, with the exact angle). Leaves the quadrature of the end configuration for
+/// the forces.
+Geometry InternalForce::moving_strains(std::size_t element, const Motion& old,
+                                       const Motion& trial) {
+    const Quad& quad = model_.mesh.quads[element];
+    const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
+    const Corners end = displaced_corners(model_, element, trial.u);
+    const Corners middle = end - 0.5 * Eigen::Map<const Corners>(d_u.data());
+    Gradients& gradients = gradients_[element];
+    Quadrature& current = current_[element];
+    evaluate_gradients(middle, model_.thickness, gradients);
+    for (const double weight : gradients.weight) {
+        if (!(weight > 0.0)) return Geometry::degenerate;
+    }
+    evaluate_quadrature(gradients, current);
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+        const std::size_t p = element * gauss_points + g;
+        d_epsilon_[p] = strain_of(current.B[g], d_u);
+        const Matrix2 L = Eigen::Map<const Corners>(d_u.data()) * gradients.dN[g].transpose();
+        const Matrix2 half = 0.5 * L;
+        const Matrix2 F = (Matrix2::Identity() - half).inverse() * (Matrix2::Identity() + half);
+        half_angle_[p] = 0.5 * mechanics::rotation_angle(F);
+    }
+    evaluate_gradients(end, model_.thickness, gradients);
+    for (const double weight : gradients.weight) {
+        if (!(weight > 0.0)) return Geometry::degenerate;
+    }
+    evaluate_quadrature(gradients, current);
+    return Geometry::sound;
+}
+
+template <typename Law>
+void InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
+                                   Motion& trial) {
+    const std::size_t end = (zone.first + zone.count) * gauss_points;
+    const bool turns = !half_angle_.empty();
+    for (std::size_t p = zone.first * gauss_points; p < end; ++p) {
+        if (!turns) {
+            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
+            continue;
+        }
+        State turned = old.points[p];
+        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+        turned = materials::integrate(law, turned, d_epsilon_[p]).state;
+        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+        trial.points[p] = turned;
+    }
+}
+
+template <typename Law>
+void InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
+                                                Motion& trial) {
+    const std::size_t end = (zone.first + zone.count) * gauss_points;
+    const bool turns = !half_angle_.empty();
+    Matrix4 D;
+    for (std::size_t p = zone.first * gauss_points; p < end; ++p) {
+        State start = old.points[p];
+        if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
+        State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
+        if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
+        trial.points[p] = reached;
+        tangent_[p] = in_plane(D);
+    }
+}
+
+void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
+    if (half_angle_.empty()) {
+        for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
+            trial.strain[p] = old.strain[p] + d_epsilon_[p];
+        }
+        return;
+    }
+    for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
+        const double half = half_angle_[p];
+        const Voigt turned = rotated_strain(old.strain[p], half) + d_epsilon_[p];
+        trial.strain[p] = rotated_strain(turned, half);
+    }
+}
+
+void InternalForce::force_pass(Motion& trial) const {
+    trial.force.setZero();
+    for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
+        const Quadrature& q = quadrature(e);
+        Dofs8 f = Dofs8::Zero();
+        for (std::size_t g = 0; g < gauss_points; ++g) {
+            const Voigt& s = trial.points[e * gauss_points + g].sigma;
+            const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
+            f.noalias() += q.B[g].transpose() * sigma;
+        }
+        for (int k = 0; k < 4; ++k) {
+            const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
+            trial.force.segment<2>(d) += f.segment<2>(2 * k);
+        }
+    }
+}
+
+void InternalForce::stiffness_pass(const Motion& trial, LinearSystem& A) const {
+    const bool symmetric = A.symmetry() == Symmetry::symmetric;
+    for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
+        const Quadrature& q = quadrature(e);
+        Stiffness K = Stiffness::Zero();
+        for (std::size_t g = 0; g < gauss_points; ++g) {
+            const std::size_t p = e * gauss_points + g;
+            Tangent C = q.weight[g] * tangent_[p];
+            if (symmetric) C = (0.5 * (C + C.transpose())).eval();
+            const StrainOperator CB = C * q.B[g];
+            K.noalias() += q.B[g].transpose() * CB;
+            if (current_.empty()) continue;
+            const Voigt& s = trial.points[p].sigma;
+            Matrix2 sigma;
+            sigma << s[0], s[3], s[3], s[1];
+            const Gradient& dN = gradients_[e].dN[g];
+            const Eigen::Matrix4d initial = q.weight[g] * dN.transpose() * sigma * dN;
+            for (int j = 0; j < 4; ++j) {
+                for (int i = 0; i < 4; ++i) {
+                    K(2 * i, 2 * j) += initial(i, j);
+                    K(2 * i + 1, 2 * j + 1) += initial(i, j);
+                }
+            }
+        }
+        A.add_element(e, K);
+    }
+}
+
+Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const Motion& old,
+                                 Motion& trial) {
+    {
+        const Stopwatch watch(seconds_.assembly);
+        if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    }
+    {
+        const Stopwatch watch(seconds_.law);
+        for (std::size_t z = 0; z < model_.zones.size(); ++z) {
+            std::visit([&](const auto& law) { integrate_zone(law, model_.zones[z], old, trial); },
+                       laws[z]);
+        }
+    }
+    const Stopwatch watch(seconds_.assembly);
+    accumulate_strain(old, trial);
+    force_pass(trial);
+    return Geometry::sound;
+}
+
+Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const Motion& old,
+                                 Motion& trial, LinearSystem& A) {
+    {
+        const Stopwatch watch(seconds_.assembly);
+        if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    }
+    {
+        const Stopwatch watch(seconds_.law);
+        for (std::size_t z = 0; z < model_.zones.size(); ++z) {
+            std::visit(
+                [&](const auto& law) {
+                    integrate_zone_with_tangent(law, model_.zones[z], old, trial);
+                },
+                laws[z]);
+        }
+    }
+    const Stopwatch watch(seconds_.assembly);
+    accumulate_strain(old, trial);
+    force_pass(trial);
+    stiffness_pass(trial, A);
+    return Geometry::sound;
+}
+
+Stiffness elastic_stiffness(const Quadrature& quadrature, const mechanics::Elasticity& elasticity) {
+    const Eigen::Matrix3d C = in_plane(mechanics::elastic_stiffness(elasticity));
+    Stiffness K = Stiffness::Zero();
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+        K += quadrature.weight[g] * quadrature.B[g].transpose() * C * quadrature.B[g];
+    }
+    return K;
+}
+
+void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const {
+    for (const Zone& zone : model_.zones) {
+        const mechanics::Elasticity& elasticity = materials::elasticity(zone.law);
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            A.add_element(e, factor * elastic_stiffness(model_.reference[e], elasticity));
+        }
+    }
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,79 @@
+// From displacements to stresses to nodal forces, and the tangent: strain pass, law pass, force
+// pass. Small strains on the undeformed mesh, or updated Lagrangian on the moving one.
+#pragma once
+
+#include <vector>
+
+#include "fem_solver/linear_system.hpp"
+#include "fem_solver/model.hpp"
+
+namespace breach::fem {
+
+/// Wall seconds spent per kind of work.
+struct Seconds {
+    double assembly = 0.0;
+    double law = 0.0;
+    double solve = 0.0;
+    double output = 0.0;
+};
+
+/// Adds the time from its construction to its end to one of the counters.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& total);
+    ~Stopwatch();
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& total_;
+    double began_;
+};
+
+enum class Geometry {
+    sound,
+    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh: no forces were computed
+};
+
+class InternalForce {
+  public:
+    InternalForce(const Model& model, Seconds& seconds);
+
+    /// Stresses, strains and nodal forces of `trial` (points, strain, force) at displacement
+    /// trial.u, coming from `old`.
+    Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial);
+    /// The same, and adds the consistent tangent (symmetrised if A is symmetric) to A.
+    Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
+                      LinearSystem& A);
+    /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
+    void add_elastic_stiffness(double factor, LinearSystem& A) const;
+
+  private:
+    using Tangent = Eigen::Matrix3d;  ///< rows and columns xx, yy, xy
+
+    Geometry strain_pass(const Motion& old, const Motion& trial);
+    Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
+    template <typename Law>
+    void integrate_zone(const Law& law, const Zone& zone, const Motion& old, Motion& trial);
+    template <typename Law>
+    void integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
+                                     Motion& trial);
+    void accumulate_strain(const Motion& old, Motion& trial) const;
+    void force_pass(Motion& trial) const;
+    void stiffness_pass(const Motion& trial, LinearSystem& A) const;
+    const Quadrature& quadrature(std::size_t element) const;
+
+    const Model& model_;
+    Seconds& seconds_;
+    std::vector<Voigt> d_epsilon_;  ///< [points]
+    std::vector<Tangent> tangent_;  ///< [points]
+    std::vector<double>
+        half_angle_;  ///< updated Lagrangian: [points] half the rotation of the step [rad]
+    std::vector<Quadrature> current_;   ///< updated Lagrangian: [elements]
+    std::vector<Gradients> gradients_;  ///< updated Lagrangian: [elements]
+};
+
+/// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].
+Stiffness elastic_stiffness(const Quadrature& quadrature, const mechanics::Elasticity& elasticity);
+
+}  // namespace breach::fem

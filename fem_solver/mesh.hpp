@@ -1,0 +1,69 @@
+// The finite-element mesh: nodes, quads and their regions, and the three ways to get one (mapped
+// blocks, gmsh, a .msh file). No unknowns, no physics.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace breach::fem {
+
+using mechanics::Vec2;
+using Quad = std::array<std::int32_t, 4>;     ///< corners, counter-clockwise
+using Corners = Eigen::Matrix<double, 2, 4>;  ///< their coordinates, one column each [m]
+
+struct Mesh {
+    std::vector<Vec2> nodes;                      ///< [m]
+    std::vector<Quad> quads;                      ///< sorted by region
+    std::vector<std::int32_t> region_of_element;  ///< ascending
+};
+
+Corners corners_of(const Mesh& mesh, std::size_t element);
+
+/// The mesh that the scene asks for. `folder`: where gmsh's input and output are kept. Throws
+/// BadInput (regions that do not fit together, a mesh that is not all quads), IoError (gmsh
+/// missing, file not readable).
+Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder);
+
+/// Quads mapped from the unit square onto the region by transfinite interpolation of its four
+/// sides. A side's polyline vertices become nodes; its divisions are shared out by length. Throws
+/// BadInput when a side has more segments than divisions.
+Mesh map_block(const scene::Region& region, std::int32_t index);
+
+/// One mesh from several: nodes closer than a millionth of the shortest edge become one. Throws
+/// BadInput with every hanging node and gap between regions, naming both.
+Mesh join(const std::vector<Mesh>& parts, const scene::Section& section);
+
+/// Meshes all regions with gmsh's command line; block regions stay structured. Needs `gmsh` on the
+/// PATH.
+Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& folder);
+
+/// Reads a gmsh text mesh (format 2.2 or 4.1) whose physical surfaces carry the regions' names.
+Mesh read_msh(const std::filesystem::path& file, const scene::Section& section);
+
+struct Quality {
+    double smallest_angle;  ///< [rad]
+    double largest_aspect;  ///< longest side over shortest, worst element [-]
+    double least_jacobian;  ///< least corner Jacobian over the element's mean, 1 for parallelograms
+                            ///< [-]
+    double shortest_edge;   ///< [m]
+    double longest_edge;    ///< [m]
+    std::size_t worst_element;  ///< where least_jacobian is
+};
+Quality quality_of(const Mesh& mesh);
+
+/// Side positions [0, 1] do not matter here: points along the side from corner k to corner k+1,
+/// divisions + 1 of them, with every polyline vertex among them. Empty when the side has more
+/// segments than divisions.
+std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
+                              int divisions);
+
+/// How many of a side's divisions each of its segments gets: at least one each, otherwise by
+/// length.
+std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions);
+
+}  // namespace breach::fem

@@ -1,0 +1,75 @@
+// What stays fixed during an analysis: mesh, unknowns, masses, weights and the laws of the zones;
+// and what changes: the motion of the nodes and the state of the Gauss points.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "fem_solver/element.hpp"
+
+namespace breach::fem {
+
+using materials::State;
+using mechanics::Voigt;
+
+/// Consecutive elements of one region: one law, one density.
+struct Zone {
+    std::size_t first;
+    std::size_t count;
+    double density;  ///< [kg/m3]
+    materials::Law law;
+};
+
+/// Unknown number of each nodal displacement (2 per node, x then y), -1 where it is held.
+struct Unknowns {
+    std::vector<std::int32_t> of_dof;
+    std::int32_t count = 0;
+};
+
+/// Damping matrix C = mass M + stiffness K_elastic.
+struct Rayleigh {
+    double mass = 0.0;       ///< [1/s]
+    double stiffness = 0.0;  ///< [s]
+};
+
+struct Model {
+    Mesh mesh;
+    std::vector<Zone> zones;
+    double thickness;  ///< [m]
+    Unknowns unknowns;
+    std::vector<double> nodal_mass;     ///< lumped by row sums [kg]
+    Eigen::VectorXd mass;               ///< the same, one entry per dof [kg]
+    Eigen::VectorXd external_force;     ///< weight and any other constant load, per dof [N]
+    std::vector<Quadrature> reference;  ///< of the undeformed elements
+    std::vector<double> volume;         ///< of the undeformed elements [m3]
+    scene::Kinematics kinematics = scene::Kinematics::small_strain;
+    Rayleigh rayleigh;
+
+    std::size_t points() const { return mesh.quads.size() * gauss_points; }
+    Eigen::Index dofs() const { return static_cast<Eigen::Index>(2 * mesh.nodes.size()); }
+};
+
+/// Throws BadInput when a support holds no node or nothing holds the body in x or y.
+Model build_model(const scene::Scene& scene, Mesh mesh);
+
+/// The zones' laws with every region linear elastic (its own E and nu), or the scene's.
+std::vector<materials::Law> laws_for(const Model& model, scene::StageLaws laws);
+
+/// All that a time step changes.
+struct Motion {
+    Eigen::VectorXd u;          ///< displacement [m], per dof
+    Eigen::VectorXd v;          ///< velocity [m/s]
+    Eigen::VectorXd a;          ///< acceleration [m/s2]
+    Eigen::VectorXd force;      ///< internal force of the stresses [N]
+    std::vector<State> points;  ///< element by element, Gauss point by Gauss point
+    std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
+};
+
+Motion at_rest(const Model& model);
+
+Dofs8 gather(const Quad& quad, const Eigen::VectorXd& values);
+/// Corners of an element displaced by u.
+Corners displaced_corners(const Model& model, std::size_t element, const Eigen::VectorXd& u);
+
+}  // namespace breach::fem

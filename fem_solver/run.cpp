@@ -1,0 +1,92 @@
+#include "fem_solver/run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "fem_solver/analysis.hpp"
+
+namespace breach::fem {
+
+process::Outcome run(process::Session& session) {
+    const scene::Scene& scene = session.scene();
+    Mesh mesh = build_mesh(scene, session.settings().output);
+    const Quality quality = quality_of(mesh);
+    spdlog::info(
+        "mesh: {} quads, {} nodes, edges {:.3g} to {:.3g} m, least angle {:.0f} deg, "
+        "largest aspect {:.1f}, least Jacobian {:.2f}",
+        mesh.quads.size(), mesh.nodes.size(), quality.shortest_edge, quality.longest_edge,
+        quality.smallest_angle * 180.0 / std::numbers::pi, quality.largest_aspect,
+        quality.least_jacobian);
+    Analysis analysis(session, build_model(scene, std::move(mesh)));
+    return analysis.run();
+}
+
+namespace {
+
+using process::PlanLine;
+using process::Use;
+
+template <typename Predicate>
+std::string regions_where(const scene::Scene& scene, Predicate predicate) {
+    std::string names;
+    for (const scene::Region& region : scene.section.regions) {
+        if (!predicate(region)) continue;
+        names += (names.empty() ? "" : ", ") + region.name;
+    }
+    return names;
+}
+
+PlanLine on_if(bool on, const std::string& feature, const std::string& why_on,
+               const std::string& why_not, const std::string& pointer) {
+    return {feature, on ? Use::on : Use::left_out, on ? why_on : why_not, pointer};
+}
+
+}  // namespace
+
+process::Plan plan(const scene::Scene& scene) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    const auto soil_of = [&](const scene::Region& region) {
+        return std::get_if<materials::MohrCoulomb>(&scene.materials[region.material].law);
+    };
+    const std::string plastic =
+        regions_where(scene, [&](const auto& region) { return soil_of(region) != nullptr; });
+    const std::string softening = regions_where(scene, [&](const auto& region) {
+        return soil_of(region) != nullptr && soil_of(region)->softening.has_value();
+    });
+    const std::string unstructured = regions_where(
+        scene, [](const auto& region) { return region.mesh == scene::RegionMesh::unstructured; });
+    const bool moves = std::ranges::any_of(
+        fem.stages, [](const auto& s) { return s.kind == scene::StageKind::dynamic; });
+    const bool large = fem.kinematics == scene::Kinematics::updated_lagrangian;
+    const bool damped = fem.rayleigh_mass > 0.0 || fem.rayleigh_stiffness > 0.0;
+    const bool meshes = !fem.mesh.msh_file && !unstructured.empty();
+    return {
+        on_if(scene.gravity > 0.0, "gravity", "the load of every stage", "gravity is zero",
+              "/gravity"),
+        on_if(!plastic.empty(), "plasticity", "in " + plastic, "every region is linear elastic",
+              "/materials"),
+        on_if(!softening.empty(), "softening",
+              "in " + softening + "; explicit per step, so shear bands are one element wide",
+              "no law softens", "/materials"),
+        on_if(moves, "inertia (Newmark)", "a stage is dynamic", "every stage is static",
+              "/fem/stages"),
+        on_if(large, "moving mesh (updated Lagrangian)", "asked for", "small strains",
+              "/fem/kinematics"),
+        on_if(damped, "Rayleigh damping", "asked for", "both coefficients are zero",
+              "/fem/rayleigh_mass"),
+        on_if(meshes, "gmsh", "meshes " + unstructured, "regions are mapped blocks or a .msh file",
+              "/section/regions"),
+        on_if(!fem.snapshot_times.empty(), "snapshots on the way",
+              std::to_string(fem.snapshot_times.size()) + " times", "only the end is kept",
+              "/fem/snapshot_times"),
+        {"pore pressure", Use::left_out, "scenes of this format are dry or drained", "/fem"},
+        {"absorbing base (dashpots)", Use::left_out, "no motion comes from below", "/fem"},
+        {"free-field columns", Use::left_out, "no motion comes from below", "/fem"},
+        {"base motion", Use::left_out, "the scene gives none", "/fem"},
+        {"liquefied layers", Use::left_out, "no pore pressure", "/fem"},
+    };
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,13 @@
+// fem_solver as a phase: its plan and its run.
+#pragma once
+
+#include "core/process/phase.hpp"
+
+namespace breach::fem {
+
+/// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
+process::Outcome run(process::Session& session);
+
+process::Plan plan(const scene::Scene& scene);
+
+}  // namespace breach::fem
