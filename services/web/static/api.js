@@ -1,0 +1,136 @@
+// The orchestrator's REST API as functions. Knows paths and shapes of answers; shows nothing.
+
+/// The server answered no: application/problem+json (RFC 9457), with one entry in `faults` per place at fault.
+export class Problem extends Error {
+    constructor(status, body) {
+        super(body.detail || body.title || `the server answered ${status}`);
+        this.status = status;
+        this.title = body.title ?? "";
+        this.faults = body.faults ?? [];
+    }
+}
+
+/// The server did not answer at all.
+export class Unreachable extends Error {}
+
+async function request(path, options = {}) {
+    let response;
+    try {
+        response = await fetch(path, { cache: "no-cache", ...options });
+    } catch (fault) {
+        if (fault.name === "AbortError") throw fault;
+        throw new Unreachable("the server does not answer");
+    }
+    if (response.ok) return response;
+    const body = await response.json().catch(() => ({}));
+    throw new Problem(response.status, body);
+}
+
+/// The body too may break off when the server goes away.
+async function body_of(response, kind) {
+    try {
+        return await response[kind]();
+    } catch (fault) {
+        if (fault.name === "AbortError" || fault instanceof SyntaxError) throw fault;
+        throw new Unreachable("the server went away in the middle of an answer");
+    }
+}
+
+const get_json = async (path, options) => body_of(await request(path, options), "json");
+
+function post_json(path, text) {
+    return get_json(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: text });
+}
+
+const path_of = (...parts) => "/v1/" + parts.map(encodeURIComponent).join("/");
+
+export const list_runs = async () => (await get_json("/v1/runs")).runs;
+export const read_run = (run) => get_json(path_of("runs", run));
+export const submit_study = (text) => post_json("/v1/runs", text);
+export const cancel_run = (run) => post_json(path_of("runs", run, "cancel"), "{}");
+export const read_results = (run) => get_json(path_of("runs", run, "results"));
+export const results_csv = (run) => path_of("runs", run, "results") + "?format=csv";
+export const artifact_path = (sha256) => path_of("artifacts", sha256);
+export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
+
+/// Telemetry lines from line number `from` on; {lines, next}. transfer_time: null for phases that have none.
+export function read_telemetry(run, phase, transfer_time, from) {
+    const query = new URLSearchParams({ phase, from });
+    if (transfer_time !== null) query.set("transfer_time", transfer_time);
+    return get_json(`${path_of("runs", run, "telemetry")}?${query}`);
+}
+
+/// Log text from byte `offset` on; {text, next}.
+export async function read_log(task, attempt, offset) {
+    const response = await request(`${path_of("tasks", task, "attempts", attempt, "log")}?offset=${offset}`);
+    const text = await body_of(response, "text");
+    const next = Number(response.headers.get("X-Next-Offset") ?? offset + new Blob([text]).size);
+    return { text, next };
+}
+
+export const list_frames = async (task) => (await get_json(path_of("tasks", task, "frames"))).frames;
+
+/// One snapshot as typed arrays, see decode_points. stride: every n-th point.
+export async function read_points(task, frame, stride, signal) {
+    const response = await request(`${path_of("tasks", task, "frames", frame, "points")}?stride=${stride}`,
+                                   { signal, cache: "default" });
+    return decode_points(await body_of(response, "arrayBuffer"));
+}
+
+/// One JSON line, padded to a multiple of 4 bytes, then `count` float32 per field, then 4 uint32 node indices per
+/// quad of a mesh. Returns {time, count, columns: {x, y, ...}, regions, quads: Uint32Array|null}; the arrays are
+/// views of `buffer`.
+export function decode_points(buffer) {
+    const all = new Uint8Array(buffer);
+    const line_end = all.indexOf(10);
+    if (line_end < 0) throw new Error("the snapshot has no header line");
+    const header = JSON.parse(new TextDecoder().decode(all.subarray(0, line_end)));
+    const needed = line_end + 1 + 4 * header.count * header.fields.length + 16 * (header.quads ?? 0);
+    if (all.length < needed) throw new Error(`the snapshot has ${all.length} bytes instead of ${needed}`);
+    let offset = line_end + 1;
+    const columns = {};
+    for (const field of header.fields) {
+        columns[field] = new Float32Array(buffer, offset, header.count);
+        offset += 4 * header.count;
+    }
+    const quads = header.quads ? new Uint32Array(buffer, offset, 4 * header.quads) : null;
+    return { time: header.time, count: header.count, columns, regions: header.regions ?? [], quads };
+}
+
+/// Studies that the server ships: [{name, title}]; none when it ships none.
+export async function list_examples() {
+    try {
+        return (await get_json("/v1/examples")).examples;
+    } catch (fault) {
+        if (fault instanceof Problem) return [];
+        throw fault;
+    }
+}
+export const read_example = (name) => get_json(path_of("examples", name));
+
+const longest_wait = 20; // [s] that the server may hold a long-poll open
+
+/// Follows the server's events for ever. tell.events(list) when something happened, tell.lost(seconds_to_retry) when
+/// the server does not answer, tell.found() when it answers (again).
+export async function follow_events(tell) {
+    let after = 0;
+    let pause = 1;
+    let wait = 0; // the first answers are history: taken at once
+    for (;;) {
+        try {
+            const answer = await get_json(`/v1/events?after=${after}&wait=${wait}`);
+            tell.found();
+            // A server that was set up anew counts from one again.
+            after = answer.next ?? 0;
+            if (answer.events.length > 0) tell.events(answer.events);
+            else wait = longest_wait;
+            pause = 1;
+        } catch (fault) {
+            if (fault instanceof Unreachable) tell.lost(pause);
+            else console.warn("events:", fault);
+            await new Promise((resume) => setTimeout(resume, 1000 * pause));
+            pause = Math.min(2 * pause, 8);
+            wait = 0;
+        }
+    }
+}

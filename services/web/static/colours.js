@@ -1,0 +1,32 @@
+// Colours of the particle viewer: a scale for numbers that reads on a white and on a dark ground, and distinct ones
+// for regions. 32-bit values are little-endian RGBA, as ImageData holds them.
+
+const anchors = ["#2b5ea7", "#2a8fb0", "#4fae86", "#d9a92c", "#dd6b20", "#b3132b"];
+const region_colours = ["#2f7fc1", "#c8791e", "#3a9c6e", "#b65a93", "#8a7a2e", "#6b6fc9"];
+
+const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+
+export function packed(hex) {
+    const [red, green, blue] = channels(hex);
+    return ((255 << 24) | (blue << 16) | (green << 8) | red) >>> 0;
+}
+
+export const scale_steps = 256;
+
+function blend(fraction) {
+    const at = fraction * (anchors.length - 1);
+    const left = Math.min(Math.floor(at), anchors.length - 2);
+    const share = at - left;
+    const [a, b] = [channels(anchors[left]), channels(anchors[left + 1])];
+    const mixed = a.map((value, i) => Math.round(value + share * (b[i] - value)));
+    return "#" + mixed.map((value) => value.toString(16).padStart(2, "0")).join("");
+}
+
+/// Scale for numbers, low to high.
+export const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
+export const scale_packed = Uint32Array.from(scale_css, packed);
+export const scale_gradient = `linear-gradient(to right, ${anchors.join(", ")})`;
+
+export const region_css = (index) => region_colours[index % region_colours.length];
+
+export const unknown_css = "#8b93a1";

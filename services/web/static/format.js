@@ -1,0 +1,84 @@
+// Numbers, times and states as people read them.
+
+/// Four significant digits, thin exponent for the very large and small; "–" for what is not there.
+export function number(value, digits = 4) {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    const size = Math.abs(value);
+    if (size !== 0 && (size >= 1e6 || size < 1e-3)) return value.toExponential(Math.max(digits - 2, 1));
+    return String(Number(value.toPrecision(digits)));
+}
+
+export const seconds = (value) => (Number.isFinite(value) ? `${number(value)} s` : "–");
+
+export function bytes(count) {
+    if (!Number.isFinite(count)) return "–";
+    const units = ["B", "KB", "MB", "GB"];
+    let unit = 0;
+    while (count >= 1000 && unit < units.length - 1) {
+        count /= 1000;
+        unit += 1;
+    }
+    return `${number(count, 3)} ${units[unit]}`;
+}
+
+/// "14:03:22", with the date when it is not today's.
+export function clock(iso) {
+    if (!iso) return "–";
+    const when = new Date(iso);
+    if (Number.isNaN(when.getTime())) return iso;
+    const time = when.toLocaleTimeString([], { hour12: false });
+    const today = new Date().toDateString() === when.toDateString();
+    return today ? time : `${when.toLocaleDateString()} ${time}`;
+}
+
+/// Wall time between two moments; the second may still be to come.
+export function elapsed(from, to) {
+    if (!from) return "–";
+    const span = Math.max(0, (to ? new Date(to) : new Date()) - new Date(from)) / 1000;
+    if (span < 60) return `${span.toFixed(span < 10 ? 1 : 0)} s`;
+    if (span < 3600) return `${Math.floor(span / 60)} min ${Math.floor(span % 60)} s`;
+    return `${Math.floor(span / 3600)} h ${Math.floor((span % 3600) / 60)} min`;
+}
+
+export const percent = (fraction) => `${Math.floor(100 * Math.min(1, Math.max(0, fraction ?? 0)))} %`;
+
+const ended = new Set(["succeeded", "cached", "partial", "failed", "cancelled", "skipped", "lost"]);
+export const is_active = (state) => !ended.has(state);
+
+/// One colour family and one sign per state: never told by colour alone.
+export function state_look(state) {
+    switch (state) {
+        case "succeeded":
+        case "cached":
+            return { family: "good", sign: "✓" };
+        case "partial":
+            return { family: "warn", sign: "◐" };
+        case "failed":
+        case "lost":
+            return { family: "bad", sign: "✕" };
+        case "cancelled":
+        case "cancelling":
+        case "skipped":
+            return { family: "off", sign: "⊘" };
+        case "starting":
+        case "running":
+        case "finalizing":
+            return { family: "busy", sign: "▶" };
+        default:
+            return { family: "idle", sign: "·" };
+    }
+}
+
+export function show_state(badge, state) {
+    const { family, sign } = state_look(state);
+    badge.className = `state ${family}`;
+    const text = `${sign} ${state}`;
+    if (badge.textContent !== text) badge.textContent = text;
+}
+
+/// "fem_solver", "mpm_solver, t_T = 1.5 s"
+export function task_name(task) {
+    return Number.isFinite(task.transfer_time)
+        ? `${task.phase}, t_T = ${number(task.transfer_time)} s`
+        : task.phase;
+}

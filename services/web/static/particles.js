@@ -1,0 +1,316 @@
+// The moving picture of a run: which task, which snapshot, coloured by what. Fetches snapshots and keeps the recent
+// ones; the drawing itself is in points.js.
+import * as api from "./api.js";
+import { region_css, scale_gradient } from "./colours.js";
+import { by_id, element, mirror, set_text } from "./dom.js";
+import { is_active, number, seconds } from "./format.js";
+import { extents_of, high_of, PointView, spacing_of } from "./points.js";
+
+const frames_per_second = 12;
+const kept_bytes = 192e6;       // snapshots kept in memory
+const easy_count = 250000;      // more points than this are thinned at first sight
+
+const known_fields = {
+    epsilon_q: { name: "deviatoric strain ε_q", unit: "–" },
+    speed: { name: "speed", unit: "m/s" },
+    region: { name: "region", unit: "" },
+    r_u: { name: "pore pressure ratio r_u", unit: "–" },
+};
+const field_name = (field) => known_fields[field]?.name ?? field;
+
+export class Particles {
+    constructor() {
+        this.view = new PointView(by_id("view"));
+        this.task = null;
+        this.frames = [];
+        this.at = -1;
+        this.kept = new Map(); // frame name -> {snapshot, bytes}, oldest first
+        this.highs = {};       // field -> upper end of its scale so far
+        by_id("view-source").addEventListener("change", (event) => this.open(event.target.value));
+        by_id("view-field").addEventListener("change", (event) => {
+            this.field = event.target.value;
+            this.paint();
+        });
+        by_id("view-stride").addEventListener("change", () => this.reload());
+        by_id("view-time").addEventListener("input", (event) => this.seek(Number(event.target.value)));
+        by_id("view-play").addEventListener("click", () => (this.playing ? this.pause() : this.play()));
+        by_id("view-in").addEventListener("click", () => this.view.zoom(1.25));
+        by_id("view-out").addEventListener("click", () => this.view.zoom(0.8));
+        by_id("view-fit").addEventListener("click", () => this.view.fit());
+        for (const id of ["view-low", "view-high"]) by_id(id).addEventListener("change", () => this.paint());
+        by_id("view-auto").addEventListener("change", () => this.paint());
+    }
+
+    /// Another run, or the same one further on.
+    async show(run) {
+        const same = this.run?.id === run.id;
+        this.run = run;
+        if (!same) this.close();
+        const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver");
+        mirror(by_id("view-source"), sources, (task) => task.id,
+               (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
+        const scene = run.study?.scene;
+        this.view.overlay = { outlines: (scene?.section?.regions ?? []).map((region) => region.polygon),
+                              toe: scene?.mpm?.runout?.toe ?? null };
+        const chosen = sources.find((task) => task.id === this.task) ?? first_with_frames(sources);
+        if (!chosen) return;
+        if (chosen.id !== this.task) await this.open(chosen.id);
+        else if (is_active(chosen.state) || this.frames.length === 0 || this.was_active) await this.extend();
+        this.was_active = is_active(chosen.state);
+    }
+
+    /// The particles of one transfer time, asked for elsewhere on the page.
+    show_transfer_time(transfer_time) {
+        const task = this.run?.tasks.find((candidate) => candidate.phase === "mpm_solver" &&
+                                                         candidate.transfer_time === transfer_time);
+        if (task) this.open(task.id);
+    }
+
+    close() {
+        this.pause();
+        this.task = null;
+        this.forget();
+        this.tell("");
+    }
+
+    forget() {
+        this.abort?.abort();
+        this.frames = [];
+        this.at = -1;
+        this.kept.clear();
+        this.highs = {};
+        this.box_frames = "";
+        this.view.snapshot = null;
+        this.view.box = null;
+        this.view.fitted = true;
+        this.view.redraw();
+        this.update_controls();
+    }
+
+    async open(task) {
+        this.pause();
+        this.task = task;
+        by_id("view-source").value = task;
+        this.forget();
+        await this.extend();
+    }
+
+    async reload() {
+        const at = this.at;
+        this.kept.clear();
+        await this.seek(at);
+    }
+
+    /// Looks for new snapshots; stays with the newest one when it was shown.
+    async extend() {
+        const task = this.task;
+        const frames = await api.list_frames(task);
+        if (task !== this.task) return;
+        const at_end = this.at === this.frames.length - 1;
+        const grew = frames.length !== this.frames.length;
+        this.frames = frames;
+        if (frames.length === 0) {
+            this.tell("No snapshots yet.");
+            this.update_controls();
+            return;
+        }
+        this.tell("");
+        if (grew) await this.find_box();
+        if (this.at < 0 || (at_end && grew && !this.playing)) await this.seek(frames.length - 1);
+        else this.update_controls();
+    }
+
+    /// The picture must not jump while it plays: it shows where the soil begins and where it ends.
+    async find_box() {
+        const ends = [this.frames[0].name, this.frames.at(-1).name];
+        if (ends.join() === this.box_frames) return;
+        const snapshots = [];
+        for (const name of new Set(ends)) snapshots.push(await this.fetch(name));
+        if (snapshots.some((snapshot) => !snapshot)) return;
+        this.box_frames = ends.join();
+        const box = extents_of(snapshots);
+        if (!box) return;
+        this.size_canvas(box);
+        this.view.set_box(box);
+        this.spacing = spacing_of(snapshots[0]);
+    }
+
+    /// A flat runout gets a flat picture.
+    size_canvas(box) {
+        const slenderness = (box.y[1] - box.y[0]) / Math.max(box.x[1] - box.x[0], 1e-9);
+        by_id("view").style.setProperty("--slenderness", Math.min(0.75, Math.max(0.2, slenderness * 1.04)));
+    }
+
+    stride() {
+        return Number(by_id("view-stride").value);
+    }
+
+    async fetch(name) {
+        const key = `${name}/${this.stride()}`;
+        if (this.kept.has(key)) {
+            const entry = this.kept.get(key);
+            this.kept.delete(key); // to the young end
+            this.kept.set(key, entry);
+            return entry.snapshot;
+        }
+        this.abort ??= new AbortController();
+        if (this.abort.signal.aborted) this.abort = new AbortController();
+        const task = this.task;
+        let snapshot;
+        try {
+            snapshot = await api.read_points(task, name, this.stride(), this.abort.signal);
+        } catch (fault) {
+            if (fault.name === "AbortError") return null;
+            throw fault;
+        }
+        if (task !== this.task) return null;
+        if (snapshot.count > easy_count && this.kept.size === 0 && this.stride() === 1) {
+            by_id("view-stride").value = "4";
+            return this.fetch(name);
+        }
+        this.keep(key, snapshot);
+        return snapshot;
+    }
+
+    keep(key, snapshot) {
+        this.kept.set(key, { snapshot, bytes: 4 * snapshot.count * Object.keys(snapshot.columns).length });
+        let total = [...this.kept.values()].reduce((sum, entry) => sum + entry.bytes, 0);
+        for (const [oldest, entry] of this.kept) {
+            if (total <= kept_bytes || this.kept.size <= 2) break;
+            this.kept.delete(oldest);
+            total -= entry.bytes;
+        }
+        for (const [field, values] of Object.entries(snapshot.columns)) {
+            if (["x", "y", "region"].includes(field)) continue;
+            this.highs[field] = Math.max(this.highs[field] ?? 0, high_of(values));
+        }
+    }
+
+    async seek(index) {
+        const frame = this.frames[index];
+        if (!frame) return;
+        this.at = index;
+        this.update_controls();
+        let snapshot;
+        try {
+            snapshot = await this.fetch(frame.name);
+        } catch (fault) {
+            this.pause();
+            this.tell(`Snapshot ${frame.name}: ${fault.message}`);
+            return;
+        }
+        if (!snapshot || this.at !== index) return;
+        this.snapshot = snapshot;
+        if (!this.view.box) await this.find_box();
+        this.paint();
+    }
+
+    // ---- playing
+
+    play() {
+        if (this.frames.length < 2) return;
+        if (this.at >= this.frames.length - 1) this.at = -1;
+        this.playing = true;
+        this.update_controls();
+        this.tick();
+    }
+
+    async tick() {
+        const began = performance.now();
+        await this.seek(this.at + 1);
+        if (!this.playing) return;
+        if (this.at >= this.frames.length - 1) {
+            this.pause();
+            return;
+        }
+        const rest = 1000 / frames_per_second - (performance.now() - began);
+        this.timer = setTimeout(() => this.tick(), Math.max(rest, 0));
+    }
+
+    pause() {
+        clearTimeout(this.timer);
+        this.playing = false;
+        this.update_controls();
+    }
+
+    // ---- what is seen around the canvas
+
+    tell(text) {
+        set_text(by_id("view-message"), text);
+    }
+
+    paint() {
+        if (!this.snapshot || this.at < 0) return;
+        const fields = Object.keys(this.snapshot.columns).filter((field) => field !== "x" && field !== "y");
+        mirror(by_id("view-field"), fields, (field) => field, (field) => element("option", { value: field }),
+               (option, field) => set_text(option, field_name(field)));
+        if (!fields.includes(this.field)) this.field = fields.includes("epsilon_q") ? "epsilon_q" : fields[0];
+        by_id("view-field").value = this.field;
+        const field = this.field;
+        const is_region = field === "region";
+        by_id("view-scale").hidden = is_region;
+        by_id("view-regions").hidden = !is_region;
+        const colour = is_region ? { field } : { field, ...this.scale_of(field) };
+        if (is_region) this.draw_regions();
+        else this.draw_scale(field, colour);
+        this.view.show(this.snapshot, colour, this.spacing ?? 1);
+        const what = this.snapshot.quads ? `${this.snapshot.quads.length / 4} elements` : `${this.snapshot.count} points`;
+        set_text(by_id("view-count"), what);
+        by_id("view").setAttribute("aria-label",
+            `Soil at ${seconds(this.snapshot.time)}, ${what}, coloured by ${field_name(field)}. ` +
+            "Arrow keys move, plus and minus zoom, zero shows all.");
+    }
+
+    scale_of(field) {
+        const auto = by_id("view-auto").checked;
+        const [low_input, high_input] = [by_id("view-low"), by_id("view-high")];
+        low_input.disabled = auto;
+        high_input.disabled = auto;
+        if (auto) {
+            low_input.value = "0";
+            high_input.value = number(this.highs[field] || 1, 2);
+        }
+        const low = Number(low_input.value);
+        const high = Number(high_input.value);
+        return high > low ? { low, high } : { low, high: low + 1 };
+    }
+
+    draw_scale(field, { low, high }) {
+        by_id("view-ramp").style.background = scale_gradient;
+        const unit = known_fields[field]?.unit ?? "";
+        set_text(by_id("view-range"), `${field_name(field)}${unit ? ` [${unit}]` : ""}, ${number(low)} to ${number(high)}`);
+    }
+
+    draw_regions() {
+        const names = this.snapshot.regions;
+        mirror(by_id("view-regions"), names, (name) => name,
+               (name) => element("li", {}, element("span", { class: "chip",
+                   style: `background: ${region_css(names.indexOf(name))}` }), ` ${name}`), () => {});
+    }
+
+    update_controls() {
+        const slider = by_id("view-time");
+        const last = Math.max(this.frames.length - 1, 0);
+        const frame = this.frames[this.at];
+        slider.max = last;
+        slider.value = Math.max(this.at, 0);
+        slider.disabled = last === 0;
+        slider.setAttribute("aria-valuetext", frame ? seconds(frame.time) : "no snapshot");
+        set_text(by_id("view-now"), frame ? `t = ${seconds(frame.time)}  (${this.at + 1} of ${this.frames.length})` : "–");
+        const play = by_id("view-play");
+        play.disabled = last === 0;
+        set_text(play, this.playing ? "❚❚ Pause" : "▶ Play");
+    }
+}
+
+function source_name(task) {
+    const what = task.phase === "fem_solver" ? "FEM mesh" : `MPM from t_T = ${number(task.transfer_time)} s`;
+    return ["succeeded", "cached"].includes(task.state) ? what : `${what} (${task.state})`;
+}
+
+/// The last finished runout says most; before there is one, whatever runs.
+function first_with_frames(tasks) {
+    return tasks.findLast((task) => task.phase === "mpm_solver" && !is_active(task.state) && task.state !== "skipped") ??
+           tasks.find((task) => task.phase === "mpm_solver" && task.state === "running") ??
+           tasks.find((task) => task.phase === "fem_solver");
+}

@@ -1,0 +1,349 @@
+// Draws one snapshot, particles or a mesh of quads, on a canvas: equal aspect, pan, zoom, axes in metres. Particles are
+// written as squares straight into the image's pixels, so 100,000 of them take a few milliseconds without a GPU.
+import { packed, region_css, scale_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
+import { number } from "./format.js";
+import { ticks } from "./plot.js";
+
+const edge = { left: 46, right: 10, top: 10, bottom: 34 }; // room for the axes [CSS px]
+
+/// {x: [low, high], y: [low, high]} of several snapshots; null without points.
+export function extents_of(snapshots) {
+    const box = { x: [Infinity, -Infinity], y: [Infinity, -Infinity] };
+    for (const { columns } of snapshots) {
+        for (const axis of ["x", "y"]) {
+            for (const value of columns[axis]) {
+                if (value < box[axis][0]) box[axis][0] = value;
+                if (value > box[axis][1]) box[axis][1] = value;
+            }
+        }
+    }
+    return box.x[0] <= box.x[1] ? box : null;
+}
+
+/// Typical distance to the nearest other point, from a sample [m]; the size that a particle is drawn with.
+export function spacing_of({ columns: { x, y }, count }) {
+    const sample = Math.min(60, count);
+    const nearest = [];
+    for (let k = 0; k < sample; k += 1) {
+        const i = Math.floor((k * count) / sample);
+        let least = Infinity;
+        for (let j = 0; j < count; j += 1) {
+            const distance = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2;
+            if (distance < least && j !== i) least = distance;
+        }
+        if (Number.isFinite(least)) nearest.push(Math.sqrt(least));
+    }
+    nearest.sort((a, b) => a - b);
+    return nearest.length ? nearest[Math.floor(nearest.length / 2)] : 1;
+}
+
+/// The value that only one in a hundred exceeds: a few wild points do not own the scale.
+export function high_of(values) {
+    const step = Math.max(1, Math.floor(values.length / 5000));
+    const sample = [];
+    for (let i = 0; i < values.length; i += step) if (Number.isFinite(values[i])) sample.push(values[i]);
+    sample.sort((a, b) => a - b);
+    return sample.length ? sample[Math.floor(0.99 * (sample.length - 1))] : 0;
+}
+
+export class PointView {
+    /// overlay: {outlines: [[[x, y], ...], ...], toe: [x, y] | null} drawn as thin lines over the soil.
+    constructor(canvas) {
+        this.canvas = canvas;
+        this.context = canvas.getContext("2d", { alpha: false });
+        this.snapshot = null;
+        this.overlay = { outlines: [], toe: null };
+        this.box = null;
+        this.fitted = true;
+        this.paint_time = 0; // [ms] of the last picture
+        new ResizeObserver(() => this.resize()).observe(canvas);
+        this.listen();
+    }
+
+    /// colour: {field, low, high} of numbers, or {field} with the snapshot's regions.
+    show(snapshot, colour, spacing) {
+        this.snapshot = snapshot;
+        this.colour = colour;
+        this.spacing = spacing;
+        this.redraw();
+    }
+
+    /// The part of the world that fit() shows.
+    set_box(box) {
+        this.box = box;
+        if (this.fitted) this.fit();
+    }
+
+    fit() {
+        this.fitted = true;
+        if (!this.box || !this.canvas.width) return;
+        const { width, height } = this.plot_area();
+        const span_x = Math.max(this.box.x[1] - this.box.x[0], 1e-6) * 1.04;
+        const span_y = Math.max(this.box.y[1] - this.box.y[0], 1e-6) * 1.08;
+        this.scale = Math.min(width / span_x, height / span_y);
+        this.centre = [(this.box.x[0] + this.box.x[1]) / 2, (this.box.y[0] + this.box.y[1]) / 2];
+        this.redraw();
+    }
+
+    zoom(factor, at = null) {
+        if (!this.scale) return;
+        const area = this.plot_area();
+        const [px, py] = at ?? [area.left + area.width / 2, area.top + area.height / 2];
+        const fixed = this.to_world(px, py);
+        this.scale *= factor;
+        const moved = this.to_world(px, py);
+        this.centre = [this.centre[0] + fixed[0] - moved[0], this.centre[1] + fixed[1] - moved[1]];
+        this.fitted = false;
+        this.redraw();
+    }
+
+    /// dx, dy in CSS pixels, as the hand moves.
+    pan(dx, dy) {
+        if (!this.scale) return;
+        this.centre = [this.centre[0] - (dx * this.ratio) / this.scale, this.centre[1] + (dy * this.ratio) / this.scale];
+        this.fitted = false;
+        this.redraw();
+    }
+
+    // ---- geometry, all in device pixels
+
+    plot_area() {
+        const r = this.ratio;
+        return { left: edge.left * r, top: edge.top * r, width: this.canvas.width - (edge.left + edge.right) * r,
+                 height: this.canvas.height - (edge.top + edge.bottom) * r };
+    }
+
+    to_screen(x, y) {
+        const area = this.plot_area();
+        return [area.left + area.width / 2 + (x - this.centre[0]) * this.scale,
+                area.top + area.height / 2 - (y - this.centre[1]) * this.scale];
+    }
+
+    to_world(px, py) {
+        const area = this.plot_area();
+        return [this.centre[0] + (px - area.left - area.width / 2) / this.scale,
+                this.centre[1] - (py - area.top - area.height / 2) / this.scale];
+    }
+
+    resize() {
+        const { width, height } = this.canvas.getBoundingClientRect();
+        if (width < 10 || height < 10) return;
+        this.ratio = Math.min(window.devicePixelRatio || 1, 2);
+        this.canvas.width = Math.round(width * this.ratio);
+        this.canvas.height = Math.round(height * this.ratio);
+        if (this.fitted) this.fit();
+        else this.redraw();
+    }
+
+    // ---- drawing
+
+    redraw() {
+        if (this.pending) return;
+        this.pending = requestAnimationFrame(() => {
+            this.pending = 0;
+            this.paint();
+        });
+    }
+
+    paint() {
+        if (!this.canvas.width) return;
+        const style = getComputedStyle(this.canvas);
+        const began = performance.now();
+        const ground = style.getPropertyValue("--canvas").trim();
+        const { context, canvas } = this;
+        context.fillStyle = ground;
+        context.fillRect(0, 0, canvas.width, canvas.height);
+        if (this.snapshot && this.scale) {
+            if (this.snapshot.quads) this.paint_quads(style.getPropertyValue("--mesh").trim());
+            else this.paint_squares(packed(ground));
+            this.paint_overlay(style.getPropertyValue("--text").trim());
+            this.paint_axes(style, ground);
+        }
+        this.paint_time = performance.now() - began;
+    }
+
+    /// Index into the number scale for every point; regions take theirs modulo the scale's length.
+    shades() {
+        const values = this.snapshot.columns[this.colour.field];
+        const shades = new Int16Array(this.snapshot.count).fill(-1);
+        if (!values) return shades;
+        if (this.colour.field === "region") return shades.map((_, i) => values[i]);
+        const { low, high } = this.colour;
+        const factor = (scale_steps - 1) / Math.max(high - low, 1e-30);
+        for (let i = 0; i < shades.length; i += 1) {
+            const value = values[i];
+            if (value === value) shades[i] = Math.min(scale_steps - 1, Math.max(0, (value - low) * factor));
+        }
+        return shades;
+    }
+
+    css_of(shade) {
+        if (shade < 0) return unknown_css;
+        return this.colour.field === "region" ? region_css(shade) : scale_css[shade];
+    }
+
+    paint_squares(ground) {
+        const { width, height } = this.canvas;
+        const image = this.context.createImageData(width, height);
+        const pixels = new Uint32Array(image.data.buffer).fill(ground);
+        const { x, y } = this.snapshot.columns;
+        const shades = this.shades();
+        const palette = this.colour.field === "region"
+            ? Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i))) : scale_packed;
+        const unknown = packed(unknown_css);
+        const size = Math.max(Math.round(this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
+        const [origin_x, origin_y] = this.to_screen(0, 0);
+        for (let i = 0; i < shades.length; i += 1) {
+            const left = Math.round(origin_x + x[i] * this.scale - size / 2);
+            const top = Math.round(origin_y - y[i] * this.scale - size / 2);
+            const first_column = Math.max(left, 0);
+            const last_column = Math.min(left + size, width);
+            const last_row = Math.min(top + size, height);
+            if (first_column >= last_column) continue;
+            const colour = shades[i] < 0 ? unknown : palette[shades[i] & 255];
+            for (let row = Math.max(top, 0); row < last_row; row += 1) {
+                pixels.fill(colour, row * width + first_column, row * width + last_column);
+            }
+        }
+        this.context.putImageData(image, 0, 0);
+    }
+
+    paint_quads(line_colour) {
+        const { quads, columns: { x, y } } = this.snapshot;
+        const shades = this.shades();
+        const outlines = new Map(); // one path per colour
+        const all = new Path2D();
+        for (let q = 0; q < quads.length; q += 4) {
+            const corners = [quads[q], quads[q + 1], quads[q + 2], quads[q + 3]];
+            const shade = this.colour.field === "region"
+                ? Math.min(...corners.map((n) => shades[n]))
+                : Math.round(corners.reduce((sum, n) => sum + shades[n], 0) / 4) & ~3;
+            if (!outlines.has(shade)) outlines.set(shade, new Path2D());
+            const path = outlines.get(shade);
+            corners.forEach((n, k) => {
+                const [px, py] = this.to_screen(x[n], y[n]);
+                if (k === 0) path.moveTo(px, py);
+                else path.lineTo(px, py);
+            });
+            path.closePath();
+        }
+        for (const [shade, path] of outlines) {
+            this.context.fillStyle = this.css_of(shade);
+            this.context.fill(path);
+            all.addPath(path);
+        }
+        this.context.strokeStyle = line_colour;
+        this.context.lineWidth = 0.6 * this.ratio;
+        this.context.stroke(all);
+    }
+
+    paint_overlay(colour) {
+        const { context } = this;
+        context.strokeStyle = colour;
+        context.fillStyle = colour;
+        context.lineWidth = this.ratio;
+        context.setLineDash([5 * this.ratio, 4 * this.ratio]);
+        for (const outline of this.overlay.outlines) {
+            context.beginPath();
+            outline.forEach(([x, y], i) => (i ? context.lineTo(...this.to_screen(x, y))
+                                              : context.moveTo(...this.to_screen(x, y))));
+            context.stroke();
+        }
+        context.setLineDash([]);
+        if (!this.overlay.toe) return;
+        const [px, py] = this.to_screen(...this.overlay.toe);
+        const d = 6 * this.ratio;
+        context.beginPath();
+        context.moveTo(px, py);
+        context.lineTo(px - d, py - 1.8 * d);
+        context.lineTo(px + d, py - 1.8 * d);
+        context.fill();
+    }
+
+    paint_axes(style, ground) {
+        const { context, canvas, ratio } = this;
+        const area = this.plot_area();
+        const bottom = area.top + area.height;
+        const right = area.left + area.width;
+        context.fillStyle = ground; // what ran over the margins
+        context.fillRect(0, 0, area.left, canvas.height);
+        context.fillRect(right, 0, canvas.width - right, canvas.height);
+        context.fillRect(0, 0, canvas.width, area.top);
+        context.fillRect(0, bottom, canvas.width, canvas.height - bottom);
+        const [x_low, y_low] = this.to_world(area.left, bottom);
+        const [x_high, y_high] = this.to_world(right, area.top);
+        context.strokeStyle = style.getPropertyValue("--axis").trim();
+        context.fillStyle = style.getPropertyValue("--muted").trim();
+        context.lineWidth = ratio;
+        context.font = `${12 * ratio}px system-ui, sans-serif`;
+        context.beginPath();
+        context.moveTo(area.left, area.top);
+        context.lineTo(area.left, bottom);
+        context.lineTo(right, bottom);
+        context.textAlign = "center";
+        context.textBaseline = "top";
+        const x_values = ticks(x_low, x_high, area.width / (90 * ratio)).values;
+        x_values.forEach((x, i) => {
+            const [px] = this.to_screen(x, 0);
+            context.moveTo(px, bottom);
+            context.lineTo(px, bottom + 5 * ratio);
+            context.fillText(`${number(x)}${i === x_values.length - 1 ? " m" : ""}`, px, bottom + 8 * ratio);
+        });
+        context.textAlign = "right";
+        context.textBaseline = "middle";
+        for (const y of ticks(y_low, y_high, area.height / (45 * ratio)).values) {
+            const [, py] = this.to_screen(0, y);
+            context.moveTo(area.left - 5 * ratio, py);
+            context.lineTo(area.left, py);
+            context.fillText(number(y), area.left - 8 * ratio, py);
+        }
+        context.stroke();
+    }
+
+    // ---- hands
+
+    listen() {
+        const { canvas } = this;
+        const hands = new Map();
+        canvas.addEventListener("pointerdown", (event) => {
+            canvas.setPointerCapture(event.pointerId);
+            hands.set(event.pointerId, event);
+        });
+        canvas.addEventListener("pointermove", (event) => {
+            const before = hands.get(event.pointerId);
+            if (!before) return;
+            const other = [...hands.values()].find((hand) => hand.pointerId !== event.pointerId);
+            if (other) {
+                const reach = (hand) => Math.hypot(hand.clientX - other.clientX, hand.clientY - other.clientY);
+                this.zoom(reach(event) / Math.max(reach(before), 1));
+            } else {
+                this.pan(event.clientX - before.clientX, event.clientY - before.clientY);
+            }
+            hands.set(event.pointerId, event);
+        });
+        for (const end of ["pointerup", "pointercancel"]) {
+            canvas.addEventListener(end, (event) => hands.delete(event.pointerId));
+        }
+        canvas.addEventListener("wheel", (event) => {
+            // The page scrolls past the picture unless it was clicked or Ctrl is held.
+            if (document.activeElement !== canvas && !event.ctrlKey) return;
+            event.preventDefault();
+            const box = canvas.getBoundingClientRect();
+            this.zoom(1.0015 ** -event.deltaY,
+                      [(event.clientX - box.left) * this.ratio, (event.clientY - box.top) * this.ratio]);
+        }, { passive: false });
+        canvas.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    key(event) {
+        const step = 40;
+        const moves = { ArrowLeft: [step, 0], ArrowRight: [-step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        if (event.key in moves) this.pan(...moves[event.key]);
+        else if (event.key === "+" || event.key === "=") this.zoom(1.25);
+        else if (event.key === "-") this.zoom(0.8);
+        else if (event.key === "0" || event.key === "Home") this.fit();
+        else return;
+        event.preventDefault();
+    }
+}

@@ -1,0 +1,116 @@
+// The dialog that submits a study: pasted, chosen as a file, or one of the shipped examples. Every fault that the
+// server finds is listed with the place it concerns.
+import * as api from "./api.js";
+import { by_id, element, set_text } from "./dom.js";
+import { find_pointer } from "./json_pointer.js";
+
+export class SubmitDialog {
+    /// submitted(run): the server took it.
+    constructor(submitted) {
+        this.submitted = submitted;
+        this.dialog = by_id("submit-dialog");
+        for (const button of document.querySelectorAll("[data-opens=submit]")) {
+            button.addEventListener("click", () => this.open());
+        }
+        by_id("study-file").addEventListener("change", (event) => this.take_file(event.target));
+        by_id("submit").addEventListener("click", () => this.submit());
+        by_id("show-plan").addEventListener("click", () => this.show_plan());
+        by_id("submit-close").addEventListener("click", () => this.dialog.close());
+        by_id("study").addEventListener("keydown", (event) => {
+            if (event.key === "Enter" && event.ctrlKey) this.submit();
+        });
+    }
+
+    async open() {
+        this.dialog.showModal();
+        this.clear();
+        if (this.has_examples) return;
+        try {
+            const examples = await api.list_examples();
+            by_id("examples").replaceChildren(...examples.map((example) => element("button", { type: "button",
+                title: example.title || null, onclick: () => this.take_example(example) }, `Load ${example.name}`)));
+            by_id("examples-row").hidden = examples.length === 0;
+            this.has_examples = true;
+        } catch (fault) {
+            this.refuse(fault);
+        }
+    }
+
+    take_text(text) {
+        by_id("study").value = text;
+        this.clear();
+    }
+
+    async take_file(input) {
+        const file = input.files[0];
+        if (file) this.take_text(await file.text());
+        input.value = "";
+    }
+
+    async take_example(example) {
+        try {
+            const study = example.study ?? await api.read_example(example.name);
+            this.take_text(JSON.stringify(study, null, 4));
+        } catch (fault) {
+            this.refuse(fault);
+        }
+    }
+
+    async submit() {
+        this.clear();
+        by_id("submit").disabled = true;
+        try {
+            const run = await api.submit_study(by_id("study").value);
+            this.dialog.close();
+            this.submitted(run);
+        } catch (fault) {
+            this.refuse(fault);
+        } finally {
+            by_id("submit").disabled = false;
+        }
+    }
+
+    async show_plan() {
+        this.clear();
+        try {
+            const scene = JSON.parse(by_id("study").value).scene;
+            const plans = await api.plan_scene(JSON.stringify(scene ?? null));
+            by_id("plan").replaceChildren(...Object.entries(plans).flatMap(([phase, text]) =>
+                [element("h3", {}, phase), element("pre", {}, text)]));
+            by_id("plan").hidden = false;
+        } catch (fault) {
+            this.refuse(fault);
+        }
+    }
+
+    clear() {
+        by_id("faults").hidden = true;
+        by_id("plan").hidden = true;
+        by_id("fault-list").replaceChildren();
+        by_id("study").removeAttribute("aria-invalid");
+    }
+
+    refuse(fault) {
+        const faults = fault.faults ?? [];
+        const count = faults.length === 1 ? "1 fault" : `${faults.length} faults`;
+        set_text(by_id("fault-title"), faults.length ? `${fault.message} (${count})` : fault.message);
+        by_id("fault-list").replaceChildren(...faults.map((one) => element("li", {},
+            element("button", { type: "button", class: "link", title: "Show the place in the study",
+                                onclick: () => this.point_to(one.pointer) }, element("code", {}, one.pointer || "/")),
+            ` ${one.cause}`, one.remedy ? element("span", { class: "remedy" }, one.remedy) : null)));
+        by_id("faults").hidden = false;
+        by_id("study").setAttribute("aria-invalid", "true");
+        by_id("fault-title").focus();
+    }
+
+    /// Selects the text that the pointer names.
+    point_to(pointer) {
+        const box = by_id("study");
+        const place = find_pointer(box.value, pointer);
+        box.focus();
+        if (!place) return;
+        box.setSelectionRange(place.start, place.end);
+        const line = box.value.slice(0, place.start).split("\n").length;
+        box.scrollTop = (line - 4) * parseFloat(getComputedStyle(box).lineHeight);
+    }
+}

@@ -1,0 +1,152 @@
+// The tasks of a run: a compact picture of the workflow, a table, and one task in detail.
+import * as api from "./api.js";
+import { by_id, element, mirror, set_text } from "./dom.js";
+import { bytes, clock, elapsed, number, percent, seconds, show_state, state_look, task_name } from "./format.js";
+import { LogView } from "./log.js";
+
+const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
+
+function in_order(tasks) {
+    const rank = (task) => [task.transfer_time ?? -1, order.indexOf(task.phase)];
+    return [...tasks].sort((a, b) => rank(a)[0] - rank(b)[0] || rank(a)[1] - rank(b)[1]);
+}
+
+export class Tasks {
+    constructor() {
+        this.log = new LogView();
+        this.chosen = null;
+        by_id("task-close").addEventListener("click", () => this.close());
+    }
+
+    async show(run) {
+        if (this.run?.id !== run.id) this.close();
+        this.run = run;
+        const tasks = in_order(run.tasks);
+        this.draw_flow(tasks);
+        mirror(by_id("task-rows"), tasks, (task) => task.id, (task) => this.new_row(task), fill_row);
+        const chosen = tasks.find((task) => task.id === this.chosen);
+        if (chosen) await this.detail(chosen);
+    }
+
+    /// LEM and FEM, then one column per transfer time with its transfer above its runout.
+    draw_flow(tasks) {
+        const single = tasks.filter((task) => !Number.isFinite(task.transfer_time));
+        const times = [...new Set(tasks.map((task) => task.transfer_time).filter(Number.isFinite))];
+        mirror(by_id("flow-single"), single, (task) => task.id, (task) => this.new_chip(task), fill_named_chip);
+        mirror(by_id("flow-times"), times, (time) => time, () => element("div", { class: "flow-column" },
+               element("span", { class: "flow-time" }), element("div", { class: "flow-stack" })),
+               (column, time) => {
+                   set_text(column.firstElementChild, number(time));
+                   mirror(column.lastElementChild, tasks.filter((task) => task.transfer_time === time),
+                          (task) => task.id, (task) => this.new_chip(task), fill_chip);
+               });
+        by_id("flow-head").hidden = times.length === 0;
+    }
+
+    new_chip(task) {
+        return element("button", { type: "button", onclick: () => this.open(task.id) });
+    }
+
+    new_row(task) {
+        const open = element("button", { type: "button", class: "link", onclick: () => this.open(task.id) });
+        return element("tr", {}, element("th", { scope: "row" }, open), element("td", { class: "number" }),
+                       element("td", {}, element("span")),
+                       element("td", {}, element("progress", { max: 1 }), " ", element("span", { class: "number" })),
+                       element("td", { class: "number" }), element("td", { class: "number" }),
+                       element("td", { class: "message" }));
+    }
+
+    async open(id) {
+        this.chosen = id;
+        const task = this.run.tasks.find((candidate) => candidate.id === id);
+        if (!task) return;
+        by_id("task").hidden = false;
+        await this.detail(task);
+        by_id("task-title").focus({ preventScroll: true });
+        by_id("task").scrollIntoView({ block: "nearest" });
+    }
+
+    close() {
+        this.chosen = null;
+        by_id("task").hidden = true;
+        this.log.close();
+    }
+
+    async detail(task) {
+        set_text(by_id("task-title"), task_name(task));
+        show_state(by_id("task-state"), task.state);
+        const fault = task.fault ? `Exit code ${task.fault.exit_code}: ${task.fault.summary}` : "";
+        by_id("task-fault").hidden = !fault;
+        set_text(by_id("task-fault"), fault);
+        mirror(by_id("task-attempts"), task.attempts, (attempt) => attempt.number, new_attempt, fill_attempt);
+        mirror(by_id("task-artifacts"), task.artifacts, (file) => file.name + file.sha256, new_artifact, () => {});
+        by_id("task-no-artifacts").hidden = task.artifacts.length > 0;
+        draw_facts(task.result);
+        await this.log.show(task);
+    }
+}
+
+function fill_named_chip(chip, task) {
+    fill_chip(chip, task);
+    set_text(chip, `${state_look(task.state).sign} ${task.phase}`);
+    chip.classList.add("named");
+}
+
+function fill_chip(chip, task) {
+    const { family, sign } = state_look(task.state);
+    chip.className = `flow-chip ${family}`;
+    chip.style.setProperty("--progress", percent(task.progress).replace(" ", ""));
+    set_text(chip, sign);
+    const text = `${task_name(task)}: ${task.state}, ${percent(task.progress)}`;
+    chip.title = text;
+    chip.setAttribute("aria-label", text);
+}
+
+function fill_row(row, task) {
+    const [name, time, state, progress, attempts, took, message] = row.children;
+    set_text(name.firstElementChild, task.phase);
+    set_text(time, Number.isFinite(task.transfer_time) ? number(task.transfer_time) : "");
+    show_state(state.firstElementChild, task.state);
+    progress.firstElementChild.value = task.progress ?? 0;
+    progress.firstElementChild.setAttribute("aria-label", `progress of ${task_name(task)}`);
+    set_text(progress.lastElementChild, percent(task.progress));
+    set_text(attempts, String(task.attempts.length));
+    const last = task.attempts.at(-1);
+    set_text(took, last ? (Number.isFinite(last.wall_seconds) ? seconds(Number(last.wall_seconds.toPrecision(3)))
+                                                              : elapsed(last.started, last.finished)) : "");
+    set_text(message, task.fault?.summary ?? task.message ?? "");
+}
+
+function new_attempt() {
+    return element("tr", {}, element("th", { scope: "row" }), element("td", {}, element("span")),
+                   ...Array.from({ length: 4 }, () => element("td", { class: "number" })));
+}
+
+function fill_attempt(row, attempt) {
+    const [count, state, started, exit_code, wall, cpu] = row.children;
+    set_text(count, String(attempt.number));
+    show_state(state.firstElementChild, attempt.state);
+    set_text(started, clock(attempt.started));
+    set_text(exit_code, attempt.exit_code === null || attempt.exit_code === undefined ? "–" : String(attempt.exit_code));
+    set_text(wall, seconds(attempt.wall_seconds));
+    set_text(cpu, seconds(attempt.cpu_seconds));
+}
+
+function new_artifact(file) {
+    return element("tr", {}, element("th", { scope: "row" },
+                       element("a", { href: api.artifact_path(file.sha256), download: file.name }, file.name)),
+                   element("td", { class: "number" }, bytes(file.bytes)),
+                   element("td", {}, element("code", { title: file.sha256 }, file.sha256)));
+}
+
+/// The numbers of result.json that stand at its top level; the whole file is among the artifacts.
+function draw_facts(result) {
+    const facts = Object.entries(result ?? {}).filter(([, value]) => ["number", "string", "boolean"].includes(typeof value));
+    by_id("task-facts").hidden = facts.length === 0;
+    mirror(by_id("task-facts-list"), facts, ([name]) => name,
+           () => element("div", {}, element("dt"), element("dd")),
+           (entry, [name, value]) => {
+               set_text(entry.firstElementChild, name.replaceAll("_", " "));
+               set_text(entry.lastElementChild, typeof value === "number" ? number(value, 6) : String(value));
+           });
+}

@@ -1,0 +1,343 @@
+// The page against a stand-in server: what it shows, what it asks before it acts, what it does when the server goes.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { FakeApi, study } from "./fake_api.mjs";
+
+const api = new FakeApi({ pace: 6, points: 5000 });
+let url;
+let page;
+let browser;
+
+before(async () => {
+    url = await api.open();
+    api.add_run(study, { began: Date.now() - 60000 });
+    browser = await open_browser();
+    page = browser.page;
+});
+
+after(async () => {
+    await browser.close();
+    await api.close();
+});
+
+async function open_run(id) {
+    await page.goto("about:blank");
+    await page.goto(`${url}/#/runs/${id}`);
+    await page.waitForSelector("#run:not([hidden])");
+}
+
+const text_of = (selector) => page.textContent(selector);
+const markers = () => page.locator("#runout-plot svg.plot > .marker.series-0").count();
+
+test("the start page lists runs and opens one", async () => {
+    await page.goto(url);
+    await page.waitForSelector("#run-list a");
+    assert.match(await text_of("#run-list a"), /fake-column.*partial/s);
+    await until("connection", async () => (await text_of("#connection")) === "Live");
+    await page.click("#run-list a");
+    await page.waitForSelector("#run:not([hidden])");
+    assert.equal(await text_of("#run-title"), "A column made of formulas");
+    assert.equal(await page.getAttribute("#run-list a", "aria-current"), "page");
+});
+
+test("everything comes from this server, and little of it", async () => {
+    await open_run("run-1");
+    const bytes = await page.evaluate(() => performance.getEntriesByType("resource")
+        .filter((entry) => entry.name.includes("/static/")).reduce((sum, entry) => sum + entry.decodedBodySize, 0));
+    console.log(`page without data: ${bytes} bytes`);
+    assert.ok(bytes > 20000 && bytes < 200000);
+    assert.deepEqual(browser.foreign, []);
+});
+
+test("the curve has one marker per finished transfer time, and marks the failed one", async () => {
+    await open_run("run-1");
+    await until("seven markers", async () => (await markers()) === 7);
+    assert.equal(await page.locator("#runout-plot svg.plot > .mark.failed").count(), 1);
+    assert.equal(await text_of("#runout-progress"), "7 of 8 transfer times finished");
+    assert.equal(await page.locator("#runout-rows tr").count(), 8);
+    assert.equal(await page.getAttribute("#runout-csv", "href"), "/v1/runs/run-1/results?format=csv");
+    const labels = await page.locator("#runout-plot .label").allTextContents();
+    assert.deepEqual(labels, ["transfer time t_T [s]", "runout [m]"]);
+});
+
+test("the curve is read by pointer and by keyboard", async () => {
+    await open_run("run-1");
+    await until("markers", async () => (await markers()) === 7);
+    await page.focus("#runout-plot svg.plot");
+    await page.keyboard.press("Home");
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: runout .* 24.04 m · beyond the toe 14.04 m/);
+    await page.keyboard.press("ArrowRight");
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.5 s/);
+    await page.keyboard.press("Enter");
+    await until("particles of 0.5 s", async () =>
+        (await page.$eval("#view-source", (s) => s.selectedOptions[0].textContent)) === "MPM from t_T = 0.5 s");
+    const picture = page.locator("#runout-plot svg.plot");
+    const { width } = await picture.boundingBox();
+    await picture.hover({ position: { x: 0.73 * width, y: 50 } });
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 1.5 s/);
+});
+
+test("particles are drawn, move with the slider, zoom and change colour", async () => {
+    await open_run("run-1");
+    await until("soil on the canvas", async () => (await canvas_facts(page)).share > 0.05);
+    const end = await canvas_facts(page);
+    assert.ok(end.colours > 40, `${end.colours} colours`);
+    assert.ok(end.two_commonest < 0.8, `${end.two_commonest} of the soil has two colours`);
+    await page.focus("#view-time");
+    await page.keyboard.press("Home");
+    await until("first snapshot", async () => (await text_of("#view-now")).startsWith("t = 0 s"));
+    await until("another picture", async () => (await canvas_facts(page)).sum !== end.sum);
+    await page.keyboard.press("End");
+    await until("the same picture again", async () => (await canvas_facts(page)).sum === end.sum);
+    await page.focus("#view");
+    await page.keyboard.press("+");
+    await until("a larger picture", async () => (await canvas_facts(page)).share > 1.1 * end.share);
+    await page.keyboard.press("0");
+    await until("the whole again", async () => (await canvas_facts(page)).sum === end.sum);
+    await page.selectOption("#view-field", "region");
+    await until("two regions", async () => (await canvas_facts(page)).two_commonest > 0.97);
+    assert.deepEqual((await page.locator("#view-regions li").allTextContents()).map((name) => name.trim()),
+                     ["base", "column"]);
+});
+
+test("the scale of colours can be set by hand", async () => {
+    await open_run("run-1");
+    await until("soil", async () => (await canvas_facts(page)).colours > 40);
+    await page.uncheck("#view-auto");
+    await page.fill("#view-high", "1000");
+    await page.press("#view-high", "Tab");
+    await until("one end of the scale", async () => (await canvas_facts(page)).two_commonest > 0.97);
+    assert.match(await text_of("#view-range"), /0 to 1000/);
+});
+
+test("playing runs to the last snapshot and stops there", async () => {
+    await open_run("run-1");
+    await until("snapshots", async () => /of 25/.test(await text_of("#view-now")));
+    await page.click("#view-play");
+    assert.match(await text_of("#view-play"), /Pause/);
+    await until("an early snapshot", async () => /\([2-9] of 25\)/.test(await text_of("#view-now")));
+    await until("the end", async () => /Play/.test(await text_of("#view-play")));
+    assert.match(await text_of("#view-now"), /25 of 25/);
+});
+
+test("the FEM mesh is drawn deformed", async () => {
+    await open_run("run-1");
+    await page.selectOption("#view-source", { label: "FEM mesh" });
+    await until("elements", async () => (await text_of("#view-count")) === "800 elements");
+    await until("colours", async () => (await canvas_facts(page)).colours > 20);
+});
+
+test("100,000 particles are drawn whole; the time per picture is printed", async () => {
+    api.add_run({ ...study, name: "large", transfer_times: [1] }, { points: 100000, began: Date.now() - 60000 });
+    await open_run("run-2");
+    await until("100,000 points", async () => /^(99|100)\d{3} points$/.test(await text_of("#view-count")), 40000);
+    await until("soil", async () => (await canvas_facts(page)).share > 0.05);
+    const times = await page.evaluate(async () => {
+        const { PointView } = await import("/static/points.js");
+        const paint = PointView.prototype.paint;
+        const taken = [];
+        PointView.prototype.paint = function timed() {
+            paint.call(this);
+            taken.push(this.paint_time);
+        };
+        for (let i = 0; i < 20; i += 1) {
+            document.getElementById("view-in").click();
+            await new Promise((resume) => setTimeout(resume, 30));
+        }
+        PointView.prototype.paint = paint;
+        return taken.sort((a, b) => a - b);
+    });
+    const shown = (share) => times[Math.floor(share * (times.length - 1))].toFixed(1);
+    console.log(`painting 100,000 points: median ${shown(0.5)} ms, slowest ${shown(1)} ms of ${times.length}`);
+    assert.ok(times.length >= 10);
+});
+
+test("telemetry is drawn as curves and the other monitors are at hand", async () => {
+    await open_run("run-1");
+    await until("four panels", async () => (await page.locator("#telemetry-plots figure").count()) === 4);
+    assert.deepEqual(await page.locator("#telemetry-plots figcaption").allTextContents(),
+                     ["Crest displacement", "Kinetic energy", "Jacobian ratio", "Deviatoric strain"]);
+    const path = await page.getAttribute("#telemetry-plots figure:nth-child(2) .curve.series-0[d*=L]", "d");
+    assert.ok(path.length > 500, "the curve has many points");
+    assert.equal(await page.locator("#telemetry-plots figure:nth-child(1) svg.plot > .event").count(), 8);
+    await page.click("#telemetry-more summary");
+    await until("the other monitor", async () => (await page.locator("#telemetry-others figure .curve").count()) > 0);
+});
+
+test("a task shows its fault, attempts, files with hashes, and log", async () => {
+    await open_run("run-1");
+    assert.equal(await page.locator("#task-rows tr").count(), 18);
+    await page.click(".flow-chip.bad");
+    assert.match(await text_of("#task-fault"), /Exit code 70: mass differs/);
+    await until("the log", async () => /transfer_tool step 59/.test(await text_of("#log")));
+    await page.click("#task-rows tr:nth-child(2) button");
+    await until("the FEM's log", async () => /fem_solver step 59/.test(await text_of("#log")));
+    const link = page.locator("#task-artifacts a");
+    assert.match(await link.getAttribute("href"), /^\/v1\/artifacts\/[0-9a-f]{64}$/);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "task-title");
+});
+
+test("a faulty study is refused with every fault in its place", async () => {
+    await page.goto(url);
+    await page.click("nav [data-opens=submit]");
+    await page.fill("#study", JSON.stringify({ scene: { materials: { sand: { density: -1800 } } } }, null, 2));
+    await page.click("#submit");
+    await page.waitForSelector("#fault-list li");
+    assert.deepEqual(await page.locator("#fault-list code").allTextContents(),
+                     ["/transfer_times", "/scene/materials/sand/density"]);
+    assert.match(await text_of("#fault-title"), /2 faults/);
+    await screenshot(page, "page_faults");
+    await page.click("#fault-list li:nth-child(2) button");
+    assert.equal(await page.evaluate(() => getSelection().toString()), "-1800");
+    await page.fill("#study", "{ not json");
+    await page.click("#submit");
+    await until("the reason", async () => /not JSON/.test(await text_of("#fault-title")));
+    await page.keyboard.press("Escape");
+});
+
+test("an example is loaded, planned, submitted, and fills in live", async () => {
+    await page.click("nav [data-opens=submit]");
+    await page.click("#examples button");
+    await until("the example's text", async () => (await page.inputValue("#study")).includes("breachline-study/1"));
+    await page.click("#show-plan");
+    await until("a plan", async () => /softening/.test(await text_of("#plan")));
+    await page.click("#submit");
+    await until("the new run is open", () => page.url().endsWith("#/runs/run-3"));
+    await until("it runs", async () => /running/.test(await text_of("#run-state")));
+    const early = await markers();
+    await until("some markers, not all", async () => (await markers()) > early && (await markers()) < 7);
+    await until("the end", async () => /partial/.test(await text_of("#run-state")));
+    await until("all markers", async () => (await markers()) === 7);
+    assert.ok(await page.isHidden("#cancel"), "nothing is left to cancel");
+});
+
+test("cancelling asks first", async () => {
+    api.add_run({ ...study, name: "to-cancel" }, { pace: 600 });
+    await open_run("run-4");
+    const asked = () => api.requests.filter((line) => line.endsWith("/cancel")).length;
+    await page.click("#cancel");
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), "Keep running");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#cancel-dialog:not([open])", { state: "attached" });
+    assert.equal(asked(), 0);
+    await page.click("#cancel");
+    await page.keyboard.press("Escape");
+    assert.equal(asked(), 0);
+    await page.click("#cancel");
+    await page.click("#cancel-dialog .danger");
+    await until("cancelled", async () => /cancelled/.test(await text_of("#run-state")));
+    assert.equal(asked(), 1);
+});
+
+test("when the server goes away the page says so, keeps what it shows, and recovers", async () => {
+    await open_run("run-1");
+    await until("markers", async () => (await markers()) === 7);
+    const port = Number(new URL(url).port);
+    await api.close();
+    await until("the notice", async () => /Connection lost, retrying/.test(await text_of("#connection")));
+    assert.equal(await markers(), 7);
+    await screenshot(page, "page_connection_lost");
+    await page.click("#run-list li:last-child a");
+    assert.equal(await page.isVisible("#run"), true);
+    await api.open(port);
+    await until("live again", async () => (await text_of("#connection")) === "Live");
+    api.add_run({ ...study, name: "after-the-break" });
+    await until("the new run in the list", async () => /after-the-break/.test(await text_of("#run-list")));
+});
+
+test("a run that does not exist is said to be missing", async () => {
+    await page.goto("about:blank");
+    await page.goto(`${url}/#/runs/nowhere`);
+    await page.waitForSelector("#missing:not([hidden])");
+});
+
+test("a truncated snapshot is refused, never drawn wrong", async () => {
+    const refused = await page.evaluate(async () => {
+        const { decode_points } = await import("/static/api.js");
+        const header = '{"time":0,"count":4,"fields":["x","y"]}\n';
+        const whole = new Uint8Array(header.length + 32);
+        whole.set(new TextEncoder().encode(header));
+        const verdict = (bytes) => {
+            try {
+                return `${decode_points(bytes.slice().buffer).count} points`;
+            } catch (fault) {
+                return fault.message;
+            }
+        };
+        return [verdict(whole), verdict(whole.subarray(0, 50)), verdict(new Uint8Array(8))];
+    });
+    assert.equal(refused[0], "4 points");
+    assert.match(refused[1], /50 bytes instead of 72/);
+    assert.match(refused[2], /no header/);
+});
+
+test("every control has a name, and the keyboard reaches it", async () => {
+    await open_run("run-1");
+    await page.click("#task-rows tr:nth-child(2) button");
+    await until("panels", async () => (await page.locator("#telemetry-plots figure").count()) === 4);
+    const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, a, canvas, svg.plot, progress")]
+        .filter((control) => control.checkVisibility())
+        .filter((control) => !(control.getAttribute("aria-label") || control.labels?.length ||
+                               control.textContent.trim() && control.tagName !== "SELECT" || control.title))
+        .map((control) => control.outerHTML.slice(0, 120)));
+    assert.deepEqual(nameless, []);
+    await page.evaluate(() => document.body.focus());
+    const reached = new Set();
+    for (let i = 0; i < 90; i += 1) {
+        await page.keyboard.press("Tab");
+        reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.className.baseVal ||
+                                              document.activeElement.className));
+    }
+    for (const id of ["theme", "plot", "view", "view-time", "view-field", "runout-csv", "telemetry-source", "link", "log"]) {
+        assert.ok(reached.has(id), `${id} is reached by Tab; reached: ${[...reached]}`);
+    }
+});
+
+test("text has a contrast of 4.5 and graphics of 3 in light and dark", async () => {
+    for (const scheme of ["light", "dark"]) {
+        while ((await page.getAttribute("html", "data-theme")) !== scheme) await page.click("#theme");
+        const ratios = await page.evaluate(() => {
+            const style = getComputedStyle(document.documentElement);
+            const luminance = (name) => {
+                const hex = style.getPropertyValue(`--${name}`).trim();
+                const parts = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255)
+                    .map((value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4));
+                return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+            };
+            const contrast = (a, b) => {
+                const [high, low] = [luminance(a), luminance(b)].sort((p, q) => q - p);
+                return (high + 0.05) / (low + 0.05);
+            };
+            const text = [["text", "ground"], ["text", "card"], ["muted", "ground"], ["muted", "card"], ["link", "card"],
+                          ["on-primary", "primary"], ["muted", "canvas"],
+                          ...["good", "bad", "warn", "busy", "off"].map((name) => [name, `${name}-back`])];
+            const graphics = ["series-0", "series-1", "series-2", "focus", "axis", "event"].map((name) => [name, "card"]);
+            return [...text.map(([a, b]) => [a, b, contrast(a, b), 4.5]), ...graphics.map(([a, b]) => [a, b, contrast(a, b), 3])];
+        });
+        for (const [front, back, reached, least] of ratios) {
+            assert.ok(reached >= least, `${scheme}: ${front} on ${back} reaches ${reached.toFixed(2)}, ${least} is needed`);
+        }
+        console.log(`${scheme}: least contrast ${Math.min(...ratios.map((row) => row[2] / row[3])).toFixed(2)} of what is needed`);
+    }
+});
+
+test("it fits narrow and wide windows, light and dark", async () => {
+    api.add_run({ ...study, name: "half-way", title: "A run half-way" }, { pace: 600, began: Date.now() - 420000 });
+    for (const [theme, width] of [["light", 1400], ["dark", 1400], ["light", 390], ["dark", 390], ["light", 2200]]) {
+        await page.setViewportSize({ width, height: 900 });
+        await open_run("run-6");
+        while ((await page.getAttribute("html", "data-theme")) !== theme) await page.click("#theme");
+        await page.click("#task-rows tr:nth-child(2) button");
+        await until("soil", async () => (await canvas_facts(page)).share > 0.02);
+        await page.waitForTimeout(300); // transitions
+        const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+        assert.ok(overflow <= 0, `${width} px: ${overflow} px wider than the window`);
+        await screenshot(page, `page_${theme}_${width}`);
+    }
+});
+
+test("nothing failed inside the page", () => {
+    assert.deepEqual(browser.complaints, []);
+    assert.deepEqual(browser.foreign, []);
+});
