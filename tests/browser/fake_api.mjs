@@ -72,8 +72,8 @@ class FakeRun {
     }
 
     runout(transfer_time) {
-        const reach = 21 + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
-        return { runout: reach, runout_beyond_toe: reach - 10, runout_largest: reach + 2.5,
+        const reach = 11 + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
+        return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
                  volume_ratio: 1.01, numerical_share: 0.031, cpu_seconds: 7.25 };
     }
 
@@ -108,7 +108,7 @@ class FakeRun {
         for (let i = 0; i < count; i += 1) {
             const time = i * 0.005;
             const slip = Math.max(0, time - 0.3);
-            lines.push({ time, crest_displacement_x: 0.8 * slip ** 2, crest_displacement_y: -1.1 * slip ** 2,
+            lines.push({ time, crest_dx: 0.8 * slip ** 2, crest_dy: -1.1 * slip ** 2,
                          kinetic_energy: 4e5 * slip ** 2 * Math.exp(-slip), jacobian_ratio_avg: 1 - 0.12 * slip,
                          epsilon_q_avg: 0.03 + 0.2 * slip ** 1.5, newton_iterations: 3 + (i % 4) });
         }

@@ -58,7 +58,7 @@ test("the curve has one marker per finished transfer time, and marks the failed 
     assert.equal(await page.locator("#runout-rows tr").count(), 8);
     assert.equal(await page.getAttribute("#runout-csv", "href"), "/v1/runs/run-1/results?format=csv");
     const labels = await page.locator("#runout-plot .label").allTextContents();
-    assert.deepEqual(labels, ["transfer time t_T [s]", "runout [m]"]);
+    assert.deepEqual(labels, ["transfer time t_T [s]", "runout from the toe [m]"]);
 });
 
 test("the curve is read by pointer and by keyboard", async () => {
@@ -66,7 +66,7 @@ test("the curve is read by pointer and by keyboard", async () => {
     await until("markers", async () => (await markers()) === 7);
     await page.focus("#runout-plot svg.plot");
     await page.keyboard.press("Home");
-    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: runout .* 24.04 m · beyond the toe 14.04 m/);
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: 99 % of the mobile soil 14.04 m · 99 % of what passed the toe 15.24 m/);
     await page.keyboard.press("ArrowRight");
     assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.5 s/);
     await page.keyboard.press("Enter");
@@ -157,7 +157,7 @@ test("telemetry is drawn as curves and the other monitors are at hand", async ()
     await open_run("run-1");
     await until("four panels", async () => (await page.locator("#telemetry-plots figure").count()) === 4);
     assert.deepEqual(await page.locator("#telemetry-plots figcaption").allTextContents(),
-                     ["Crest displacement", "Kinetic energy", "Jacobian ratio", "Deviatoric strain"]);
+                     ["Crest displacement", "Kinetic energy", "Jacobian ratio, averages", "Deviatoric strain, average"]);
     const path = await page.getAttribute("#telemetry-plots figure:nth-child(2) .curve.series-0[d*=L]", "d");
     assert.ok(path.length > 500, "the curve has many points");
     assert.equal(await page.locator("#telemetry-plots figure:nth-child(1) svg.plot > .event").count(), 8);

@@ -117,6 +117,8 @@ export async function follow_events(tell) {
     let pause = 1;
     let wait = 0; // the first answers are history: taken at once
     for (;;) {
+        // A page in the background leaves the connection to those that are looked at.
+        if (document.hidden) await new Promise((shown) => document.addEventListener("visibilitychange", shown, { once: true }));
         try {
             const answer = await get_json(`/v1/events?after=${after}&wait=${wait}`);
             tell.found();

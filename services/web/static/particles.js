@@ -26,7 +26,7 @@ export class Particles {
         this.at = -1;
         this.kept = new Map(); // frame name -> {snapshot, bytes}, oldest first
         this.highs = {};       // field -> upper end of its scale so far
-        by_id("view-source").addEventListener("change", (event) => this.open(event.target.value));
+        by_id("view-source").addEventListener("change", (event) => this.choose(event.target.value));
         by_id("view-field").addEventListener("change", (event) => {
             this.field = event.target.value;
             this.paint();
@@ -52,7 +52,11 @@ export class Particles {
         const scene = run.study?.scene;
         this.view.overlay = { outlines: (scene?.section?.regions ?? []).map((region) => region.polygon),
                               toe: scene?.mpm?.runout?.toe ?? null };
-        const chosen = sources.find((task) => task.id === this.task) ?? first_with_frames(sources);
+        const best = first_with_frames(sources);
+        const current = sources.find((task) => task.id === this.task);
+        // Until a person chooses, the mesh gives way to the first runout that there is.
+        const follow = !current || (!this.by_hand && current.phase === "fem_solver" && !this.playing);
+        const chosen = follow ? best : current;
         if (!chosen) return;
         if (chosen.id !== this.task) await this.open(chosen.id);
         else if (is_active(chosen.state) || this.frames.length === 0 || this.was_active) await this.extend();
@@ -63,12 +67,18 @@ export class Particles {
     show_transfer_time(transfer_time) {
         const task = this.run?.tasks.find((candidate) => candidate.phase === "mpm_solver" &&
                                                          candidate.transfer_time === transfer_time);
-        if (task) this.open(task.id);
+        if (task) this.choose(task.id);
+    }
+
+    choose(task) {
+        this.by_hand = true;
+        return this.open(task);
     }
 
     close() {
         this.pause();
         this.task = null;
+        this.by_hand = false;
         this.forget();
         this.tell("");
     }

@@ -5,8 +5,8 @@ import { is_active, number, show_state, state_look } from "./format.js";
 import { Plot } from "./plot.js";
 
 const curves = [
-    { field: "runout", name: "runout (99 % of the mobile soil)" },
-    { field: "runout_beyond_toe", name: "beyond the toe" },
+    { field: "runout", name: "99 % of the mobile soil" },
+    { field: "runout_beyond_toe", name: "99 % of what passed the toe" },
     { field: "runout_largest", name: "farthest point" },
 ];
 const columns = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "cpu_seconds"];
@@ -16,7 +16,7 @@ export class Results {
     constructor(choose) {
         this.choose = choose;
         this.plot = new Plot(by_id("runout-plot"), {
-            title: "Runout", x: "transfer time t_T [s]", y: "runout [m]", x_name: "t_T", x_unit: "s",
+            title: "Runout", x: "transfer time t_T [s]", y: "runout from the toe [m]", x_name: "t_T", x_unit: "s",
             hint: "Point at the curve, or use the arrow keys; click or Enter shows the particles.",
         }, { height: 320, choose, y_from_zero: true });
     }

@@ -7,14 +7,18 @@ import { Plot } from "./plot.js";
 // What is drawn first, and how it is called. A panel appears when at least one of its fields is in the lines.
 const panels = [
     { title: "Crest displacement", y: "displacement [m]", unit: "m",
-      fields: { crest_displacement_x: "horizontal", crest_displacement_y: "vertical", crest_displacement: "total" } },
-    { title: "Kinetic energy", y: "kinetic energy [J/m]", unit: "J/m", fields: { kinetic_energy: "kinetic" } },
-    { title: "Jacobian ratio", y: "|J_t| / |J_0| [–]", unit: "",
-      fields: { jacobian_ratio_avg: "average", jacobian_ratio_min: "least" } },
-    { title: "Deviatoric strain", y: "ε_q [–]", unit: "", fields: { epsilon_q_avg: "average", epsilon_q_max: "largest" } },
+      fields: { crest_dx: "horizontal", crest_dy: "vertical", crest_displacement: "total" } },
+    { title: "Kinetic energy", y: "kinetic energy [J]", unit: "J", fields: { kinetic_energy: "kinetic" } },
+    { title: "Jacobian ratio, averages", y: "|J_t| / |J_0| [–]", unit: "",
+      fields: { jacobian_ratio_avg: "strained elements", jacobian_least_avg: "their worst corners" } },
+    { title: "Deviatoric strain, average", y: "ε_q [–]", unit: "", fields: { epsilon_q_avg: "strained elements" } },
     { title: "Front", y: "distance from the toe [m]", unit: "m",
-      fields: { runout: "99 %", runout_beyond_toe: "beyond the toe", runout_largest: "farthest" } },
+      fields: { runout: "99 % of the mobile soil", runout_beyond_toe: "99 % of what passed the toe",
+                runout_largest: "farthest point" } },
+    { title: "Where the energy went", y: "energy [J]", unit: "J",
+      fields: { plastic_dissipation: "plastic", friction_dissipation: "floor friction", energy_numerical: "numerical" } },
 ];
+const not_drawn = ["step", "stage"]; // counters
 const named = new Set(panels.flatMap((panel) => Object.keys(panel.fields)));
 const abscissas = ["time", "t"];
 
@@ -83,7 +87,7 @@ export class Telemetry {
         const x_field = abscissas.find((field) => this.columns.has(field));
         set_text(by_id("telemetry-message"), this.count === 0 ? "No telemetry yet." : "");
         const shown = x_field ? panels.filter((panel) => Object.keys(panel.fields).some((f) => this.columns.has(f))) : [];
-        const others = x_field ? [...this.columns.keys()].filter((f) => !named.has(f) && !abscissas.includes(f)) : [];
+        const others = x_field ? [...this.columns.keys()].filter((f) => !named.has(f) && !not_drawn.includes(f) && !abscissas.includes(f)) : [];
         const all = [...shown.map((panel) => ({ ...panel, host: "telemetry-plots" })),
                      ...others.map((field) => ({ title: field, y: field, unit: "", fields: { [field]: field },
                                                  host: "telemetry-others" }))];
