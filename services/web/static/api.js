@@ -122,8 +122,7 @@ export async function follow_events(tell) {
         try {
             const answer = await get_json(`/v1/events?after=${after}&wait=${wait}`);
             tell.found();
-            // A server that was set up anew counts from one again.
-            after = answer.next ?? 0;
+            after = answer.next;
             if (answer.events.length > 0) tell.events(answer.events);
             else wait = longest_wait;
             pause = 1;
@@ -133,6 +132,7 @@ export async function follow_events(tell) {
             await new Promise((resume) => setTimeout(resume, 1000 * pause));
             pause = Math.min(2 * pause, 8);
             wait = 0;
+            after = 0; // a server that was set up anew counts from one again
         }
     }
 }

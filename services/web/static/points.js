@@ -191,7 +191,7 @@ export class PointView {
         const palette = this.colour.field === "region"
             ? Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i))) : scale_packed;
         const unknown = packed(unknown_css);
-        const size = Math.max(Math.round(this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
+        const size = Math.max(Math.ceil(1.1 * this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
         const [origin_x, origin_y] = this.to_screen(0, 0);
         for (let i = 0; i < shades.length; i += 1) {
             const left = Math.round(origin_x + x[i] * this.scale - size / 2);

@@ -38,11 +38,10 @@ export class Results {
     }
 
     new_row() {
-        const row = element("tr", {}, element("th", { scope: "row" }), element("td", {}, element("span")));
+        const look = element("button", { type: "button", class: "link",
+                                         onclick: () => this.choose(Number(row.dataset.key)) });
+        const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", {}, element("span")));
         for (const column of columns) row.append(element("td", { class: "number", "data-column": column }));
-        const look = element("button", { type: "button", class: "small", onclick: () =>
-            this.choose(Number(row.dataset.key)) }, "Particles");
-        row.append(element("td", {}, look));
         return row;
     }
 }
@@ -50,16 +49,18 @@ export class Results {
 function mark_of(row) {
     const kinds = { failed: "failed", lost: "failed", skipped: "skipped", cancelled: "skipped", cancelling: "skipped" };
     const busy = state_look(row.state).family === "busy" ? "running" : "pending";
-    return { x: row.transfer_time, kind: kinds[row.state] ?? busy, label: row.state };
+    return { x: row.transfer_time, kind: kinds[row.state] ?? busy,
+             label: row.reason ? `${row.state}: ${row.reason}` : row.state };
 }
 
 function fill_row(row, values) {
     const [time, state] = row.children;
-    set_text(time, number(values.transfer_time));
-    show_state(state.firstElementChild, values.state);
-    for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
-    const look = row.querySelector("button");
+    const look = time.firstElementChild;
+    set_text(look, number(values.transfer_time));
     look.disabled = !values.mpm_task || ["blocked", "ready", "skipped"].includes(values.state);
-    look.setAttribute("aria-label", `Show particles from t_T = ${number(values.transfer_time)} s`);
+    look.title = "Show the particles";
+    show_state(state.firstElementChild, values.state);
+    state.title = values.reason ?? "";
+    for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
     row.classList.toggle("waiting", is_active(values.state));
 }

@@ -1,7 +1,7 @@
 // The tasks of a run: a compact picture of the workflow, a table, and one task in detail.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { bytes, clock, elapsed, number, percent, seconds, show_state, state_look, task_name } from "./format.js";
+import { bytes, clock, elapsed, is_active, number, percent, seconds, show_state, state_look, task_name } from "./format.js";
 import { LogView } from "./log.js";
 
 const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
@@ -107,9 +107,11 @@ function fill_row(row, task) {
     set_text(name.firstElementChild, task.phase);
     set_text(time, Number.isFinite(task.transfer_time) ? number(task.transfer_time) : "");
     show_state(state.firstElementChild, task.state);
+    const never_ran = task.attempts.length === 0 && !is_active(task.state);
+    progress.firstElementChild.hidden = never_ran;
     progress.firstElementChild.value = task.progress ?? 0;
     progress.firstElementChild.setAttribute("aria-label", `progress of ${task_name(task)}`);
-    set_text(progress.lastElementChild, percent(task.progress));
+    set_text(progress.lastElementChild, never_ran ? "–" : percent(task.progress));
     set_text(attempts, String(task.attempts.length));
     const last = task.attempts.at(-1);
     set_text(took, last ? (Number.isFinite(last.wall_seconds) ? seconds(Number(last.wall_seconds.toPrecision(3)))

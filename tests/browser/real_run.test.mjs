@@ -1,0 +1,176 @@
+// A person's way through the page with nothing made up: the real orchestrator, the real phases, a small column. The
+// job is submitted in the browser, seen finishing, and its curve and particles are looked at.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import path from "node:path";
+import { createInterface } from "node:readline";
+import { after, before, test } from "node:test";
+import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+
+const programs = process.env.BREACH_BIN;
+const study_file = new URL("small_study.json", import.meta.url);
+const study = JSON.parse(readFileSync(study_file, "utf8"));
+
+let service;
+let url;
+let data;
+let browser;
+let page;
+
+/// Starts the service on a free port; its first line says where it listens.
+async function start_service() {
+    const program = path.join(programs, "breachline");
+    assert.ok(existsSync(program), `${program} is built`);
+    service = spawn(program, ["serve", "--data", data, "--port", "0"], { stdio: ["ignore", "pipe", "inherit"] });
+    const lines = createInterface({ input: service.stdout });
+    const first = await Promise.race([
+        new Promise((resume) => lines.once("line", resume)),
+        new Promise((_, give_up) => service.once("exit", (code) => give_up(new Error(`the service ended: ${code}`)))),
+    ]);
+    return JSON.parse(first).url.replace(/\/$/, "");
+}
+
+function stop_service() {
+    if (service.exitCode !== null) return null;
+    const ended = new Promise((resume) => service.once("exit", resume));
+    service.kill("SIGTERM");
+    return ended;
+}
+
+before(async () => {
+    data = mkdtempSync(path.join(build_folder, "data-"));
+    url = await start_service();
+    browser = await open_browser();
+    page = browser.page;
+});
+
+after(async () => {
+    await browser?.close();
+    await stop_service();
+    rmSync(data, { recursive: true, force: true });
+});
+
+const text_of = (selector) => page.textContent(selector);
+const markers = () => page.locator("#runout-plot svg.plot > .marker.series-0").count();
+const answer_of = async (address) => (await fetch(url + address)).json();
+
+test("a study with faults is refused with the places at fault", async () => {
+    await page.goto(url);
+    await page.click("nav [data-opens=submit]");
+    const broken = structuredClone(study);
+    broken.scene.materials.sand.density = -1800;
+    broken.scene.materials.sand.law.nu = 0.5;
+    broken.scene.mpm.cel_size = 2;
+    await page.fill("#study", JSON.stringify(broken, null, 4));
+    await page.click("#submit");
+    await page.waitForSelector("#fault-list li");
+    const pointers = await page.locator("#fault-list code").allTextContents();
+    for (const place of ["/materials/sand/density", "/materials/sand/law/nu", "/mpm/cel_size"]) {
+        assert.ok(pointers.some((pointer) => pointer.endsWith(place)), `${place} is in ${pointers}`);
+    }
+    await page.click(`#fault-list button:has-text("/density")`);
+    assert.equal(await page.evaluate(() => getSelection().toString()), "-1800");
+    await page.keyboard.press("Escape");
+    assert.deepEqual((await answer_of("/v1/runs")).runs, []);
+});
+
+test("the plan of a scene is shown before anything runs", async () => {
+    await page.click("nav [data-opens=submit]");
+    await page.fill("#study", JSON.stringify(study, null, 4));
+    await page.click("#show-plan");
+    await until("a plan per phase", async () => (await page.locator("#plan pre").count()) >= 3);
+    await screenshot(page, "real_plan");
+    await page.keyboard.press("Escape");
+    assert.deepEqual((await answer_of("/v1/runs")).runs, []);
+});
+
+test("a job submitted in the page runs to its end, and the page shows it without being asked", async () => {
+    await page.click("nav [data-opens=submit]");
+    await page.setInputFiles("#study-file", study_file.pathname);
+    await until("the study's text", async () => (await page.inputValue("#study")).includes("browser-column"));
+    await page.click("#submit");
+    await page.waitForSelector("#run:not([hidden])");
+    assert.equal(await text_of("#run-title"), study.title);
+    await until("the end of the run", async () => /succeeded/.test(await text_of("#run-state")), 120000);
+    await until("one marker per transfer time", async () => (await markers()) === study.transfer_times.length);
+    assert.equal(await page.locator("#task-rows tr").count(), 1 + 2 * study.transfer_times.length);
+});
+
+test("the table has the API's numbers", async () => {
+    const [run] = (await answer_of("/v1/runs")).runs;
+    const { rows } = await answer_of(`/v1/runs/${run.id}/results`);
+    assert.deepEqual(rows.map((row) => row.transfer_time), study.transfer_times);
+    for (const row of rows) {
+        assert.ok(row.runout > 3, `the column runs out: ${row.runout} m`);
+        const cells = await page.locator(`#runout-rows tr[data-key="${row.transfer_time}"] td.number`).allTextContents();
+        assert.equal(Number(cells[0]), Number(row.runout.toPrecision(4)));
+        console.log(`t_T = ${row.transfer_time} s: runout ${row.runout.toFixed(3)} m, ${row.cpu_seconds} s CPU`);
+    }
+    const csv = await (await fetch(url + (await page.getAttribute("#runout-csv", "href")))).text();
+    assert.equal(csv.trim().split("\n").length, 1 + rows.length);
+});
+
+test("particles of each transfer time are drawn and move", async () => {
+    for (const transfer_time of study.transfer_times) {
+        await page.click(`#runout-rows tr[data-key="${transfer_time}"] button`);
+        await until(`soil from t_T = ${transfer_time} s`, async () =>
+            (await page.$eval("#view-source", (s) => s.selectedOptions[0].textContent)) === `MPM from t_T = ${transfer_time} s` &&
+            (await canvas_facts(page)).share > 0.02);
+    }
+    await until("the last snapshot", async () => /\((\d+) of \1\)/.test(await text_of("#view-now")));
+    const end = await canvas_facts(page);
+    assert.ok(end.colours > 10, `${end.colours} colours`);
+    await page.focus("#view-time");
+    await page.keyboard.press("Home");
+    await until("another picture", async () => (await canvas_facts(page)).sum !== end.sum);
+    const first_time = parseFloat((await text_of("#view-now")).match(/t = ([\d.]+) s/)[1]);
+    await page.keyboard.press("End");
+    await until("the end again", async () => (await canvas_facts(page)).sum === end.sum);
+    const last_time = parseFloat((await text_of("#view-now")).match(/t = ([\d.]+) s/)[1]);
+    assert.ok(last_time > first_time, `snapshots are in order of time: ${first_time} s to ${last_time} s`);
+});
+
+test("the FEM's mesh and telemetry are drawn", async () => {
+    await page.selectOption("#view-source", { label: "FEM mesh" });
+    await until("50 elements", async () => (await text_of("#view-count")) === "50 elements");
+    await until("colours", async () => (await canvas_facts(page)).share > 0.02);
+    assert.deepEqual((await page.locator("#telemetry-plots figcaption").allTextContents()).slice(0, 4),
+                     ["Crest displacement", "Kinetic energy", "Jacobian ratio, averages", "Deviatoric strain, average"]);
+    await page.selectOption("#telemetry-source", { index: 1 });
+    await until("the front's curve", async () =>
+        (await page.locator("#telemetry-plots figcaption").allTextContents()).includes("Front"));
+    await page.selectOption("#telemetry-source", { index: 0 });
+});
+
+test("a task's log and files are there, and a file is what its hash says", async () => {
+    await page.click("#task-rows tr:first-child button");
+    await until("the log", async () => /fem_solver/.test(await text_of("#log")));
+    const hashes = await page.locator("#task-artifacts code").allTextContents();
+    assert.ok(hashes.length >= 2);
+    const matches = await page.evaluate(async (sha256) => {
+        const body = await (await fetch(`/v1/artifacts/${sha256}`)).arrayBuffer();
+        const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", body));
+        return [...digest].map((byte) => byte.toString(16).padStart(2, "0")).join("") === sha256;
+    }, hashes[0]);
+    assert.ok(matches);
+});
+
+test("the finished run is photographed, light and dark", async () => {
+    await page.click(`#runout-rows tr[data-key="${study.transfer_times[1]}"] button`);
+    await page.click("#task-close");
+    for (const theme of ["light", "dark"]) {
+        while ((await page.getAttribute("html", "data-theme")) !== theme) await page.click("#theme");
+        await until("soil", async () => (await canvas_facts(page)).share > 0.02);
+        await page.waitForTimeout(300); // transitions
+        await screenshot(page, `real_${theme}`);
+    }
+    assert.deepEqual(browser.complaints, []);
+    assert.deepEqual(browser.foreign, []);
+});
+
+test("a service that ends is noticed, and what was seen stays", async () => {
+    await stop_service();
+    await until("the notice", async () => /Connection lost/.test(await text_of("#connection")), 30000);
+    assert.equal(await markers(), study.transfer_times.length);
+});
