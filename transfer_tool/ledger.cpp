@@ -1,0 +1,241 @@
+#include "transfer_tool/ledger.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/fault/fault.hpp"
+#include "transfer_tool/points.hpp"
+
+namespace breach::transfer {
+namespace {
+
+using exchange::Ledger;
+using exchange::MeshSnapshot;
+using exchange::ParticleState;
+
+/// Everything that is counted, for one region.
+struct Amounts {
+    double mass = 0.0;
+    double volume = 0.0;
+    Vec2 momentum = Vec2::Zero();
+    double kinetic = 0.0;
+    double potential = 0.0;
+    double elastic = 0.0;
+    double momentum_scale = 0.0;  ///< sum of |m v|
+
+    Amounts& operator+=(const Amounts& other) {
+        mass += other.mass;
+        volume += other.volume;
+        momentum += other.momentum;
+        kinetic += other.kinetic;
+        potential += other.potential;
+        elastic += other.elastic;
+        momentum_scale += other.momentum_scale;
+        return *this;
+    }
+};
+
+double lowest_node(const MeshSnapshot& mesh) {
+    double y = mesh.position_0.front().y() + mesh.displacement.front().y();
+    for (std::size_t i = 0; i < mesh.position_0.size(); ++i)
+        y = std::min(y, mesh.position_0[i].y() + mesh.displacement[i].y());
+    return y;
+}
+
+/// Weight of each of the snapshot's Gauss points in natural coordinates.
+std::vector<double> gauss_weights(const MeshSnapshot& mesh, const std::string& file) {
+    const int n = static_cast<int>(std::lround(std::sqrt(mesh.gauss_positions.size())));
+    const GaussRule rule = gauss_legendre(std::max(n, 1));
+    const auto weight_at = [&](double xi) {
+        for (int i = 0; i < n; ++i)
+            if (std::abs(rule.position[i] - xi) < 1e-9) return rule.weight[i];
+        return 0.0;
+    };
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (const Vec2& xi : mesh.gauss_positions) {
+        weights.push_back(weight_at(xi.x()) * weight_at(xi.y()));
+        sum += weights.back();
+    }
+    if (std::abs(sum - 4.0) > 1e-9)
+        throw fault::BadInput(file, {{"/breachline/gauss/natural_coordinates",
+                                      "not the points of an n x n Gauss-Legendre rule",
+                                      "give a snapshot as fem_solver wrote it"}});
+    return weights;
+}
+
+/// Exact integrals of the finite-element fields over element e.
+Amounts on_element(const MeshSnapshot& mesh, std::size_t e, double gravity, double datum) {
+    const Eigen::Vector4d J_0 = corner_jacobians(undeformed_corners(mesh, e));
+    const Corners x = deformed_corners(mesh, e);
+    Corners v;
+    for (int i = 0; i < 4; ++i) v.col(i) = mesh.velocity[mesh.quads[e][i]];
+    const double rho_t = mesh.density[e] * mesh.thickness;
+    Amounts a;
+    a.mass = rho_t * J_0.sum();
+    a.volume = mesh.thickness * corner_jacobians(x).sum();
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) {
+            const double m_ik = rho_t * integral(i, k) * J_0[k];
+            a.momentum += m_ik * v.col(i);
+            a.potential += m_ik * gravity * (x(1, i) - datum);
+            for (int j = 0; j < 4; ++j)
+                a.kinetic += 0.5 * rho_t * integral(i, j, k) * J_0[k] * v.col(i).dot(v.col(j));
+        }
+    return a;
+}
+
+double elastic_energy_on_element(const MeshSnapshot& mesh, std::size_t e,
+                                 const std::vector<double>& weights, const materials::Law& law) {
+    const Corners x = deformed_corners(mesh, e);
+    double energy = 0.0;
+    for (std::size_t g = 0; g < weights.size(); ++g) {
+        const double V = jacobian(x, mesh.gauss_positions[g]).determinant() * weights[g];
+        energy += V * mesh.thickness *
+                  mechanics::elastic_energy_density(materials::elasticity(law),
+                                                    mesh.stress[e * weights.size() + g]);
+    }
+    return energy;
+}
+
+std::vector<Amounts> on_mesh(const MeshSnapshot& mesh, std::span<const materials::Law> laws,
+                             double gravity, double datum, const std::string& file) {
+    const std::vector<double> weights = gauss_weights(mesh, file);
+    std::vector<Amounts> regions(mesh.regions.size());
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        const std::int32_t r = mesh.region_of_element[e];
+        regions[r] += on_element(mesh, e, gravity, datum);
+        regions[r].elastic += elastic_energy_on_element(mesh, e, weights, laws[r]);
+    }
+    return regions;
+}
+
+std::vector<Amounts> on_points(const ParticleState& points, std::span<const materials::Law> laws,
+                               double gravity, double datum) {
+    std::vector<Amounts> regions(points.regions.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const std::int32_t r = points.region[p];
+        Amounts& a = regions[r];
+        const double m = points.mass[p];
+        const Vec2& v = points.velocity[p];
+        a.mass += m;
+        a.volume += points.volume[p];
+        a.momentum += m * v;
+        a.momentum_scale += m * v.norm();
+        a.kinetic += 0.5 * m * v.squaredNorm();
+        a.potential += m * gravity * (points.position[p].y() - datum);
+        a.elastic += points.volume[p] * mechanics::elastic_energy_density(
+                                            materials::elasticity(laws[r]), points.stress[p]);
+    }
+    return regions;
+}
+
+double relative(double before, double after, double scale) {
+    if (after == before) return 0.0;
+    return (after - before) / std::max(std::abs(scale), 1e-300);
+}
+
+void add_rows(Ledger& ledger, const std::string& region, const Amounts& b, const Amounts& a) {
+    const auto row = [&](const char* quantity, const char* unit, double before, double after,
+                         double scale) {
+        ledger.push_back({region, quantity, unit, before, after, relative(before, after, scale)});
+    };
+    const double mv = a.momentum_scale;
+    row("mass", "kg", b.mass, a.mass, b.mass);
+    row("volume", "m3", b.volume, a.volume, b.volume);
+    row("momentum x", "kg m/s", b.momentum.x(), a.momentum.x(), mv);
+    row("momentum y", "kg m/s", b.momentum.y(), a.momentum.y(), mv);
+    row("kinetic energy", "J", b.kinetic, a.kinetic, b.kinetic);
+    row("potential energy", "J", b.potential, a.potential, b.potential);
+    row("elastic energy", "J", b.elastic, a.elastic, b.elastic);
+}
+
+/// The FEM's own lumped sums against the points.
+void add_nodal_rows(Ledger& ledger, const MeshSnapshot& mesh, const Amounts& a) {
+    double mass = 0.0;
+    double kinetic = 0.0;
+    Vec2 momentum = Vec2::Zero();
+    for (std::size_t i = 0; i < mesh.nodal_mass.size(); ++i) {
+        mass += mesh.nodal_mass[i];
+        momentum += mesh.nodal_mass[i] * mesh.velocity[i];
+        kinetic += 0.5 * mesh.nodal_mass[i] * mesh.velocity[i].squaredNorm();
+    }
+    const double mv = a.momentum_scale;
+    ledger.push_back(
+        {"total", "mass of the nodes", "kg", mass, a.mass, relative(mass, a.mass, mass)});
+    ledger.push_back({"total", "momentum x of the nodes", "kg m/s", momentum.x(), a.momentum.x(),
+                      relative(momentum.x(), a.momentum.x(), mv)});
+    ledger.push_back({"total", "momentum y of the nodes", "kg m/s", momentum.y(), a.momentum.y(),
+                      relative(momentum.y(), a.momentum.y(), mv)});
+    ledger.push_back({"total", "kinetic energy of the nodes", "J", kinetic, a.kinetic,
+                      relative(kinetic, a.kinetic, kinetic)});
+}
+
+}  // namespace
+
+Ledger ledger_of(const MeshSnapshot& mesh, const ParticleState& points,
+                 std::span<const materials::Law> laws, double gravity, const std::string& file) {
+    const double datum = lowest_node(mesh);
+    const std::vector<Amounts> before = on_mesh(mesh, laws, gravity, datum, file);
+    const std::vector<Amounts> after = on_points(points, laws, gravity, datum);
+    Ledger ledger;
+    Amounts total_before;
+    Amounts total_after;
+    for (std::size_t r = 0; r < before.size(); ++r) {
+        if (before[r].mass == 0.0) continue;  // a region without elements
+        add_rows(ledger, mesh.regions[r], before[r], after[r]);
+        total_before += before[r];
+        total_after += after[r];
+    }
+    add_rows(ledger, "total", total_before, total_after);
+    add_nodal_rows(ledger, mesh, total_after);
+    return ledger;
+}
+
+std::string as_text(const Ledger& ledger) {
+    std::size_t region = 6;
+    std::size_t quantity = 8;
+    for (const auto& row : ledger) {
+        region = std::max(region, row.region.size());
+        quantity = std::max(quantity, row.quantity.size());
+    }
+    const int r = static_cast<int>(region);
+    const int q = static_cast<int>(quantity);
+    char line[512];
+    std::snprintf(line, sizeof line, "%-*s  %-*s  %-6s  %16s  %16s  %10s\n", r, "region", q,
+                  "quantity", "unit", "before", "after", "difference");
+    std::string text = line;
+    for (const auto& row : ledger) {
+        std::snprintf(line, sizeof line, "%-*s  %-*s  %-6s  %16.9e  %16.9e  %10.1e\n", r,
+                      row.region.c_str(), q, row.quantity.c_str(), row.unit.c_str(), row.before,
+                      row.after, row.difference);
+        text += line;
+    }
+    return text;
+}
+
+void refuse_losses(const Ledger& ledger, const scene::Transfer& settings) {
+    std::string losses;
+    for (const auto& row : ledger) {
+        double allowed = 0.0;
+        if (row.quantity == "mass" || row.quantity == "volume")
+            allowed = settings.largest_mass_loss;
+        else if (row.quantity == "momentum x" || row.quantity == "momentum y")
+            allowed = settings.largest_momentum_loss;
+        else
+            continue;
+        if (std::abs(row.difference) <= allowed) continue;
+        char line[256];
+        std::snprintf(line, sizeof line, "\n  %s of region \"%s\": %.3g, allowed %.3g",
+                      row.quantity.c_str(), row.region.c_str(), row.difference, allowed);
+        losses += line;
+    }
+    if (losses.empty()) return;
+    throw fault::Breakdown(
+        "the transfer loses more than the scene allows (relative):" + losses +
+        "\n  remedy: at least 2 points_per_direction, or allow more in /transfer/largest_*_loss");
+}
+
+}  // namespace breach::transfer

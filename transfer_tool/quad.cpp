@@ -1,0 +1,77 @@
+#include "transfer_tool/quad.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace breach::transfer {
+namespace {
+
+constexpr int side_xi[4] = {-1, 1, 1, -1};
+constexpr int side_eta[4] = {-1, -1, 1, 1};
+
+}  // namespace
+
+Eigen::Vector4d shape_functions(const Vec2& xi) {
+    Eigen::Vector4d N;
+    for (int i = 0; i < 4; ++i)
+        N[i] = 0.25 * (1.0 + side_xi[i] * xi.x()) * (1.0 + side_eta[i] * xi.y());
+    return N;
+}
+
+Corners shape_gradients(const Vec2& xi) {
+    Corners dN;
+    for (int i = 0; i < 4; ++i) {
+        dN(0, i) = 0.25 * side_xi[i] * (1.0 + side_eta[i] * xi.y());
+        dN(1, i) = 0.25 * side_eta[i] * (1.0 + side_xi[i] * xi.x());
+    }
+    return dN;
+}
+
+Matrix2 jacobian(const Corners& x, const Vec2& xi) { return x * shape_gradients(xi).transpose(); }
+
+Eigen::Vector4d corner_jacobians(const Corners& x) {
+    Eigen::Vector4d J;
+    for (int k = 0; k < 4; ++k) {
+        const Vec2 ahead = x.col((k + 1) % 4) - x.col(k);
+        const Vec2 back = x.col((k + 3) % 4) - x.col(k);
+        J[k] = 0.25 * (ahead.x() * back.y() - ahead.y() * back.x());
+    }
+    return J;
+}
+
+// In one direction the two linear functions (1 -+ xi)/2 give 2/3 (same) or 1/3 (different) for a
+// product of two, and 1/2 (all the same) or 1/6 for a product of three.
+double integral(int i, int k) {
+    const auto along = [](int a, int b) { return a == b ? 2.0 / 3.0 : 1.0 / 3.0; };
+    return along(side_xi[i], side_xi[k]) * along(side_eta[i], side_eta[k]);
+}
+
+double integral(int i, int j, int k) {
+    const auto along = [](int a, int b, int c) { return a == b && b == c ? 0.5 : 1.0 / 6.0; };
+    return along(side_xi[i], side_xi[j], side_xi[k]) * along(side_eta[i], side_eta[j], side_eta[k]);
+}
+
+GaussRule gauss_legendre(int n) {
+    GaussRule rule{std::vector<double>(n), std::vector<double>(n)};
+    for (int i = 0; i < n; ++i) {
+        // Newton on P_n from Tricomi's estimate of its root; P_n by the three-term recurrence.
+        double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+        double slope = 1.0;
+        for (int iteration = 0; iteration < 10; ++iteration) {
+            double P = x;
+            double P_before = 1.0;
+            for (int k = 2; k <= n; ++k) {
+                const double P_next = ((2.0 * k - 1.0) * x * P - (k - 1.0) * P_before) / k;
+                P_before = P;
+                P = P_next;
+            }
+            slope = n * (x * P - P_before) / (x * x - 1.0);
+            x -= P / slope;
+        }
+        rule.position[i] = x;
+        rule.weight[i] = 2.0 / ((1.0 - x * x) * slope * slope);
+    }
+    return rule;
+}
+
+}  // namespace breach::transfer

@@ -1,0 +1,37 @@
+// The bilinear quad: shape functions, Jacobian, Gauss-Legendre rules and exact integrals of
+// products of shape functions. Corners counter-clockwise, natural coordinates (xi, eta) in [-1, 1].
+#pragma once
+
+#include <vector>
+
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::transfer {
+
+using mechanics::Matrix2;
+using mechanics::Vec2;
+using Corners = Eigen::Matrix<double, 2, 4>;  ///< columns are corners [m]
+
+/// N_i(xi) [-].
+Eigen::Vector4d shape_functions(const Vec2& xi);
+/// dN_i/d(xi, eta), rows: direction, columns: corner.
+Corners shape_gradients(const Vec2& xi);
+/// dx/d(xi, eta) [m]; its determinant J is the area per natural area.
+Matrix2 jacobian(const Corners& x, const Vec2& xi);
+/// J at the four corners [m2]. J is linear in xi and eta, so these are its extremes and J = sum N_k
+/// J_k exactly.
+Eigen::Vector4d corner_jacobians(const Corners& x);
+
+/// Integral over [-1, 1]^2 of N_i N_k, and of N_i N_j N_k; exact.
+double integral(int i, int k);
+double integral(int i, int j, int k);
+
+/// Positions in [-1, 1] and weights (sum 2) of n-point Gauss-Legendre quadrature, n >= 1, exact to
+/// degree 2n - 1.
+struct GaussRule {
+    std::vector<double> position;
+    std::vector<double> weight;
+};
+GaussRule gauss_legendre(int n);
+
+}  // namespace breach::transfer

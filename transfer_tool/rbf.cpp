@@ -1,0 +1,148 @@
+#include "transfer_tool/rbf.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace breach::transfer {
+namespace {
+
+constexpr double coincident = 1e-9;  // of the extent of the centres
+constexpr double flat = 1e-6;        // spread across a line over spread along it
+
+double phi(const Vec2& a, const Vec2& b, double epsilon) {
+    return std::sqrt((a - b).squaredNorm() + epsilon * epsilon);
+}
+
+std::pair<Vec2, Vec2> bounds(std::span<const Vec2> position) {
+    Vec2 low = position.front();
+    Vec2 high = position.front();
+    for (const Vec2& x : position) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    return {low, high};
+}
+
+}  // namespace
+
+Centres merge_coincident(const std::vector<Vec2>& position, const Values& value) {
+    const auto [low, high] = bounds(position);
+    const double reach = coincident * (high - low).norm();
+    Centres centres{{}, Values(value.rows(), value.cols()), 0};
+    std::vector<double> members;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+        std::size_t k = 0;
+        while (k < centres.position.size() && (centres.position[k] - position[i]).norm() > reach)
+            ++k;
+        const auto from = value.row(static_cast<Eigen::Index>(i));
+        auto to = centres.value.row(static_cast<Eigen::Index>(k));
+        if (k == centres.position.size()) {
+            centres.position.push_back(position[i]);
+            members.push_back(1.0);
+            to = from;
+        } else {
+            members[k] += 1.0;
+            to += (from - to) / members[k];
+            ++centres.merged;
+        }
+    }
+    centres.value.conservativeResize(static_cast<Eigen::Index>(centres.position.size()),
+                                     value.cols());
+    return centres;
+}
+
+double average_distance(std::span<const Vec2> position) {
+    const auto [low, high] = bounds(position);
+    const Vec2 edge = high - low;
+    const auto N = static_cast<double>(position.size());
+    if (edge.minCoeff() > 0.0) return std::sqrt(edge.x() * edge.y() / N);
+    if (edge.maxCoeff() > 0.0) return edge.maxCoeff() / N;
+    return 1.0;  // a single centre: any length will do
+}
+
+LocalInterpolant::LocalInterpolant(const Centres& centres)
+    : centre_(centres.position),
+      middle_(Vec2::Zero()),
+      axes_(Eigen::Matrix2d::Zero()),
+      directions_(0) {
+    const Values& value = centres.value;
+    const auto k = static_cast<Eigen::Index>(centre_.size());
+    for (const Vec2& x : centre_) middle_ += x / static_cast<double>(k);
+    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+    double radius = 0.0;
+    for (const Vec2& x : centre_) {
+        scatter += (x - middle_) * (x - middle_).transpose() / static_cast<double>(k);
+        radius = std::max(radius, (x - middle_).norm());
+    }
+    // Mean distance of k centres spread over a disc.
+    epsilon_ = radius > 0.0 ? radius * std::sqrt(std::numbers::pi / static_cast<double>(k)) : 1.0;
+
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(scatter);
+    const double along = std::sqrt(std::max(0.0, spread.eigenvalues()[1]));
+    const double across = std::sqrt(std::max(0.0, spread.eigenvalues()[0]));
+    if (along > 0.0) {
+        axes_.col(0) = spread.eigenvectors().col(1) / along;
+        directions_ = 1;
+        if (across > flat * along) {
+            axes_.col(1) = spread.eigenvectors().col(0) / across;
+            directions_ = 2;
+        }
+    }
+
+    const Eigen::Index t = 1 + directions_;
+    Eigen::MatrixXd P(k, t);
+    for (Eigen::Index i = 0; i < k; ++i) P.row(i) = tail(centre_[i]);
+    // The best linear field is taken out first: what is left is small where the field is nearly
+    // linear, and so is the round-off of the system below.
+    const Eigen::MatrixXd linear = P.householderQr().solve(value);
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(k + t, k + t);
+    for (Eigen::Index i = 0; i < k; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j)
+            system(i, j) = system(j, i) = phi(centre_[i], centre_[j], epsilon_) / epsilon_;
+    system.topRightCorner(k, t) = P;
+    system.bottomLeftCorner(t, k) = P.transpose();
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(k + t, value.cols());
+    right.topRows(k) = value - P * linear;
+    coefficient_ = system.partialPivLu().solve(right);
+    coefficient_.topRows(k) /= epsilon_;
+    coefficient_.bottomRows(t) += linear;
+}
+
+Eigen::RowVectorXd LocalInterpolant::tail(const Vec2& place) const {
+    Eigen::RowVectorXd row(1 + directions_);
+    row[0] = 1.0;
+    for (int d = 0; d < directions_; ++d) row[1 + d] = axes_.col(d).dot(place - middle_);
+    return row;
+}
+
+void LocalInterpolant::at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const {
+    const auto k = static_cast<Eigen::Index>(centre_.size());
+    value = tail(place) * coefficient_.bottomRows(1 + directions_);
+    for (Eigen::Index i = 0; i < k; ++i)
+        value += phi(place, centre_[i], epsilon_) * coefficient_.row(i);
+}
+
+GlobalInterpolant::GlobalInterpolant(Centres centres)
+    : centre_(std::move(centres.position)),
+      epsilon_(average_distance(centre_)),
+      mean_(centres.value.colwise().mean()) {
+    const auto N = static_cast<Eigen::Index>(centre_.size());
+    Eigen::MatrixXd system(N, N);
+    for (Eigen::Index j = 0; j < N; ++j)
+        for (Eigen::Index i = 0; i < N; ++i) system(i, j) = phi(centre_[i], centre_[j], epsilon_);
+    coefficient_ = centres.value.rowwise() - mean_;
+    const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> in_place(system);
+    coefficient_ = in_place.solve(coefficient_).eval();
+}
+
+void GlobalInterpolant::at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const {
+    value = mean_;
+    for (Eigen::Index i = 0; i < coefficient_.rows(); ++i)
+        value += phi(place, centre_[i], epsilon_) * coefficient_.row(i);
+}
+
+}  // namespace breach::transfer

@@ -1,0 +1,67 @@
+// Radial basis functions: scattered values carried to new places with the multiquadric phi(r) =
+// sqrt(r^2 + epsilon^2). Knows nothing of meshes, regions or what the values mean.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::transfer {
+
+using mechanics::Vec2;
+/// One row per place, one column per field.
+using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Scattered values at distinct places.
+struct Centres {
+    std::vector<Vec2> position;  ///< [m]
+    Values value;
+    std::size_t merged = 0;  ///< how many were dropped as coincident
+};
+/// Places closer than 1e-9 of the extent become one that carries the mean of their values. Compares
+/// all pairs.
+Centres merge_coincident(const std::vector<Vec2>& position, const Values& value);
+
+/// sqrt(bounding-box area / N) [m]; along a line, its length / N (Sordo et al. 2024 through its
+/// reference code).
+double average_distance(std::span<const Vec2> position);
+
+/// Interpolant through a few centres: multiquadric plus a linear tail, exact for constant and
+/// linear fields. Where the centres lie on a line the tail is linear along it, where there is one
+/// centre the tail is its value.
+class LocalInterpolant {
+  public:
+    /// At least one centre.
+    explicit LocalInterpolant(const Centres& centres);
+    /// Writes one value per field.
+    void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;
+
+  private:
+    Eigen::RowVectorXd tail(const Vec2& place) const;
+
+    std::vector<Vec2> centre_;
+    Vec2 middle_;
+    Eigen::Matrix2d axes_;  ///< columns: principal directions over the spread along each [1/m]
+    int directions_;        ///< in how many of them the centres spread
+    double epsilon_;        ///< [m]
+    Eigen::MatrixXd coefficient_;
+};
+
+/// One interpolant through all centres without a tail, around the mean of the values so that a
+/// constant stays constant. Dense: N^2 memory, N^3 time. Departs from: Sordo et al. 2024, who do
+/// not take out the mean.
+class GlobalInterpolant {
+  public:
+    explicit GlobalInterpolant(Centres centres);
+    void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;
+
+  private:
+    std::vector<Vec2> centre_;
+    double epsilon_;
+    Eigen::RowVectorXd mean_;
+    Eigen::MatrixXd coefficient_;
+};
+
+}  // namespace breach::transfer
