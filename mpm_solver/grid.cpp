@@ -41,8 +41,9 @@ Grid make_grid(const scene::Mpm& mpm) {
     grid.origin = {mpm.domain_x[0] - h, mpm.floor.level - h};
     grid.columns = cells_x + 3;
     grid.rows = cells_y + 3;
-    grid.low = {mpm.domain_x[0], mpm.floor.level};
-    grid.high = {mpm.domain_x[1], mpm.domain_y[1]};
+    const double round_off = 1e-9 * h;  // a point on a wall stays on it up to round-off
+    grid.low = {mpm.domain_x[0] - round_off, mpm.floor.level - round_off};
+    grid.high = {mpm.domain_x[1] + round_off, mpm.domain_y[1] + round_off};
     if (mpm.left != scene::Wall::open) grid.walls_x.low = 1;
     if (mpm.right != scene::Wall::open) grid.walls_x.high = cells_x + 1;
     grid.walls_y.low = 1;

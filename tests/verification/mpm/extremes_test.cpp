@@ -1,0 +1,98 @@
+// The right answer, or at least a bounded one, where codes tend to fail.
+#include "mpm_solver/guard.hpp"
+#include "tests/unit/mpm/bodies.hpp"
+#include "tests/verification/mpm/report.hpp"
+
+namespace breach::mpm::test {
+namespace {
+
+scene::Scene heap(const materials::Law& law) {
+    scene::Scene scene = one_soil(law, 1800.0, rectangle(0, 0, 4, 4), 0.5, 30.0, 8.0);
+    scene.gravity = 9.81;
+    scene.mpm->left = scene::Wall::roller;
+    scene.mpm->floor.friction = {{0.0, 30.0, 0.5}};
+    return scene;
+}
+
+void require_whole(const Body& body, const Limits& limits) {
+    if (const auto complaint = step_complaint(body, limits)) throw std::runtime_error(*complaint);
+}
+
+/// Runs, and holds the guard's complaints against it.
+Body whole_after(const scene::Scene& scene, double end) {
+    Body body = filled_body(scene);
+    const Energy start = energy_of(body);
+    const double volume = volume_of(body.points, {1});
+    const Limits limits = limits_of(body, *scene.mpm, start);
+    advance(body, scene, end, [&](double) { require_whole(body, limits); });
+    const Energy now = energy_of(body);
+    std::printf("    numerical share %.3f, volume ratio %.3f\n", numerical_share(start, now),
+                volume_of(body.points, {1}) / volume);
+    const double ratio = volume_of(body.points, {1}) / volume;
+    const auto complaint = budget_complaint(limits, start, now, ratio);
+    EXPECT_FALSE(complaint) << *complaint;
+    return body;
+}
+
+TEST(Extremes, NearlyIncompressibleSoilStaysWhole) {
+    whole_after(heap(sand(1e6, 0.4999, 1e3, 20.0)), 0.5);
+}
+
+TEST(Extremes, LiquidWithoutStrengthStaysWhole) {
+    whole_after(heap(sand(1e6, 0.45, 0.0, 0.0)), 1.0);
+}
+
+TEST(Extremes, OneParticlePerCellStaysWhole) {
+    scene::Scene scene = heap(sand(5e6, 0.3, 1e3, 30.0));
+    scene.mpm->fill_points = 1;
+    whole_after(scene, 2.0);
+}
+
+TEST(Extremes, TenGStaysWhole) {
+    scene::Scene scene = heap(sand(5e6, 0.3, 1e3, 30.0));
+    scene.gravity = 98.1;
+    whole_after(scene, 0.6);
+}
+
+TEST(Extremes, FrictionOfZeroAndOfTenStayWhole) {
+    for (const double mu : {0.0, 10.0}) {
+        scene::Scene scene = heap(sand(5e6, 0.3, 1e3, 30.0));
+        scene.mpm->floor.friction[0].coefficient = mu;
+        whole_after(scene, 1.0);
+    }
+}
+
+TEST(Extremes, StiffnessContrastOfOneHundredThousandInOneCellStaysWhole) {
+    scene::Scene scene = heap(elastic(1e9, 0.3));
+    scene.materials.push_back({.name = "soft", .density = 1800.0, .law = elastic(1e4, 0.3)});
+    scene.section.regions[0].polygon = rectangle(0, 0, 4, 0.75);
+    scene.section.regions.push_back(
+        {.name = "soft", .material = 1, .polygon = rectangle(0, 0.75, 4, 1.25)});
+    Body body = filled_body(scene);
+    const Limits limits = limits_of(body, *scene.mpm, energy_of(body));
+    advance(body, scene, 0.2, [&](double) { require_whole(body, limits); });
+}
+
+TEST(Extremes, StressFarOutsideYieldIsReturned) {
+    const scene::Scene scene = heap(sand(5e6, 0.3, 1e3, 30.0));
+    Body body = filled_body(scene);
+    for (double& s : body.points.syy) s = -1e6;
+    const Limits limits = limits_of(body, *scene.mpm, energy_of(body));
+    advance(body, scene, 0.5, [&](double) { require_whole(body, limits); });
+}
+
+TEST(Extremes, ParticlesExactlyOnNodesAndWallsStayWhole) {
+    // GIMP only: with linear kernels a point on a node loads a neighbour to which it gives no mass.
+    for (const auto order : {scene::UpdateOrder::usl, scene::UpdateOrder::musl}) {
+        scene::Scene scene = heap(sand(5e6, 0.3, 1e3, 30.0));
+        scene.mpm->order = order;
+        exchange::ParticleState state = fill_section(scene).state;
+        for (auto& x : state.position) x -= mechanics::Vec2{0.125, 0.125};
+        Body body = make_body(scene, zoned_points(scene, state, "test"), "test");
+        const Limits limits = limits_of(body, *scene.mpm, energy_of(body));
+        advance(body, scene, 0.5, [&](double) { require_whole(body, limits); });
+    }
+}
+
+}  // namespace
+}  // namespace breach::mpm::test

@@ -1,0 +1,47 @@
+// A stress that turns with the material: by 90 degrees sigma_xx and sigma_yy change places. (After
+// 360 degrees no rotation at all would pass.)
+#include "mpm_solver/turn.hpp"
+#include "tests/unit/mpm/bodies.hpp"
+#include "tests/verification/mpm/report.hpp"
+
+namespace breach::mpm::test {
+namespace {
+
+TEST(StressRotation, By90DegreesIsExact) {
+    const mechanics::Voigt start{-100.0, -30.0, -50.0, 20.0};
+    const mechanics::Voigt exact{-30.0, -100.0, -50.0, -20.0};
+    for (const int steps : {157, 1571, 15708}) {
+        mechanics::Voigt sigma = start;
+        for (int k = 0; k < steps; ++k) sigma = turned(sigma, 0.5 * std::numbers::pi / steps);
+        expect_error_within("90 degrees in " + std::to_string(steps) + " steps",
+                            (sigma - exact).norm() / start.norm(), 1e-10);
+    }
+}
+
+TEST(StressRotation, KeepsInvariantsAtAnyAngle) {
+    const mechanics::Voigt start{-100.0, -30.0, -50.0, 20.0};
+    const mechanics::Voigt end = turned(start, 0.7);
+    EXPECT_NEAR(mechanics::mean_stress(end), mechanics::mean_stress(start), 1e-12);
+    EXPECT_NEAR(mechanics::deviator(end).head<3>().squaredNorm() + 2.0 * end[3] * end[3] -
+                    3.0 * std::pow(mechanics::mean_stress(end) * 0.0, 2),
+                mechanics::deviator(start).head<3>().squaredNorm() + 2.0 * start[3] * start[3],
+                1e-9);
+}
+
+TEST(StressRotation, UpdateStressTurnsAStressedPointThatSpins) {
+    scene::Scene scene = one_soil(elastic(1e6, 0.3), 1000.0, rectangle(1, 1, 2, 2), 1.0, 4.0, 4.0);
+    scene.mpm->anti_locking = scene::AntiLocking::off;
+    Body body = filled_body(scene);
+    for (std::size_t p = 0; p < body.points.size(); ++p) {
+        body.points.sxx[p] = -100.0, body.points.syy[p] = -30.0;
+        body.points.szz[p] = -50.0, body.points.sxy[p] = 20.0;
+        body.points.Lxy[p] = -1.0, body.points.Lyx[p] = 1.0;
+    }
+    const int steps = 1000;
+    for (int k = 0; k < steps; ++k) body.verbs.update_stress(body, 0.5 * std::numbers::pi / steps);
+    expect_error_within("sigma_xx after 90 degrees", (body.points.sxx[0] + 30.0) / 100.0, 1e-10);
+    expect_error_within("sigma_xy after 90 degrees", (body.points.sxy[0] + 20.0) / 100.0, 1e-10);
+}
+
+}  // namespace
+}  // namespace breach::mpm::test
