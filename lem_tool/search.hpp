@@ -1,0 +1,52 @@
+// The critical circle: entry-exit search, coarse grid first, then every promising valley to its
+// bottom. Deterministic; the answer does not depend on luck or on the order of evaluation.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lem_tool/bishop.hpp"
+#include "lem_tool/slices.hpp"
+#include "lem_tool/strata.hpp"
+
+namespace breach::lem {
+
+/// What is analysed: soil, strengths and how finely the mass is cut.
+struct Model {
+    Strata strata;
+    std::vector<Soil> soils;  ///< by region
+    int slices;
+};
+Model make_model(const scene::Scene& scene);
+
+/// A surface with its factor of safety.
+struct Critical {
+    Surface surface;
+    Bishop bishop;
+};
+
+/// How many surfaces were tried and why some have no answer.
+struct Tally {
+    std::int64_t analysed = 0;       ///< a factor of safety was computed
+    std::int64_t not_a_surface = 0;  ///< left the soil, the model, or met a closed region
+    std::int64_t too_shallow = 0;
+    std::int64_t no_answer = 0;  ///< no driving moment, m_alpha too small, not converged
+};
+
+/// The best circle of one pair of ends, for the figure of the search.
+struct PairBest {
+    double entry;
+    double exit;
+    Critical critical;
+};
+
+struct SearchResult {
+    std::optional<Critical> critical;
+    Tally tally;
+    std::vector<PairBest> pairs;
+};
+
+SearchResult search(const Model& model, const scene::SlipSearch& ranges);
+
+}  // namespace breach::lem

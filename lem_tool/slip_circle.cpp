@@ -1,0 +1,82 @@
+#include "lem_tool/slip_circle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breach::lem {
+
+namespace {
+
+/// Abscissae between which the sign of (ground - arc) cannot change.
+std::vector<double> sign_borders(const Strata& strata, const scene::Circle& circle) {
+    const double from = std::max(strata.left(), circle.center.x() - circle.radius);
+    const double to = std::min(strata.right(), circle.center.x() + circle.radius);
+    std::vector<double> borders{from, to};
+    for (const Strip& strip : strata.strips) {
+        const double low = std::max(from, strip.from);
+        const double high = std::min(to, strip.to);
+        if (low >= high) continue;
+        borders.push_back(low);
+        const Meeting meeting = meet(circle, strata.ground(strip), low, high);
+        borders.insert(borders.end(), meeting.x, meeting.x + meeting.count);
+    }
+    std::sort(borders.begin(), borders.end());
+    return borders;
+}
+
+}  // namespace
+
+std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle) {
+    std::vector<Surface> masses;
+    const std::vector<double> borders = sign_borders(strata, circle);
+    bool inside = false;
+    for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+        if (borders[i + 1] <= borders[i]) continue;
+        const double middle = 0.5 * (borders[i] + borders[i + 1]);
+        const bool below =
+            Surface{circle, 0.0, 0.0}.level(middle) < ground_level(strata, middle, From::left);
+        if (below && inside) masses.back().right = borders[i + 1];
+        if (below && !inside) masses.push_back({circle, borders[i], borders[i + 1]});
+        inside = below;
+    }
+    return masses;
+}
+
+double Ends::largest_sagitta() const {
+    const scene::Vec2 chord = right - left;
+    const double L = half_chord();
+    // the centre lies (L^2 - s^2) / 2s above the chord's middle, along its normal
+    const double rise = 0.5 * std::abs(chord.y()) * chord.norm() / chord.x();
+    return std::sqrt(rise * rise + L * L) - rise;
+}
+
+Surface surface_through(const Ends& ends, double sagitta) {
+    const scene::Vec2 chord = ends.right - ends.left;
+    const double L = ends.half_chord();
+    const scene::Vec2 up = scene::Vec2(-chord.y(), chord.x()) / (2.0 * L);
+    const double above = (L * L - sagitta * sagitta) / (2.0 * sagitta);
+    const double R = (L * L + sagitta * sagitta) / (2.0 * sagitta);
+    return {{0.5 * (ends.left + ends.right) + above * up, R}, ends.left.x(), ends.right.x()};
+}
+
+Touching touching(const Ends& ends, const Line& line) {
+    Touching result;
+    const scene::Vec2 chord = ends.right - ends.left;
+    const double L = ends.half_chord();
+    const scene::Vec2 up = scene::Vec2(-chord.y(), chord.x()) / (2.0 * L);
+    const scene::Vec2 normal = scene::Vec2(-line.slope, 1.0) / std::hypot(1.0, line.slope);
+    const scene::Vec2 middle = 0.5 * (ends.left + ends.right);
+    // distance of the centre from the line = R:  (1 + B) s^2 - 2 A s + (1 - B) L^2 = 0
+    const double A = normal.dot(middle - scene::Vec2(0.0, line.level));
+    const double B = normal.dot(up);
+    const double discriminant = A * A - (1.0 - B * B) * L * L;
+    if (discriminant < 0.0 || A <= 0.0) return result;
+    const double root = std::sqrt(discriminant);
+    const double largest = ends.largest_sagitta();
+    for (const double s : {(A - root) / (1.0 + B), (A + root) / (1.0 + B)}) {
+        if (s > 0.0 && s <= largest) result.sagitta[result.count++] = s;
+    }
+    return result;
+}
+
+}  // namespace breach::lem

@@ -1,0 +1,37 @@
+// Circles and the ground: the sliding masses of a given circle, and the circles through two points
+// of the ground.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lem_tool/slices.hpp"
+#include "lem_tool/strata.hpp"
+
+namespace breach::lem {
+
+/// Every mass that a circle's lower arc cuts off, from left to right.
+std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle);
+
+/// Two points of the ground that a slip surface joins.
+struct Ends {
+    scene::Vec2 left;
+    scene::Vec2 right;
+
+    double half_chord() const { return 0.5 * (right - left).norm(); }
+    /// The deepest arc: its centre level with the higher end, so that it does not lean back over
+    /// the mass [m].
+    double largest_sagitta() const;
+};
+
+/// The circle whose lower arc joins the ends and bulges by `sagitta` [m] > 0 under their chord.
+Surface surface_through(const Ends& ends, double sagitta);
+
+/// Sagittas of the circles through the ends that touch a line: the one resting on it first [m].
+struct Touching {
+    int count = 0;
+    double sagitta[2];
+};
+Touching touching(const Ends& ends, const Line& line);
+
+}  // namespace breach::lem

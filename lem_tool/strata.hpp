@@ -1,0 +1,57 @@
+// The cross-section as vertical strips: within a strip every boundary is one straight line from
+// side to side, so the weight above a point is a linear function and nothing has to be searched. No
+// slip surfaces here.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace breach::lem {
+
+/// y = level + slope x.
+struct Line {
+    double level;
+    double slope;
+    double at(double x) const { return level + slope * x; }
+};
+
+/// A soil between its upper boundary and the next layer's (or the strip's bottom).
+struct Layer {
+    Line top;            ///< [m]
+    std::size_t region;  ///< index into the section's regions
+    double gamma;        ///< unit weight [N/m3]
+    Line weight_above;   ///< weight per area of everything above `top` [Pa]
+};
+
+struct Strip {
+    double from;        ///< [m]
+    double to;          ///< [m]
+    std::size_t first;  ///< layers first .. last - 1, from the ground down
+    std::size_t last;
+    Line bottom;  ///< lower border of the model [m]
+};
+
+struct Strata {
+    std::vector<Strip> strips;  ///< left to right, without gaps
+    std::vector<Layer> layers;
+
+    double left() const { return strips.front().from; }
+    double right() const { return strips.back().to; }
+    const Line& ground(const Strip& strip) const { return layers[strip.first].top; }
+};
+
+/// Cuts the section at every vertex. Throws BadInput where a vertical line meets air below ground
+/// (an overhang, a cavity, two separate bodies): limit equilibrium with vertical slices has no
+/// answer there.
+Strata make_strata(const scene::Scene& scene);
+
+/// Index of the strip that holds x, the left one on a border; x is clamped to the model.
+std::size_t strip_at(const Strata& strata, double x);
+
+/// Ground level [m] as one comes from that side; the two differ on a vertical face only.
+enum class From { left, right };
+double ground_level(const Strata& strata, double x, From from);
+
+}  // namespace breach::lem

@@ -1,0 +1,79 @@
+// The executable: files in, result.json out, exit codes.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+class LemTool : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() /
+                  ("breach_lem_" + std::to_string(getpid()) + "_" +
+                   testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    int run(const std::string& arguments) const {
+        const std::string command = std::string(BREACH_BIN) +
+                                    "/lem_tool " BREACH_ROOT "/workflows/scenes/slope.json " +
+                                    arguments + " > " + (folder_ / "out").string() + " 2>&1";
+        return WEXITSTATUS(std::system(command.c_str()));
+    }
+    json result() const {
+        std::ifstream file(folder_ / "result.json");
+        return json::parse(file);
+    }
+    std::string printed() const {
+        std::ifstream file(folder_ / "out");
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(LemTool, FindsTheCriticalCircleOfTheSlopeScene) {
+    ASSERT_EQ(run("--progress none --output " + folder_.string()), 0) << printed();
+    const json facts = result();
+    EXPECT_GT(facts.at("factor_of_safety"), 0.5);
+    EXPECT_LT(facts.at("factor_of_safety"), 3.0);
+    EXPECT_GT(facts.at("surfaces_analysed"), 1000);
+    EXPECT_GT(facts.at("entry")[1], facts.at("exit")[1]);
+    EXPECT_TRUE(facts.at("circle").contains("radius"));
+    EXPECT_GE(facts.at("lowest_point")[1], -5.0);
+    EXPECT_TRUE(fs::exists(folder_ / "surfaces.h5"));
+    std::printf("slope.json: F %.4f, %d surfaces in %.3f s\n",
+                facts.at("factor_of_safety").get<double>(),
+                facts.at("surfaces_analysed").get<int>(), facts.at("seconds").get<double>());
+}
+
+TEST_F(LemTool, PlanSaysWhatIsLeftOut) {
+    ASSERT_EQ(run("--plan"), 0);
+    EXPECT_NE(printed().find("pore pressure"), std::string::npos);
+    EXPECT_NE(printed().find("left out"), std::string::npos);
+}
+
+TEST_F(LemTool, RefusesACircleThatLeavesTheModel) {
+    const std::string set = " --set '/lem={\"circle\":{\"center\":[30,20],\"radius\":40}}'";
+    EXPECT_EQ(run("--progress none --output " + folder_.string() + set), 65);
+    EXPECT_NE(printed().find("/lem/circle"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder_ / "result.json"));
+}
+
+TEST_F(LemTool, RefusesASearchThatFindsNothing) {
+    EXPECT_EQ(
+        run("--progress none --set /lem/search/minimum_depth=500 --output " + folder_.string()),
+        65);
+    EXPECT_NE(printed().find("shallower than minimum_depth"), std::string::npos);
+}
+
+}  // namespace

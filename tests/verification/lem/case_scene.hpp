@@ -1,0 +1,70 @@
+// A published problem (tests/verification/lem/cases) as a scene.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/scene/scene.hpp"
+
+namespace breach::lem::cases {
+
+using nlohmann::json;
+
+inline json load(const std::string& id) {
+    std::ifstream file(std::string(BREACH_ROOT) + "/tests/verification/lem/cases/" + id + ".json");
+    return json::parse(file);
+}
+
+/// "ymin", a limit for the search, is where the model ends: the lowest soil is cut there. Problems
+/// in feet and pounds stay so: F has no unit, and c / (gamma h) and phi are all it sees. g = 10
+/// makes densities round.
+inline json scene_json(const json& problem) {
+    json scene{{"format", "breachline-scene/1"}, {"gravity", 10.0}, {"lem", json::object()}};
+    std::string name = problem.at("id");
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    scene["name"] = name;
+    for (const json& soil : problem.at("materials")) {
+        const std::string& material = soil.at("name").get_ref<const std::string&>();
+        scene["materials"][material] = {{"density", soil.at("gamma").get<double>() * 100.0},
+                                        {"law",
+                                         {{"type", "mohr_coulomb"},
+                                          {"E_MPa", 10},
+                                          {"nu", 0.3},
+                                          {"c_kPa", soil.at("c")},
+                                          {"phi_deg", soil.at("phi")}}}};
+        json ring = soil.at("polygon");
+        if (!problem.at("ymin").is_null()) {
+            for (json& vertex : ring) {
+                vertex[1] = std::max(vertex[1].get<double>(), problem.at("ymin").get<double>());
+            }
+        }
+        ring.push_back(ring.front());
+        scene["section"]["regions"].push_back(
+            {{"name", material}, {"material", material}, {"polygon", ring}});
+    }
+    if (!problem.at("circle").is_null()) {
+        const json& circle = problem.at("circle");
+        scene["lem"]["circle"] = {{"center", {circle[0], circle[1]}}, {"radius", circle[2]}};
+    }
+    if (!problem.at("search").is_null()) {
+        json search = problem.at("search");
+        search["minimum_depth"] = problem.at("min_depth");
+        for (const char* range : {"entry", "exit"}) {  // a range may be a point; ours ascend
+            if (search[range][0] == search[range][1]) {
+                search[range][0] = search[range][0].get<double>() - 1e-6;
+            }
+        }
+        scene["lem"]["search"] = search;
+    }
+    return scene;
+}
+
+inline scene::Scene scene_of(const json& problem) {
+    return scene::parse_scene(scene_json(problem).dump(), problem.at("id"));
+}
+
+}  // namespace breach::lem::cases
