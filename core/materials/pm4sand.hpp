@@ -1,0 +1,173 @@
+// PM4Sand (Boulanger & Ziotopoulou 2017) for one material point in plane strain: parameters, state,
+// and the pure function from (parameters, state, strain increment) to a new state. 'Elastic first'
+// is another law in the zone (`elastic_stage`), never a flag in here.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/mechanics/elasticity.hpp"
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::materials::pm4sand {
+
+using mechanics::Matrix4;
+using mechanics::Voigt;
+
+/// Post-shaking reconsolidation: moduli reduced by F_sed.
+enum class Reconsolidation { off, on };
+
+/// Everything the model reads. `defaults` fills it; whoever builds it may then overwrite any entry.
+struct Parameters {
+    double D_R;   ///< relative density [-]
+    double G_0;   ///< shear modulus number [-], G = G_0 p_atm sqrt(p/p_atm)
+    double h_po;  ///< contraction rate [-]
+
+    double p_atm = 101.3e3;       ///< atmospheric pressure [Pa]; scales the absolute tolerances too
+    double h_0;                   ///< plastic over elastic modulus [-]
+    double e_max = 0.8;           ///< [-]
+    double e_min = 0.5;           ///< [-]
+    double n_b = 0.5;             ///< bounding surface exponent [-]
+    double n_d = 0.1;             ///< dilatancy surface exponent [-]
+    double c_z = 250.0;           ///< fabric growth [-]
+    double c_epsilon;             ///< strain accumulation rate [-]
+    double phi_cv;                ///< critical state friction angle [rad]
+    double nu = 0.3;              ///< Poisson's ratio [-]
+    double C_GD = 2.0;            ///< modulus degradation with fabric [-]
+    double C_DR;                  ///< rotated dilatancy surface [-]
+    double C_Kaf;                 ///< effect of static shear on K_p [-]
+    double Q = 10.0;              ///< Bolton's critical state line [-]
+    double R = 1.5;               ///< Bolton's critical state line [-]
+    double m = 0.01;              ///< radius of the yield cone [-]
+    double F_sed_min;             ///< [-]
+    double p_sedo;                ///< [Pa]
+    std::optional<double> A_do;   ///< dilatancy [-]; from the initial stress if not given
+    std::optional<double> z_max;  ///< fabric limit [-]; from the initial stress if not given
+    Reconsolidation reconsolidation = Reconsolidation::off;
+};
+
+/// All secondary parameters from the three primary ones (design/pm4sand.md, section 2).
+/// Departs from: OpenSees, which lets C_DR fall to 0 and below for D_R < 0.15; here it stays >= 1.
+Parameters defaults(double D_R, double G_0, double h_po);
+
+/// h_po for a density when nothing was calibrated: a parabola through the three values that the
+/// manual gives (0.53, 0.40, 0.63 at D_R 0.35, 0.55, 0.75).
+double default_h_po(double D_R);
+
+/// Parameters with what follows from them alone, computed once per zone.
+struct Ready {
+    Parameters parameters;
+    double M_c;           ///< 2 sin(phi_cv)
+    double K_over_G;      ///< 2 (1 + nu) / (3 (1 - 2 nu))
+    double density_rate;  ///< d D_R' per compressive volumetric strain, (1 + e_0) / (e_max - e_min)
+    double unit;          ///< 1 kPa [Pa] if p_atm is 101.3 kPa: the unit of the absolute tolerances
+};
+Ready ready(const Parameters& parameters);
+
+/// A deviatoric in-plane tensor in orthonormal components ((xx - yy) / sqrt2, sqrt2 xy): the tensor
+/// product a:b is the plain dot product.
+template <class Real>
+struct Deviator {
+    Real d;
+    Real x;
+};
+using Plane = Deviator<double>;
+
+/// In-plane components as they are, for histories that are kept per component.
+struct InPlane {
+    double xx, yy, xy;
+};
+
+/// One point. Compression positive throughout, stresses [Pa]; all else dimensionless.
+struct State {
+    double p;           ///< in-plane mean effective stress (xx + yy) / 2
+    Plane s;            ///< deviatoric stress
+    InPlane sigma_b;    ///< part of the initial stress that lay outside the surfaces; constant
+    Plane alpha;        ///< back-stress ratio
+    Plane z;            ///< fabric
+    InPlane alpha_app;  ///< alpha_in, apparent
+    Plane alpha_true;   ///< alpha_in, true
+    Plane alpha_prev;   ///< alpha_in, apparent of the reversal before
+    double alpha_prev_xy;
+    Plane z_in;         ///< fabric at the last reversal
+    InPlane alpha_max;  ///< component-wise history of alpha at reversals
+    InPlane alpha_min;
+    double z_cum;                       ///< accumulated |dz| / sqrt2
+    double z_peak;                      ///< largest |z| / sqrt2
+    double p_zp;                        ///< p at the largest product of |z| and p
+    double zp_max;                      ///< that product
+    bool p_zp_unset;                    ///< the first reversal always sets p_zp
+    double G;                           ///< shear modulus
+    double M_b;                         ///< bounding ratio as last evaluated
+    double M_cur;                       ///< stress ratio q / p
+    double epsilon_v;                   ///< volumetric strain since the point was made
+    double A_do, z_max, p_min, p_min2;  ///< fixed by `initialise`
+    double sub_step;  ///< size of the last accepted sub-step [strain]; a guess for the next
+};
+
+/// State that holds the effective stress sigma [Pa, tension positive]. epsilon_v: compressive
+/// volumetric strain that the void ratio remembers from earlier stages [-]. Stresses below p_min
+/// or outside the surfaces are moved onto them; the difference stays as sigma_b, so that `stress`
+/// returns sigma unchanged (zz apart). Exactly one call per point.
+State initialise(const Ready& law, const Voigt& sigma, double epsilon_v = 0.0);
+
+/// Effective stress [Pa, tension positive], sigma_b included. The model does not know zz: it is
+/// nu (xx + yy) here.
+Voigt stress(const Ready& law, const State& state);
+
+/// Current void ratio [-].
+double void_ratio(const Ready& law, const State& state);
+
+enum class Scheme {
+    reference,  ///< as OpenSees: explicit, strain cut into parts of 1e-5 (compat: opensees)
+    adaptive,   ///< linearly implicit with error control, no drift (compat: corrected)
+};
+
+struct Options {
+    Scheme scheme = Scheme::adaptive;
+    double tolerance = 1e-5;       ///< of an adaptive sub-step, in stress ratio [-]
+    double least_sub_step = 1e-7;  ///< [strain]; a sub-step of this size is always accepted
+    int most_evaluations = 4000;   ///< per call; reference scheme: per part of 1e-5
+};
+
+enum class Outcome {
+    done,
+    refused,     ///< the strain increment is not finite; the state is the old one
+    unresolved,  ///< evaluations used up; the state is the old one: cut the step
+};
+
+/// What a call cost and where it had to give way.
+struct Counts {
+    int evaluations = 0;
+    int sub_steps = 0;
+    int rejected = 0;
+    int forced = 0;     ///< sub-steps accepted at the smallest size although too inexact
+    int projected = 0;  ///< stress taken back to the bounding surface
+    int softened = 0;   ///< multiplier's denominator at or below its floor
+    int stalled = 0;    ///< mean stress held at its floor
+
+    Counts& operator+=(const Counts& other);
+};
+
+struct Update {
+    State state;
+    Outcome outcome;
+    Counts counts;
+};
+
+/// New state after the strain increment [-, tension positive, engineering shear]; zz is not read.
+/// Pure: the same answer however often it is asked. Never returns a state with NaN.
+Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
+                 const Options& options);
+
+/// d sigma / d epsilon [Pa] of the elastic predictor at `state`: symmetric positive definite.
+Matrix4 elastic_tangent(const Ready& law, const State& state);
+
+/// Continuum elastoplastic tangent at `state` if loading goes on in the direction d_epsilon, else
+/// the elastic one. Not symmetric.
+Matrix4 plastic_tangent(const Ready& law, const State& state, const Voigt& d_epsilon);
+
+/// The elastic law of the stages before `initialise`: constant G = G_0 p_atm.
+mechanics::Elasticity elastic_stage(const Parameters& parameters, double nu);
+
+}  // namespace breach::materials::pm4sand
