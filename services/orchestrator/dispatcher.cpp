@@ -1,0 +1,256 @@
+#include "services/orchestrator/dispatcher.hpp"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "core/exchange/publish.hpp"
+#include "services/orchestrator/identity.hpp"
+
+namespace breach::orchestrator {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr auto longest_wait = std::chrono::milliseconds(1000);
+constexpr auto pause_after_trouble = std::chrono::seconds(1);
+
+}  // namespace
+
+Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
+                       ProgressBoard& board, DispatchSettings settings)
+    : store_(store),
+      data_(data),
+      executor_(executor),
+      board_(board),
+      settings_(std::move(settings)),
+      wake_descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+      registrar_(store, data, [this](const std::string& task) {
+          {
+              const std::lock_guard lock(registered_mutex_);
+              registered_.push_back(task);
+          }
+          wake();
+      }) {
+    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+Dispatcher::~Dispatcher() {
+    thread_.request_stop();
+    wake();
+    thread_.join();
+    close(wake_descriptor_);
+}
+
+void Dispatcher::wake() { eventfd_write(wake_descriptor_, 1); }
+
+void Dispatcher::serve(const std::stop_token& stop) {
+    bool reconciled = false;
+    while (!stop.stop_requested()) {
+        try {
+            if (!reconciled) reconcile();
+            reconciled = true;
+            look_around();
+            start_ready_tasks();
+            wait_for_something();
+        } catch (const std::exception& error) {
+            // A full disk or the like: nothing was half-stored, so look again when it may be
+            // better.
+            spdlog::error("dispatcher: {}", error.what());
+            std::this_thread::sleep_for(pause_after_trouble);
+        }
+    }
+    try {
+        shut_down();
+    } catch (const std::exception& error) {
+        spdlog::error("dispatcher: {}", error.what());
+    }
+}
+
+/// What the store says was going on, held against what is.
+void Dispatcher::reconcile() {
+    live_.clear();
+    constexpr auto all = static_cast<std::size_t>(1) << 30;
+    for (const TaskState state : {TaskState::starting, TaskState::running, TaskState::cancelling}) {
+        for (const Task& task : store_.tasks_in(state, all)) {
+            const std::vector<Attempt> attempts = store_.attempts_of(task.id);
+            const Attempt& last = attempts.back();
+            spdlog::info("{} ({}): attempt {} was going on", task.id, task.label, last.number);
+            Live& live = attach(task, last.number);
+            live.submission_noted = last.state != AttemptState::submitting;
+            live.begun = last.state == AttemptState::running;
+        }
+    }
+    for (Task& task : store_.tasks_in(TaskState::finalizing, all)) registrar_.add(std::move(task));
+    for (const std::string& parent : store_.parents_of_blocked()) settle_children(parent);
+}
+
+void Dispatcher::look_around() {
+    const std::vector<int> changed = watch_.changes();
+    settle_after_registrar();
+    stop_cancelled();
+    const bool all = Clock::now() - looked_at_all_ >= longest_wait;
+    if (all) looked_at_all_ = Clock::now();
+    for (Live& live : live_) {
+        if (all || std::ranges::find(changed, live.output_watch) != changed.end())
+            live.outputs_changed = true;
+        observe(live);
+    }
+    forget_the_ended();
+    release_retries();
+}
+
+void Dispatcher::wait_for_something() {
+    auto wait = longest_wait;
+    if (const auto retry = store_.next_retry()) {
+        const auto left = std::chrono::milliseconds(*retry - epoch_ms());
+        wait = std::clamp(left, std::chrono::milliseconds(0), longest_wait);
+    }
+    pollfd wanted[] = {{watch_.descriptor(), POLLIN, 0}, {wake_descriptor_, POLLIN, 0}};
+    poll(wanted, 2, static_cast<int>(wait.count()));
+    eventfd_t count = 0;
+    eventfd_read(wake_descriptor_, &count);
+}
+
+void Dispatcher::shut_down() {
+    for (Live& live : live_) executor_.stop(live.folder, StopReason::shutdown);
+    const auto deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                           std::chrono::duration<double>(settings_.grace_seconds + 2));
+    while (!live_.empty() && Clock::now() < deadline) {
+        look_around();
+        if (!live_.empty()) wait_for_something();
+    }
+}
+
+// ---------------------------------------------------------------- starting
+
+void Dispatcher::start_ready_tasks() {
+    if (live_.size() >= settings_.slots) return;
+    for (const Task& task : store_.tasks_in(TaskState::ready, settings_.slots - live_.size()))
+        start(task);
+}
+
+void Dispatcher::start(const Task& task) {
+    std::int64_t number = 0;
+    store_.write([&](Transaction& transaction) {
+        number = 0;
+        if (!transaction.try_move_task(task.id, TaskEvent::claim)) return;  // cancelled meanwhile
+        number = transaction.add_attempt(task.id);
+    });
+    if (number == 0) return;
+    Live& live = attach(task, number);
+    try {
+        const std::filesystem::path scene = data_.scene(task.run);
+        if (!std::filesystem::exists(scene))
+            exchange::publish_text(
+                scene, nlohmann::json::parse(*store_.scene_of(task.run)).dump(2) + "\n");
+        executor_.submit(live.folder, order_for(live));
+    } catch (const std::exception& error) {
+        note_loss(live, std::string("it cannot be started: ") + error.what());
+        forget_the_ended();
+        return;
+    }
+    spdlog::info("{} ({}): attempt {} started", task.id, task.label, number);
+    note_submission(live);
+}
+
+Order Dispatcher::order_for(const Live& live) const {
+    const Task& task = live.task;
+    std::vector<std::string> arguments{data_.scene(task.run)};
+    if (!task.input.empty()) {
+        const Task parent = *store_.task(*task.parent);
+        arguments.insert(arguments.end(), {"--input", data_.output(parent) / task.input});
+    }
+    arguments.insert(arguments.end(), {"--output", data_.output(task)});
+    for (const std::string& each : task.overrides)
+        arguments.insert(arguments.end(), {"--set", each});
+    arguments.insert(arguments.end(), {"--progress", "json", "--threads", "1"});
+    if (live.number > 1) arguments.emplace_back("--resume");
+    return {.attempt = attempt_id(task.id, live.number),
+            .program = settings_.bin / task.phase,
+            .arguments = std::move(arguments),
+            .grace_seconds = settings_.grace_seconds};
+}
+
+Dispatcher::Live& Dispatcher::attach(const Task& task, std::int64_t number) {
+    const AttemptFolder folder = data_.attempt(task, number);
+    std::error_code error;  // a folder that cannot be made shows when the attempt is started
+    std::filesystem::create_directories(folder.root, error);
+    std::filesystem::create_directories(data_.output(task), error);
+    live_.push_back({.task = task,
+                     .number = number,
+                     .folder = folder,
+                     .attempt_watch = watch_.add(folder.root, Notice::every_change),
+                     .output_watch = watch_.add(data_.output(task), Notice::published_files)});
+    return live_.back();
+}
+
+// ---------------------------------------------------------------- releasing
+
+void Dispatcher::stop_cancelled() {
+    if (live_.empty()) return;
+    for (const Task& task : store_.tasks_in(TaskState::cancelling, live_.size())) {
+        for (Live& live : live_) {
+            if (live.task.id != task.id || live.asked_to_stop) continue;
+            executor_.stop(live.folder, StopReason::cancel);
+            live.asked_to_stop = true;
+        }
+    }
+}
+
+void Dispatcher::release_retries() {
+    for (const std::string& task : store_.due_retries(epoch_ms())) {
+        store_.write([&](Transaction& transaction) {
+            transaction.try_move_task(task, TaskEvent::wait_over);
+        });
+    }
+}
+
+void Dispatcher::settle_children(const std::string& parent_id) {
+    const std::vector<Task> children = store_.blocked_children(parent_id);
+    if (children.empty()) return;
+    const Task parent = *store_.task(parent_id);
+    const bool succeeded =
+        parent.state == TaskState::succeeded || parent.state == TaskState::cached;
+    std::vector<std::string> released;
+    std::vector<std::string> skipped;
+    for (const Task& child : children) {
+        // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
+        const bool delivered = child.release == Release::file_exists
+                                   ? std::filesystem::exists(data_.output(parent) / child.input)
+                                   : succeeded;
+        if (delivered) {
+            released.push_back(child.id);
+        } else if (is_final(parent.state)) {
+            skipped.push_back(child.id);
+        }
+    }
+    if (released.empty() && skipped.empty()) return;
+    const std::string why =
+        parent.label + " " + std::string(name_of(parent.state)) + " before it gave ";
+    store_.write([&](Transaction& transaction) {
+        for (const std::string& each : released)
+            transaction.try_move_task(each, TaskEvent::release);
+        for (const Task& child : children) {
+            if (std::ranges::find(skipped, child.id) == skipped.end()) continue;
+            transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
+        }
+    });
+    for (const std::string& each : skipped) settle_children(each);
+}
+
+void Dispatcher::settle_after_registrar() {
+    std::vector<std::string> tasks;
+    {
+        const std::lock_guard lock(registered_mutex_);
+        tasks.swap(registered_);
+    }
+    for (const std::string& task : tasks) settle_children(task);
+}
+
+}  // namespace breach::orchestrator

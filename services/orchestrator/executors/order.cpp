@@ -1,0 +1,90 @@
+#include "services/orchestrator/executors/order.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/exchange/publish.hpp"
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+std::optional<std::string> text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) return std::nullopt;
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+std::string name_of(StopReason reason) {
+    return reason == StopReason::cancel ? "cancel" : "shutdown";
+}
+
+std::optional<StopReason> reason_named(const std::string& name) {
+    if (name == "cancel") return StopReason::cancel;
+    if (name == "shutdown") return StopReason::shutdown;
+    return std::nullopt;
+}
+
+}  // namespace
+
+void write_order(const AttemptFolder& folder, const Order& order) {
+    const json document{{"attempt", order.attempt},
+                        {"program", order.program.string()},
+                        {"arguments", order.arguments},
+                        {"grace_seconds", order.grace_seconds}};
+    exchange::publish_text(folder.order(), document.dump(2) + "\n");
+}
+
+Order read_order(const AttemptFolder& folder) {
+    const auto text = text_of(folder.order());
+    if (!text) throw fault::IoError(folder.order().string() + ": cannot be read");
+    const json document = json::parse(*text);
+    return {.attempt = document.at("attempt"),
+            .program = document.at("program").get<std::string>(),
+            .arguments = document.at("arguments"),
+            .grace_seconds = document.at("grace_seconds")};
+}
+
+void write_exit_record(const AttemptFolder& folder, const ExitRecord& record) {
+    json document{{"attempt", record.attempt},
+                  {"wall_seconds", record.wall_seconds},
+                  {"cpu_seconds", record.cpu_seconds}};
+    if (record.exit_code) document["exit_code"] = *record.exit_code;
+    if (record.signal) document["signal"] = *record.signal;
+    if (record.stopped) document["stopped"] = name_of(*record.stopped);
+    exchange::publish_text(folder.exit_record(), document.dump(2) + "\n");
+}
+
+std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
+    const auto text = text_of(folder.exit_record());
+    if (!text) return std::nullopt;
+    const json document = json::parse(*text);
+    ExitRecord record{.attempt = document.at("attempt"),
+                      .exit_code = {},
+                      .signal = {},
+                      .stopped = reason_named(document.value("stopped", "")),
+                      .wall_seconds = document.at("wall_seconds"),
+                      .cpu_seconds = document.at("cpu_seconds")};
+    if (document.contains("exit_code")) record.exit_code = document["exit_code"].get<int>();
+    if (document.contains("signal")) record.signal = document["signal"].get<int>();
+    return record;
+}
+
+void write_stop(const AttemptFolder& folder, StopReason reason) {
+    if (!std::filesystem::exists(folder.stop()))
+        exchange::publish_text(folder.stop(), name_of(reason));
+}
+
+std::optional<StopReason> read_stop(const AttemptFolder& folder) {
+    const auto text = text_of(folder.stop());
+    if (!text) return std::nullopt;
+    return reason_named(*text);
+}
+
+}  // namespace breach::orchestrator

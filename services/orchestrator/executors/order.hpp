@@ -1,0 +1,50 @@
+// What passes between the service and the supervisor of an attempt: the order (before) and the exit
+// record (after), both files in the attempt's folder, so that neither side needs the other to be
+// alive.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/data_folder.hpp"
+
+namespace breach::orchestrator {
+
+struct Order {
+    std::string
+        attempt;  ///< attempt id; every process started for it carries it in its environment
+    std::filesystem::path program;
+    std::vector<std::string> arguments;  ///< without the program
+    double grace_seconds;                ///< between TERM and KILL
+};
+
+/// Why the service wants an attempt to end.
+enum class StopReason { cancel, shutdown };
+
+struct ExitRecord {
+    std::string attempt;
+    std::optional<int> exit_code;
+    std::optional<int> signal;
+    std::optional<StopReason> stopped;
+    double wall_seconds = 0.0;
+    double cpu_seconds = 0.0;
+};
+
+/// The environment variable that marks every process of an attempt.
+constexpr const char* attempt_mark = "BREACHLINE_ATTEMPT";
+
+void write_order(const AttemptFolder& folder, const Order& order);
+Order read_order(const AttemptFolder& folder);
+
+void write_exit_record(const AttemptFolder& folder, const ExitRecord& record);
+/// Nothing while there is none.
+std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder);
+
+/// Asks the supervisor to stop the attempt; a second asking keeps the first reason.
+void write_stop(const AttemptFolder& folder, StopReason reason);
+std::optional<StopReason> read_stop(const AttemptFolder& folder);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,183 @@
+#include "services/orchestrator/executors/supervisor.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <thread>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/executors/order.hpp"
+#include "services/orchestrator/executors/process_tree.hpp"
+#include "services/orchestrator/folder_watch.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int cannot_execute = 127;
+constexpr auto pause = std::chrono::milliseconds(20);
+
+class Supervision {
+  public:
+    explicit Supervision(AttemptFolder folder)
+        : folder_(std::move(folder)), order_(read_order(folder_)), began_(Clock::now()) {
+        prctl(PR_SET_CHILD_SUBREAPER, 1);  // whoever double-forks away comes back to us
+        sigemptyset(&signals_);
+        for (const int signal : {SIGCHLD, SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals_, signal);
+        sigprocmask(SIG_BLOCK, &signals_, nullptr);
+        signal_descriptor_ = signalfd(-1, &signals_, SFD_CLOEXEC | SFD_NONBLOCK);
+        watch_.add(folder_.root, Notice::published_files);
+    }
+
+    void run() {
+        start();
+        while (!phase_ended_) {
+            look_for_stop();
+            press();
+            wait_a_little();
+            reap();
+        }
+        kill_the_rest();
+        record_exit();
+    }
+
+  private:
+    void start() {
+        phase_ = fork();
+        if (phase_ == 0) become_the_phase();
+        if (phase_ > 0) return;
+        std::cerr << "supervise: fork: " << std::strerror(errno) << "\n";
+        record_.exit_code = static_cast<int>(fault::ExitCode::try_again);
+        phase_ended_ = true;
+    }
+
+    /// Between fork and exec: own process group, dies with the supervisor, lines into their file.
+    [[noreturn]] void become_the_phase() {
+        setpgid(0, 0);
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        sigprocmask(SIG_UNBLOCK, &signals_, nullptr);
+        const int lines =
+            open(folder_.lines().c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+        dup2(lines, STDOUT_FILENO);
+        std::vector<char*> arguments{const_cast<char*>(order_.program.c_str())};
+        for (std::string& each : order_.arguments) arguments.push_back(each.data());
+        arguments.push_back(nullptr);
+        execv(order_.program.c_str(), arguments.data());
+        std::fprintf(stderr, "%s: cannot be started: %s\n", order_.program.c_str(),
+                     std::strerror(errno));
+        _exit(cannot_execute);
+    }
+
+    void look_for_stop() {
+        if (record_.stopped) return;
+        record_.stopped = asked_by_signal_ ? StopReason::shutdown : read_stop(folder_);
+        if (record_.stopped)
+            kill_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                          std::chrono::duration<double>(order_.grace_seconds));
+    }
+
+    /// TERM once to the phase's group, KILL to everything below us when the grace is over.
+    void press() {
+        if (!record_.stopped) return;
+        if (!termed_) {
+            kill(-phase_, SIGTERM);
+            kill(-phase_, SIGCONT);  // a stopped process can end only when it goes on
+            termed_ = true;
+        } else if (Clock::now() >= kill_at_) {
+            for (const pid_t each : descendants(getpid())) kill(each, SIGKILL);
+        }
+    }
+
+    void wait_a_little() {
+        pollfd wanted[] = {{signal_descriptor_, POLLIN, 0}, {watch_.descriptor(), POLLIN, 0}};
+        poll(wanted, 2, record_.stopped ? 50 : 1000);
+        signalfd_siginfo info{};
+        while (read(signal_descriptor_, &info, sizeof info) == sizeof info) {
+            if (info.ssi_signo != SIGCHLD) asked_by_signal_ = true;
+        }
+        watch_.changes();
+    }
+
+    void reap() {
+        int status = 0;
+        rusage used{};
+        pid_t pid = 0;
+        while ((pid = wait4(-1, &status, WNOHANG, &used)) > 0) {
+            if (pid != phase_) continue;
+            phase_ended_ = true;
+            if (WIFEXITED(status)) record_.exit_code = WEXITSTATUS(status);
+            if (WIFSIGNALED(status)) record_.signal = WTERMSIG(status);
+            record_.cpu_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+        }
+    }
+
+    static double seconds(const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    }
+
+    /// The phase is gone; what it left running must not outlive the attempt.
+    void kill_the_rest() {
+        while (true) {
+            for (const pid_t each : descendants(getpid())) kill(each, SIGKILL);
+            int status = 0;
+            const pid_t pid = waitpid(-1, &status, WNOHANG);
+            if (pid < 0) return;
+            if (pid == 0) std::this_thread::sleep_for(pause);
+        }
+    }
+
+    /// A full disk must not lose the exit: the lock stays held until the record is down.
+    void record_exit() {
+        record_.attempt = order_.attempt;
+        record_.wall_seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+        while (true) {
+            try {
+                write_exit_record(folder_, record_);
+                return;
+            } catch (const fault::IoError& error) {
+                std::cerr << "supervise: " << error.what() << "; trying again\n";
+                std::this_thread::sleep_for(std::chrono::seconds(1));
+            }
+        }
+    }
+
+    AttemptFolder folder_;
+    Order order_;
+    Clock::time_point began_;
+    sigset_t signals_{};
+    int signal_descriptor_ = -1;
+    FolderWatch watch_;
+    pid_t phase_ = -1;
+    bool phase_ended_ = false;
+    bool asked_by_signal_ = false;
+    bool termed_ = false;
+    Clock::time_point kill_at_{};
+    ExitRecord record_;
+};
+
+}  // namespace
+
+int supervise(const std::filesystem::path& folder) {
+    try {
+        Supervision({folder}).run();
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << "supervise: " << error.what() << "\n";
+        return static_cast<int>(fault::ExitCode::io);
+    }
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,30 @@
+// An exclusive lock that the kernel drops when the last process holding the file open is gone:
+// proof of life that neither reused pids nor a moved clock can fake. Children that inherit the
+// descriptor hold it too.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace breach::orchestrator {
+
+class FileLock {
+  public:
+    /// Nothing when somebody else holds it. Throws IoError when the file cannot be made.
+    static std::optional<FileLock> try_take(const std::filesystem::path& file);
+
+    FileLock(FileLock&& other) noexcept;
+    FileLock& operator=(FileLock&& other) noexcept;
+    ~FileLock();
+
+    int descriptor() const { return descriptor_; }
+
+  private:
+    explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+    int descriptor_;
+};
+
+/// Somebody holds it now. A file that is not there is not held.
+bool is_held(const std::filesystem::path& file);
+
+}  // namespace breach::orchestrator

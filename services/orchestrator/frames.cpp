@@ -1,0 +1,136 @@
+#include "services/orchestrator/frames.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <regex>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/exchange/particle_state.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "the arrays are sent as they lie in memory");
+
+constexpr const char* extension = ".vtkhdf";
+
+std::string kind_of(const std::string& phase) {
+    return phase == "fem_solver" ? "mesh" : "particles";
+}
+
+/// The number at the end of "snapshot_0.500000.vtkhdf"; 0 when there is none.
+double time_in(const std::string& name) {
+    static const std::regex number(R"(([0-9]+(\.[0-9]+)?)\.vtkhdf$)");
+    std::smatch found;
+    return std::regex_search(name, found, number) ? std::stod(found[1]) : 0.0;
+}
+
+struct Cloud {
+    double time = 0.0;
+    std::vector<std::string> regions;
+    std::vector<float> x, y, speed, epsilon_q, region;
+    std::vector<std::uint32_t> quads;
+
+    void add(const mechanics::Vec2& position, const mechanics::Vec2& velocity, double strain,
+             std::int32_t region_index) {
+        x.push_back(static_cast<float>(position[0]));
+        y.push_back(static_cast<float>(position[1]));
+        speed.push_back(static_cast<float>(std::hypot(velocity[0], velocity[1])));
+        epsilon_q.push_back(static_cast<float>(strain));
+        region.push_back(static_cast<float>(region_index));
+    }
+};
+
+template <class Number>
+void append(std::string& bytes, const std::vector<Number>& numbers) {
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+}
+
+std::string packed(const Cloud& cloud) {
+    json head{{"time", cloud.time},
+              {"count", cloud.x.size()},
+              {"fields", {"x", "y", "speed", "epsilon_q", "region"}},
+              {"regions", cloud.regions}};
+    if (!cloud.quads.empty()) head["quads"] = cloud.quads.size() / 4;
+    std::string bytes = head.dump();
+    while ((bytes.size() + 1) % 4 != 0) bytes += ' ';
+    bytes += '\n';
+    for (const auto* field : {&cloud.x, &cloud.y, &cloud.speed, &cloud.epsilon_q, &cloud.region})
+        append(bytes, *field);
+    append(bytes, cloud.quads);
+    return bytes;
+}
+
+Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
+    const auto state = exchange::read_particle_state(file).state;
+    Cloud cloud;
+    cloud.time = state.time;
+    cloud.regions = state.regions;
+    for (std::size_t p = 0; p < state.size(); p += stride)
+        cloud.add(state.position[p], state.velocity[p], state.epsilon_q[p], state.region[p]);
+    return cloud;
+}
+
+/// Nodes at their displaced places; a node's strain is the mean of its elements' Gauss values, its
+/// region the last one that touches it.
+Cloud nodes_of(const std::filesystem::path& file) {
+    const auto mesh = exchange::read_mesh_snapshot(file).snapshot;
+    const std::size_t n_nodes = mesh.position_0.size();
+    const auto per_element = static_cast<std::size_t>(mesh.gauss_per_element);
+    std::vector<double> strain(n_nodes, 0.0);
+    std::vector<double> touched(n_nodes, 0.0);
+    std::vector<std::int32_t> region(n_nodes, 0);
+    Cloud cloud;
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        double sum = 0.0;
+        for (std::size_t g = 0; g < per_element; ++g) sum += mesh.epsilon_q[e * per_element + g];
+        for (const std::int32_t node : mesh.quads[e]) {
+            const auto i = static_cast<std::size_t>(node);
+            strain[i] += sum / static_cast<double>(per_element);
+            touched[i] += 1.0;
+            region[i] = mesh.region_of_element[e];
+            cloud.quads.push_back(static_cast<std::uint32_t>(node));
+        }
+    }
+    cloud.time = mesh.time;
+    cloud.regions = mesh.regions;
+    for (std::size_t i = 0; i < n_nodes; ++i) {
+        const mechanics::Vec2 position = mesh.position_0[i] + mesh.displacement[i];
+        cloud.add(position, mesh.velocity[i], strain[i] / std::max(1.0, touched[i]), region[i]);
+    }
+    return cloud;
+}
+
+}  // namespace
+
+bool is_frame_name(const std::string& name) {
+    static const std::regex plain(R"([A-Za-z0-9_-][A-Za-z0-9_.-]{0,120}\.vtkhdf)");
+    return std::regex_match(name, plain);
+}
+
+std::vector<Frame> frames_in(const std::filesystem::path& output, const std::string& phase) {
+    std::vector<Frame> frames;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(output, error)) {
+        const std::string name = entry.path().filename();
+        if (entry.path().extension() != extension || !is_frame_name(name)) continue;
+        frames.push_back({time_in(name), name, kind_of(phase)});
+    }
+    std::ranges::sort(frames, {},
+                      [](const Frame& frame) { return std::pair(frame.time, frame.name); });
+    return frames;
+}
+
+std::string FrameReader::points(const std::filesystem::path& file, const std::string& phase,
+                                std::size_t stride) {
+    const std::lock_guard lock(mutex_);
+    return packed(kind_of(phase) == "mesh" ? nodes_of(file) : particles_of(file, stride));
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,139 @@
+#include <charconv>
+#include <memory>
+
+#include "services/orchestrator/answers.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr int most_streams = 200;  // each holds a thread of the server
+constexpr int most_waiters = 32;
+constexpr std::size_t largest_batch = 500;
+constexpr std::int64_t longest_wait_seconds = 60;
+constexpr std::int64_t largest_seq = std::int64_t{1} << 53;
+constexpr auto look_at_stopping = std::chrono::milliseconds(250);
+constexpr auto sign_of_life = std::chrono::seconds(15);
+
+std::atomic<int> streams = 0;
+std::atomic<int> waiters = 0;
+
+/// A seat among a bounded number, given back when it goes.
+class Seat {
+  public:
+    Seat(std::atomic<int>& taken, int most, httplib::Response& response) : taken_(taken) {
+        if (taken_.fetch_add(1) < most) return;
+        taken_.fetch_sub(1);
+        response.set_header("Retry-After", "5");
+        throw Problem{503, "/problems/busy", "Too many listeners",
+                      "all " + std::to_string(most) + " places are taken; try again"};
+    }
+    ~Seat() { taken_.fetch_sub(1); }
+    Seat(const Seat&) = delete;
+    Seat& operator=(const Seat&) = delete;
+
+  private:
+    std::atomic<int>& taken_;
+};
+
+/// Waits in slices, so that a stopping server is not held up.
+bool wait_for_event(const Store& store, std::int64_t after, Clock::time_point until,
+                    const std::atomic<bool>& stopping) {
+    while (!stopping && Clock::now() < until) {
+        if (store.wait_for_event(after, look_at_stopping)) return true;
+    }
+    return store.last_event() > after;
+}
+
+void long_poll(const Service& service, Call& call, const std::atomic<bool>& stopping) {
+    const std::int64_t after = call.whole_number("after", 0, 0, largest_seq);
+    const std::int64_t wait = call.whole_number("wait", 0, 0, longest_wait_seconds);
+    if (wait > 0) {
+        const Seat seat(waiters, most_waiters, call.response);
+        wait_for_event(service.store, after, Clock::now() + std::chrono::seconds(wait), stopping);
+    }
+    json list = json::array();
+    std::int64_t next = after;
+    for (const Event& each : service.store.events_after(after, largest_batch)) {
+        list.push_back(as_json(each));
+        next = each.seq;
+    }
+    reply(call.response, {{"events", list}, {"next", next}});
+}
+
+/// Where a stream begins: after what the client has seen, else now.
+std::int64_t stream_start(const Service& service, const Call& call) {
+    const std::string seen = call.request.get_header_value("Last-Event-ID");
+    std::int64_t seq = 0;
+    const auto parsed = std::from_chars(seen.data(), seen.data() + seen.size(), seq);
+    if (!seen.empty() && parsed.ec == std::errc{} && seq >= 0) return seq;
+    return call.whole_number("after", service.store.last_event(), 0, largest_seq);
+}
+
+struct Stream {
+    Seat seat;
+    std::int64_t after;
+    Clock::time_point spoke = Clock::now();
+};
+
+bool write(httplib::DataSink& sink, const std::string& text) {
+    return sink.write(text.data(), text.size());
+}
+
+bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& sink,
+                     const std::atomic<bool>& stopping) {
+    if (stopping) return false;
+    std::string text;
+    if (service.store.wait_for_event(stream.after, look_at_stopping)) {
+        for (const Event& each : service.store.events_after(stream.after, largest_batch)) {
+            text += "id: " + std::to_string(each.seq) + "\ndata: " +
+                    as_json(each).dump(-1, ' ', false, json::error_handler_t::replace) + "\n\n";
+            stream.after = each.seq;
+        }
+    } else if (Clock::now() - stream.spoke > sign_of_life) {
+        text = ": still here\n\n";  // a client that went away shows when it is written to
+    }
+    if (text.empty()) return true;
+    stream.spoke = Clock::now();
+    return write(sink, text);
+}
+
+void server_sent(const Service& service, Call& call, const std::atomic<bool>& stopping) {
+    auto stream = std::shared_ptr<Stream>(
+        new Stream{Seat(streams, most_streams, call.response), stream_start(service, call)});
+    call.response.set_header("Cache-Control", "no-store");
+    call.response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
+    call.response.set_chunked_content_provider(
+        "text/event-stream", [&service, &stopping, stream, greeted = false](
+                                 std::size_t, httplib::DataSink& sink) mutable {
+            if (!greeted) {
+                greeted = true;
+                return write(sink, "retry: 2000\n\n");
+            }
+            try {
+                return continue_stream(service, *stream, sink, stopping);
+            } catch (const StoreError&) {
+                return false;  // the client comes again
+            }
+        });
+}
+
+}  // namespace
+
+void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping) {
+    router.get("/v1/events", [&](Call& call) {
+        call.allow_parameters({"after", "wait"});
+        if (call.request.get_header_value("Accept").find("text/event-stream") !=
+            std::string::npos) {
+            server_sent(service, call, stopping);
+        } else {
+            long_poll(service, call, stopping);
+        }
+    });
+}
+
+}  // namespace breach::orchestrator

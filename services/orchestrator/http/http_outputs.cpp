@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/telemetry.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::int64_t largest_log_part = 1 << 20;
+constexpr std::int64_t largest_count = std::int64_t{1} << 53;  // whole in a JSON number
+
+Problem gone(const std::string& what) {
+    return {410, "/problems/gone", "Gone", what + " is no longer on the disk as it was stored"};
+}
+
+void log(const Service& service, Call& call) {
+    call.allow_parameters({"offset"});
+    const Task task = wanted_task(service, call.parts[0]);
+    const auto attempts = service.store.attempts_of(task.id);
+    const auto attempt = std::ranges::find_if(attempts, [&](const Attempt& each) {
+        return std::to_string(each.number) == call.parts[1];
+    });
+    if (attempt == attempts.end())
+        throw not_found("attempt " + call.parts[1] + " of task " + task.id);
+    std::int64_t offset = call.whole_number("offset", 0, 0, largest_count);
+    std::ifstream stream(service.data.attempt(task, attempt->number).log(), std::ios::binary);
+    std::string text(static_cast<std::size_t>(largest_log_part), '\0');
+    stream.seekg(offset);
+    stream.read(text.data(), largest_log_part);
+    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+    offset += static_cast<std::int64_t>(text.size());
+    call.response.set_header("X-Next-Offset", std::to_string(offset));
+    call.response.set_header("Cache-Control", "no-store");
+    call.response.set_content(text, "text/plain; charset=utf-8");
+}
+
+/// The task whose telemetry is meant: a phase, and for one per transfer the time.
+Task meant_task(const Service& service, const std::string& run, const std::string& phase,
+                std::optional<double> transfer_time) {
+    constexpr double same_time = 5e-7;
+    std::optional<Task> found;
+    for (Task& each : service.store.tasks_of(run)) {
+        if (each.phase != phase) continue;
+        if (transfer_time &&
+            (!each.transfer_time || std::abs(*each.transfer_time - *transfer_time) > same_time))
+            continue;
+        if (found)
+            throw bad_request("several tasks run " + phase + "; say which with transfer_time=");
+        found = std::move(each);
+    }
+    if (!found) throw not_found("such task of " + phase + " in run " + run);
+    return std::move(*found);
+}
+
+void telemetry(const Service& service, Call& call) {
+    call.allow_parameters({"phase", "transfer_time", "fields", "from", "stride"});
+    wanted_run(service, call.parts[0]);
+    const std::string phase = call.parameter("phase").value_or("fem_solver");
+    const Task task = meant_task(service, call.parts[0], phase, call.number("transfer_time"));
+    TelemetryWish wish{.fields = {},
+                       .from = call.whole_number("from", 0, 0, largest_count),
+                       .stride = call.whole_number("stride", 1, 1, largest_count)};
+    std::istringstream names(call.parameter("fields").value_or(""));
+    for (std::string name; std::getline(names, name, ',');) wish.fields.push_back(name);
+    reply(call.response, read_telemetry(service.data.output(task) / "telemetry.jsonl", wish));
+}
+
+void frames(const Service& service, Call& call) {
+    call.allow_parameters({});
+    const Task task = wanted_task(service, call.parts[0]);
+    const auto artifacts = service.store.artifacts_of(task.id);
+    json list = json::array();
+    for (const Frame& frame : frames_in(service.data.output(task), task.phase)) {
+        const auto kept = std::ranges::find(artifacts, frame.name, &Artifact::name);
+        list.push_back({{"time", frame.time},
+                        {"name", frame.name},
+                        {"sha256", kept == artifacts.end() ? json(nullptr) : json(kept->sha256)},
+                        {"kind", frame.kind}});
+    }
+    reply(call.response, {{"frames", list}});
+}
+
+void points(Service& service, Call& call) {
+    call.allow_parameters({"stride"});
+    const Task task = wanted_task(service, call.parts[0]);
+    const std::string& name = call.parts[1];
+    const auto file = service.data.output(task) / name;
+    if (!is_frame_name(name) ||
+        !std::filesystem::is_regular_file(std::filesystem::symlink_status(file)))
+        throw not_found("frame " + name + " of task " + task.id);
+    const auto stride = static_cast<std::size_t>(call.whole_number("stride", 1, 1, largest_count));
+    try {
+        call.response.set_content(service.frames.points(file, task.phase, stride),
+                                  "application/octet-stream");
+    } catch (const fault::IoError&) {
+        throw gone(name);
+    }
+}
+
+/// At most one range, inside the file; httplib trusts what it parsed.
+void keep_valid_range(const httplib::Request& request, std::int64_t size) {
+    if (request.ranges.empty()) return;
+    // The request is httplib's own mutable object; it reads the ranges again when it writes the
+    // answer.
+    auto& ranges = const_cast<httplib::Request&>(request).ranges;
+    auto [first, last] = ranges.front();
+    if (last < 0) last = size - 1;
+    const bool suffix = first < 0;
+    const bool sound =
+        ranges.size() == 1 && (suffix ? ranges.front().second > 0 : first <= last && first < size);
+    if (!sound) {
+        ranges.clear();
+        throw Problem{
+            416, "/problems/range", "Range not satisfiable",
+            "one range inside the file is possible; it has " + std::to_string(size) + " bytes"};
+    }
+    if (suffix) {
+        first = std::max<std::int64_t>(0, size - ranges.front().second);
+        last = size - 1;
+    }
+    ranges.front() = {first, std::min<ssize_t>(last, size - 1)};
+}
+
+void artifact(const Service& service, Call& call) {
+    call.allow_parameters({});
+    const auto kept = service.store.artifact(call.parts[0]);
+    if (!kept) throw not_found("artifact " + call.parts[0]);
+    const Task task = wanted_task(service, kept->task);
+    const auto file = service.data.output(task) / kept->name;
+    const std::string tag = '"' + kept->sha256 + '"';
+    call.response.set_header("ETag", tag);
+    call.response.set_header("Cache-Control", "private, max-age=31536000, immutable");
+    if (call.request.get_header_value("If-None-Match") == tag) {
+        call.response.status = 304;
+        return;
+    }
+    std::error_code error;
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
+    auto stream = std::make_shared<std::ifstream>(file, std::ios::binary);
+    if (error || !*stream || size != kept->bytes) throw gone(kept->name);
+    keep_valid_range(call.request, size);
+    const std::string name = std::filesystem::path(kept->name).filename();
+    call.response.set_header("Content-Disposition", "attachment; filename=\"" + name + '"');
+    if (size == 0) return call.response.set_content("", "application/octet-stream");
+    call.response.set_content_provider(
+        static_cast<std::size_t>(size), "application/octet-stream",
+        [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            std::vector<char> part(std::min<std::size_t>(length, 1 << 16));
+            stream->seekg(static_cast<std::streamoff>(offset));
+            stream->read(part.data(), static_cast<std::streamsize>(part.size()));
+            const auto count = static_cast<std::size_t>(stream->gcount());
+            return count > 0 && sink.write(part.data(), count);
+        });
+}
+
+}  // namespace
+
+void add_output_routes(Router& router, Service& service) {
+    router.get("/v1/runs/{id}/telemetry", [&](Call& call) { telemetry(service, call); });
+    router.get("/v1/tasks/{id}/attempts/{n}/log", [&](Call& call) { log(service, call); });
+    router.get("/v1/tasks/{id}/frames", [&](Call& call) { frames(service, call); });
+    router.get("/v1/tasks/{id}/frames/{name}/points", [&](Call& call) { points(service, call); });
+    router.get("/v1/artifacts/{sha256}", [&](Call& call) { artifact(service, call); });
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/scene/schema.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/plan_question.hpp"
+#include "services/orchestrator/study.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uintmax_t least_free_bytes = 16 << 20;
+
+const std::map<std::string, std::string> content_types{
+    {".html", "text/html; charset=utf-8"},
+    {".css", "text/css; charset=utf-8"},
+    {".js", "text/javascript; charset=utf-8"},
+    {".mjs", "text/javascript; charset=utf-8"},
+    {".json", "application/json"},
+    {".svg", "image/svg+xml"},
+    {".png", "image/png"},
+    {".ico", "image/x-icon"},
+    {".woff2", "font/woff2"},
+    {".txt", "text/plain; charset=utf-8"},
+};
+
+/// No hidden names, no way up, nothing that a file system could read in its own way.
+bool is_plain(const std::string& path) {
+    const bool known_letters = std::ranges::all_of(path, [](unsigned char each) {
+        return std::isalnum(each) != 0 || each == '/' || each == '.' || each == '-' || each == '_';
+    });
+    return known_letters && path.size() < 200 && !path.starts_with('.') && !path.starts_with('/') &&
+           path.find("/.") == std::string::npos;
+}
+
+void send_file(const Service& service, Call& call, const std::string& name) {
+    if (!is_plain(name)) throw not_found("such page");
+    const auto wanted = service.web / name;
+    std::error_code error;
+    const auto root = std::filesystem::canonical(service.web, error);
+    const auto file =
+        std::filesystem::canonical(wanted, error);  // follows links: they must stay inside
+    const auto type = content_types.find(wanted.extension());
+    const bool inside = !error && std::ranges::mismatch(root, file).in1 == root.end();
+    if (!inside || type == content_types.end() || !std::filesystem::is_regular_file(file))
+        throw not_found("such page");
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    call.response.set_header("Cache-Control", "no-cache");
+    call.response.set_header(
+        "Content-Security-Policy",
+        "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+        "object-src 'none'; base-uri 'none'; frame-ancestors 'none'");
+    call.response.set_content(text.str(), type->second);
+}
+
+void ready(const Service& service, Call& call) {
+    std::error_code error;
+    const auto space = std::filesystem::space(service.data.scratch(), error);
+    if (error || space.available < least_free_bytes) {
+        throw Problem{503, "/problems/storage", "Not ready", "the disk of the data folder is full"};
+    }
+    service.store.runs(1);
+    reply(call.response, {{"status", "ready"}});
+}
+
+}  // namespace
+
+void add_page_routes(Router& router, Service& service) {
+    router.get("/", [&](Call& call) { send_file(service, call, "index.html"); });
+    router.get("/static/{file...}", [&](Call& call) { send_file(service, call, call.parts[0]); });
+    router.get("/healthz", [](Call& call) { reply(call.response, {{"status", "ok"}}); });
+    router.get("/readyz", [&](Call& call) { ready(service, call); });
+    router.get("/v1/schema/scene", [](Call& call) { reply(call.response, scene::scene_schema()); });
+    router.get("/v1/schema/study", [](Call& call) { reply(call.response, scene::study_schema()); });
+    router.post("/v1/scenes/plan", [&](Call& call) {
+        call.allow_parameters({});
+        const json scene = read_whole_scene(call.json_body());
+        reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())}});
+    });
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,176 @@
+#include "services/orchestrator/http/http_router.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "services/orchestrator/answers.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+std::string text_of(const json& body) {
+    return body.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::vector<std::string> segments_of(const std::string& path) {
+    std::vector<std::string> segments;
+    std::istringstream stream(path);
+    std::string segment;
+    while (std::getline(stream, segment, '/')) {
+        if (!segment.empty()) segments.push_back(segment);
+    }
+    return segments;
+}
+
+/// A last segment "{rest...}" takes what remains of the path.
+bool matches(const std::vector<std::string>& pattern, const std::vector<std::string>& path,
+             std::vector<std::string>& parts) {
+    parts.clear();
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        if (pattern[i].ends_with("...}")) {
+            std::string rest;
+            for (std::size_t k = i; k < path.size(); ++k) rest += (k > i ? "/" : "") + path[k];
+            parts.push_back(rest);
+            return !rest.empty();
+        }
+        if (i >= path.size()) return false;
+        if (pattern[i].starts_with('{')) {
+            parts.push_back(path[i]);
+        } else if (pattern[i] != path[i]) {
+            return false;
+        }
+    }
+    return pattern.size() == path.size();
+}
+
+}  // namespace
+
+Problem not_found(const std::string& what) {
+    return {404, "/problems/not-found", "Not found", "there is no " + what};
+}
+
+Problem bad_request(const std::string& detail) {
+    return {400, "/problems/bad-request", "Bad request", detail};
+}
+
+void refuse(httplib::Response& response, const Problem& problem) {
+    json body{{"type", problem.type},
+              {"title", problem.title},
+              {"status", problem.status},
+              {"detail", problem.detail}};
+    if (!problem.faults.empty()) body["faults"] = as_json(problem.faults);
+    response.status = problem.status;
+    response.set_content(text_of(body), "application/problem+json");
+}
+
+void reply(httplib::Response& response, const json& body, int status) {
+    response.status = status;
+    response.set_header("Cache-Control", "no-store");
+    response.set_content(text_of(body), "application/json");
+}
+
+void Call::allow_parameters(const std::set<std::string>& names) const {
+    for (const auto& [name, value] : request.params) {
+        if (names.contains(name)) continue;
+        std::string known;
+        for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+        throw bad_request("unknown query parameter \"" + name +
+                          "\"; known here: " + (known.empty() ? "none" : known));
+    }
+}
+
+std::optional<std::string> Call::parameter(const std::string& name) const {
+    if (!request.has_param(name)) return std::nullopt;
+    return request.get_param_value(name);
+}
+
+std::int64_t Call::whole_number(const std::string& name, std::int64_t otherwise, std::int64_t least,
+                                std::int64_t most) const {
+    const auto text = parameter(name);
+    if (!text || text->empty()) return otherwise;
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+    if (error != std::errc{} || end != text->data() + text->size() || value < least ||
+        value > most) {
+        throw bad_request(name + " must be a whole number from " + std::to_string(least) + " to " +
+                          std::to_string(most));
+    }
+    return value;
+}
+
+std::optional<double> Call::number(const std::string& name) const {
+    const auto text = parameter(name);
+    if (!text || text->empty()) return std::nullopt;
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+    if (error != std::errc{} || end != text->data() + text->size() || !std::isfinite(value))
+        throw bad_request(name + " must be a number");
+    return value;
+}
+
+const std::string& Call::json_body() const {
+    if (!request.get_header_value("Content-Type").starts_with("application/json")) {
+        throw Problem{415, "/problems/unsupported-media-type", "Unsupported media type",
+                      "send the body with the header Content-Type: application/json"};
+    }
+    return request.body;
+}
+
+void Router::get(const std::string& path, Handler handler) {
+    routes_.push_back({"GET", segments_of(path), std::move(handler)});
+}
+
+void Router::post(const std::string& path, Handler handler) {
+    routes_.push_back({"POST", segments_of(path), std::move(handler)});
+}
+
+void Router::answer(const httplib::Request& request, httplib::Response& response) const {
+    try {
+        run(request, response);
+    } catch (const Problem& problem) {
+        refuse(response, problem);
+    } catch (const fault::BadInput& error) {
+        refuse(response,
+               {422, "/problems/bad-input", "Bad input",
+                std::to_string(error.faults().size()) + " fault(s) in the " + error.file(),
+                error.faults()});
+    } catch (const StoreError& error) {
+        spdlog::error("{} {}: {}", request.method, request.path, error.what());
+        response.set_header("Retry-After", "5");
+        refuse(response,
+               {503, "/problems/storage", "The database refused", "nothing was stored; try again"});
+    } catch (const std::exception& error) {
+        spdlog::error("{} {}: {}", request.method, request.path, error.what());
+        refuse(response,
+               {500, "/problems/internal", "Internal fault", "the service's log says more"});
+    }
+}
+
+void Router::run(const httplib::Request& request, httplib::Response& response) const {
+    const std::string method = request.method == "HEAD" ? "GET" : request.method;
+    const std::vector<std::string> path = segments_of(request.path);
+    std::string allowed;
+    Call call{request, response, {}};
+    for (const Route& route : routes_) {
+        if (!matches(route.segments, path, call.parts)) continue;
+        if (route.method == method) {
+            route.handler(call);
+            return;
+        }
+        allowed += (allowed.empty() ? "" : ", ") + route.method;
+    }
+    if (allowed.empty()) throw not_found("such path here");
+    response.set_header("Allow", allowed);
+    throw Problem{405, "/problems/method-not-allowed", "Method not allowed",
+                  request.method + " is not possible here; possible: " + allowed};
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,68 @@
+// Routes by method and path template ("/v1/runs/{id}"), and problems (RFC 9457) as exceptions of
+// the handlers.
+#pragma once
+
+#include <httplib.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+/// What an answer other than 2xx says; thrown by handlers, written by the router.
+struct Problem {
+    int status;
+    std::string type;  ///< stable, below /problems/
+    std::string title;
+    std::string detail;
+    std::vector<fault::Fault> faults = {};
+};
+
+Problem not_found(const std::string& what);
+Problem bad_request(const std::string& detail);
+
+void refuse(httplib::Response& response, const Problem& problem);
+void reply(httplib::Response& response, const nlohmann::json& body, int status = 200);
+
+/// One request on its way through a handler.
+struct Call {
+    const httplib::Request& request;
+    httplib::Response& response;
+    std::vector<std::string> parts;  ///< what stands for the template's {…}, decoded
+
+    /// Unknown query parameters are 400, so that a misspelt filter is not silently ignored.
+    void allow_parameters(const std::set<std::string>& names) const;
+    std::optional<std::string> parameter(const std::string& name) const;
+    std::int64_t whole_number(const std::string& name, std::int64_t otherwise, std::int64_t least,
+                              std::int64_t most) const;
+    std::optional<double> number(const std::string& name) const;
+    /// The body; 415 when it is not announced as JSON (a web form could be sent by any page).
+    const std::string& json_body() const;
+};
+
+using Handler = std::function<void(Call&)>;
+
+class Router {
+  public:
+    void get(const std::string& path, Handler handler);
+    void post(const std::string& path, Handler handler);
+    /// Finds and runs the handler; every outcome becomes an answer, nothing is thrown.
+    void answer(const httplib::Request& request, httplib::Response& response) const;
+
+  private:
+    struct Route {
+        std::string method;
+        std::vector<std::string> segments;
+        Handler handler;
+    };
+    void run(const httplib::Request& request, httplib::Response& response) const;
+    std::vector<Route> routes_;
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,24 @@
+// The routes of the API, group by group.
+#pragma once
+
+#include <atomic>
+
+#include "services/orchestrator/http/http_router.hpp"
+#include "services/orchestrator/service.hpp"
+
+namespace breach::orchestrator {
+
+/// Runs and tasks: submit, list, inspect, cancel, results.
+void add_run_routes(Router& router, Service& service);
+/// What the phases wrote: logs, telemetry, frames, artifacts.
+void add_output_routes(Router& router, Service& service);
+/// The stream of events. `stopping` ends every waiting client.
+void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping);
+/// Schemas, plans, health, the dashboard.
+void add_page_routes(Router& router, Service& service);
+
+/// The task, or 404.
+Task wanted_task(const Service& service, const std::string& id);
+Run wanted_run(const Service& service, const std::string& id);
+
+}  // namespace breach::orchestrator

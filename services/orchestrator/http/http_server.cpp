@@ -1,0 +1,205 @@
+#include "services/orchestrator/http/http_server.hpp"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+
+#include "services/orchestrator/http/http_routes.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+constexpr std::size_t threads = 256;  // one per connection, and streams of events hold theirs
+constexpr std::size_t largest_body = 16 << 20;
+constexpr std::size_t most_headers = 64;
+constexpr std::size_t added_by_httplib = 4;  // REMOTE_ADDR and the like appear among the headers
+constexpr std::size_t most_requests_per_connection = 1000;
+constexpr int idle_seconds = 5;
+constexpr int read_seconds = 10;
+constexpr int write_seconds = 10;
+
+bool is_loopback(const std::string& host) {
+    return host == "localhost" || host == "::1" || host == "[::1]" || host.starts_with("127.");
+}
+
+std::string without_port(const std::string& host) {
+    const std::size_t colon = host.rfind(':');
+    if (colon == std::string::npos || host.find(']', colon) != std::string::npos) return host;
+    return host.substr(0, colon);
+}
+
+/// Takes as long for any wrong token of this length.
+bool equal_in_constant_time(const std::string& a, const std::string& b) {
+    if (a.size() != b.size()) return false;
+    unsigned difference = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+    return difference == 0;
+}
+
+/// Two readings of where this request ends: nothing after it on the connection can be trusted.
+bool has_doubtful_end(const httplib::Request& request) {
+    const auto lengths = request.get_header_value_count("Content-Length");
+    const auto encodings = request.get_header_value_count("Transfer-Encoding");
+    return lengths > 1 || encodings > 1 || (lengths > 0 && encodings > 0);
+}
+
+/// Writes the problem and then fails on purpose, which makes httplib close the connection.
+void refuse_and_close(httplib::Response& response, const Problem& problem) {
+    refuse(response, problem);
+    const std::string body = std::move(response.body);
+    response.body.clear();
+    response.headers.erase("Content-Type");
+    response.set_header("Connection", "close");
+    response.set_content_provider(body.size(), "application/problem+json",
+                                  [body](std::size_t, std::size_t, httplib::DataSink& sink) {
+                                      sink.write(body.data(), body.size());
+                                      return false;
+                                  });
+}
+
+Problem problem_of(int status) {
+    if (status == 413)
+        return {413, "/problems/too-large", "Content too large",
+                "the body may have " + std::to_string(largest_body) + " bytes"};
+    return {status, "/problems/bad-request", "Bad request", "the request cannot be understood"};
+}
+
+}  // namespace
+
+class HttpServer::Implementation {
+  public:
+    Implementation(Service& service, HttpSettings settings) : settings_(std::move(settings)) {
+        add_run_routes(router_, service);
+        add_output_routes(router_, service);
+        add_event_routes(router_, service, stopping_);
+        add_page_routes(router_, service);
+        set_limits();
+        set_doors();
+        bind();
+    }
+
+    int port() const { return port_; }
+    void serve() { server_.listen_after_bind(); }
+    void stop() {
+        stopping_ = true;
+        server_.stop();
+    }
+
+  private:
+    void set_limits() {
+        server_.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+        server_.set_payload_max_length(largest_body);
+        server_.set_keep_alive_max_count(most_requests_per_connection);
+        server_.set_keep_alive_timeout(idle_seconds);
+        server_.set_read_timeout(read_seconds);
+        server_.set_write_timeout(write_seconds);
+        server_.set_tcp_nodelay(true);
+        // Not httplib's default, which lets a second service share the port.
+        server_.set_socket_options([](socket_t socket) {
+            const int on = 1;
+            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+        });
+        server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
+    }
+
+    void set_doors() {
+        server_.set_pre_routing_handler(
+            [](const httplib::Request& request, httplib::Response& response) {
+                // Only artifacts come in parts; hundreds of ranges would multiply any other answer.
+                const bool parts =
+                    request.path.starts_with("/v1/artifacts/") && request.ranges.size() == 1;
+                if (!parts) const_cast<httplib::Request&>(request).ranges.clear();
+                if (!has_doubtful_end(request)) return httplib::Server::HandlerResponse::Unhandled;
+                refuse_and_close(response, bad_request("the request's length is given twice"));
+                return httplib::Server::HandlerResponse::Handled;
+            });
+        const httplib::Server::Handler door = [this](const httplib::Request& request,
+                                                     httplib::Response& response) {
+            try {
+                admit(request, response);
+            } catch (const Problem& problem) {
+                return refuse(response, problem);
+            }
+            router_.answer(request, response);
+        };
+        server_.Get(".*", door);
+        server_.Post(".*", door);
+        server_.Put(".*", door);
+        server_.Patch(".*", door);
+        server_.Delete(".*", door);
+        server_.Options(".*", door);
+        server_.set_error_handler([](const httplib::Request&, httplib::Response& response) {
+            if (response.body.empty() && !response.content_provider_)
+                refuse(response, problem_of(response.status));
+        });
+        server_.set_exception_handler([](const httplib::Request&, httplib::Response& response,
+                                         std::exception_ptr) {
+            refuse(response,
+                   {500, "/problems/internal", "Internal fault", "the service's log says more"});
+        });
+    }
+
+    /// Who may ask at all.
+    void admit(const httplib::Request& request, httplib::Response& response) const {
+        if (request.headers.size() > most_headers + added_by_httplib)
+            throw Problem{431, "/problems/too-many-headers", "Too many headers",
+                          "at most 64 are read"};
+        if (request.get_header_value("Range").find(',') != std::string::npos)
+            throw Problem{416, "/problems/range", "Range not satisfiable", "one range at a time"};
+        const std::string host = request.get_header_value("Host");
+        // A web page elsewhere could reach a service on loopback through its reader's browser.
+        if (settings_.token.empty() && !is_loopback(without_port(host)))
+            throw Problem{421, "/problems/misdirected", "Misdirected request",
+                          "without a token the service answers only as localhost"};
+        const std::string origin = request.get_header_value("Origin");
+        if (!origin.empty() && origin != "http://" + host && origin != "https://" + host)
+            throw Problem{403, "/problems/foreign-origin", "Forbidden",
+                          "only the service's own pages may ask from a browser"};
+        const bool protected_path = request.path.starts_with("/v1/");
+        if (settings_.token.empty() || !protected_path) return;
+        const std::string given = request.get_header_value("Authorization");
+        if (equal_in_constant_time(given, "Bearer " + settings_.token)) return;
+        response.set_header("WWW-Authenticate", "Bearer");
+        throw Problem{401, "/problems/unauthorized", "Unauthorized",
+                      "send the service's token: Authorization: Bearer ..."};
+    }
+
+    void bind() {
+        if (settings_.token.empty() && !is_loopback(settings_.host)) {
+            throw fault::BadInput(
+                "command line",
+                {{"--host",
+                  settings_.host + " can be reached from other machines, and there is "
+                                   "no token",
+                  "give --token-file FILE, or stay on 127.0.0.1"}});
+        }
+        if (settings_.port == 0) {
+            port_ = server_.bind_to_any_port(settings_.host);
+        } else if (server_.bind_to_port(settings_.host, settings_.port)) {
+            port_ = settings_.port;
+        }
+        if (port_ <= 0) {
+            throw fault::IoError(
+                settings_.host + ":" + std::to_string(settings_.port) +
+                ": cannot be bound; is the port in use? choose another with --port");
+        }
+    }
+
+    HttpSettings settings_;
+    Router router_;
+    std::atomic<bool> stopping_ = false;
+    int port_ = -1;
+    httplib::Server server_;
+};
+
+HttpServer::HttpServer(Service& service, HttpSettings settings)
+    : implementation_(std::make_unique<Implementation>(service, std::move(settings))) {}
+HttpServer::~HttpServer() = default;
+int HttpServer::port() const { return implementation_->port(); }
+void HttpServer::serve() { implementation_->serve(); }
+void HttpServer::stop() { implementation_->stop(); }
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,37 @@
+// The service's HTTP side: limits, hardening, routes. cpp-httplib stays inside this folder.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "services/orchestrator/service.hpp"
+
+namespace breach::orchestrator {
+
+struct HttpSettings {
+    std::string host = "127.0.0.1";
+    int port = 0;       ///< 0: any free one
+    std::string token;  ///< empty: none needed, which only loopback allows
+};
+
+class HttpServer {
+  public:
+    /// Binds. Throws IoError when it cannot, BadInput when the host is not loopback and there is no
+    /// token.
+    HttpServer(Service& service, HttpSettings settings);
+    ~HttpServer();
+    HttpServer(const HttpServer&) = delete;
+    HttpServer& operator=(const HttpServer&) = delete;
+
+    int port() const;
+    /// Serves until stop().
+    void serve();
+    /// Callable from another thread.
+    void stop();
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,115 @@
+// The one state table: every state of a task and of an attempt, every event that may move it, and
+// where to. Nothing else in the service decides a state. What an event means on disk and in SQL
+// lives in store/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace breach::orchestrator {
+
+/// Who moves it on, and what a restart does with it:
+/// blocked      waits for a parent's output; the dispatcher releases or skips it; a restart looks
+/// again ready        waits for a slot cached       (final) an equal task had been done before
+/// starting     its attempt row is stored, its process perhaps started; a restart asks the
+/// attempt's lock running      its process is known to run; a restart asks the lock and the exit
+/// record finalizing   its process ended well; outputs are being hashed; a restart hashes again
+/// succeeded    (final)
+/// failed       (final)
+/// lost         the process vanished without a record; moved on in the same transaction
+/// retry_wait   waits until its retry time
+/// cancelling   its process is being stopped; a restart stops it again
+/// cancelled    (final)
+/// skipped      (final) its parent will never deliver the input
+enum class TaskState {
+    blocked,
+    ready,
+    cached,
+    starting,
+    running,
+    finalizing,
+    succeeded,
+    failed,
+    lost,
+    retry_wait,
+    cancelling,
+    cancelled,
+    skipped,
+};
+
+enum class TaskEvent {
+    release,         ///< the input exists
+    skip,            ///< the input will never exist
+    reuse,           ///< the result is in the cache
+    claim,           ///< a slot was given; stored before anything is started
+    start,           ///< the process was started
+    exit_well,       ///< exit code 0
+    exit_badly,      ///< an exit code that no retry can mend
+    exit_retryable,  ///< an exit code or signal that a retry may mend
+    interrupt,       ///< stopped because the service stops; not the task's fault
+    vanish,          ///< no process and no exit record
+    retry,           ///< lost, and tried again
+    give_up,         ///< lost, and tried often enough
+    wait_over,       ///< the retry time has come
+    keep_outputs,    ///< outputs hashed and stored
+    refuse_outputs,  ///< the outputs promised are not there
+    cancel,          ///< asked for by a user
+    stopped,         ///< the process asked to stop is gone
+};
+
+enum class AttemptState { submitting, submitted, running, exited, lost, fenced };
+
+enum class AttemptEvent {
+    submit,  ///< the executor took it
+    begin,   ///< first sign of life from the phase
+    exit,    ///< its exit record was read
+    vanish,  ///< no process and no exit record
+    fence,   ///< a record turned up after it was given up; refused
+};
+
+struct TaskRule {
+    TaskState from;
+    TaskEvent event;
+    TaskState to;
+};
+
+struct AttemptRule {
+    AttemptState from;
+    AttemptEvent event;
+    AttemptState to;
+};
+
+/// All that is allowed; every other pair is refused.
+std::span<const TaskRule> task_rules();
+std::span<const AttemptRule> attempt_rules();
+
+std::span<const TaskState> all_task_states();
+std::span<const TaskEvent> all_task_events();
+std::span<const AttemptState> all_attempt_states();
+std::span<const AttemptEvent> all_attempt_events();
+
+std::optional<TaskState> next(TaskState from, TaskEvent event);
+std::optional<AttemptState> next(AttemptState from, AttemptEvent event);
+
+/// No event moves it any more.
+bool is_final(TaskState state);
+/// The attempt may still have a process.
+bool is_live(AttemptState state);
+
+std::string_view name_of(TaskState state);
+std::string_view name_of(TaskEvent event);
+std::string_view name_of(AttemptState state);
+std::string_view name_of(AttemptEvent event);
+TaskState task_state_named(std::string_view name);
+AttemptState attempt_state_named(std::string_view name);
+
+/// An event that the table does not allow in this state.
+class IllegalMove : public std::logic_error {
+  public:
+    using std::logic_error::logic_error;
+};
+
+}  // namespace breach::orchestrator

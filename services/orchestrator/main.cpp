@@ -1,0 +1,100 @@
+// breachline serve | supervise
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/executors/supervisor.hpp"
+#include "services/orchestrator/serve.hpp"
+
+using breach::fault::ExitCode;
+using namespace breach::orchestrator;
+
+namespace {
+
+std::string token_in(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::string token;
+    if (!std::getline(stream, token) || token.size() < 16) {
+        throw breach::fault::IoError(
+            file.string() + ": must hold a token of at least 16 characters in its first line");
+    }
+    return token;
+}
+
+/// The dashboard: installed beside the executable, else in the source tree.
+std::filesystem::path web_folder(const std::filesystem::path& self) {
+    const auto installed = self.parent_path().parent_path() / "share" / "breachline" / "web";
+    return std::filesystem::exists(installed) ? installed : std::filesystem::path(BREACH_WEB);
+}
+
+int guarded_serve(const ServeSettings& settings) {
+    try {
+        return serve(settings);
+    } catch (const breach::fault::BadInput& error) {
+        std::cerr << "breachline: " << error.what() << "\n";
+        return static_cast<int>(ExitCode::usage);
+    } catch (const std::exception& error) {
+        std::cerr << "breachline: " << error.what() << "\n";
+        return static_cast<int>(ExitCode::io);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    ServeSettings settings;
+    settings.self = std::filesystem::canonical("/proc/self/exe");
+    settings.dispatch.bin = settings.self.parent_path();
+    settings.dispatch.slots = std::max(1U, std::thread::hardware_concurrency());
+    settings.web = web_folder(settings.self);
+    settings.http.port = 8350;
+    std::filesystem::path token_file;
+    std::filesystem::path attempt;
+    double retry_seconds = 0.5;
+
+    CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
+    app.set_version_flag("--version", "breachline " BREACH_VERSION);
+    app.require_subcommand(1);
+    CLI::App* serving = app.add_subcommand("serve", "answer requests and run what is submitted");
+    serving->add_option("--data", settings.data, "folder of the database and all results")
+        ->capture_default_str();
+    serving->add_option("--host", settings.http.host, "address to bind")->capture_default_str();
+    serving->add_option("--port", settings.http.port, "0: any free one")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    serving->add_option("--slots", settings.dispatch.slots, "phases at the same time")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    serving->add_option("--bin", settings.dispatch.bin, "folder of the phase executables")
+        ->capture_default_str();
+    serving->add_option("--web", settings.web, "folder of the dashboard")->capture_default_str();
+    serving->add_option("--token-file", token_file,
+                        "file whose first line is the token that clients must send");
+    serving->add_option("--grace", settings.dispatch.grace_seconds, "seconds between TERM and KILL")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    serving->add_option("--tries", settings.dispatch.most_tries, "attempts per task")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    serving
+        ->add_option("--retry-delay", retry_seconds,
+                     "seconds before the first retry; doubled each time")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    CLI::App* supervising = app.add_subcommand("supervise", "run one attempt (started by serve)");
+    supervising->add_option("folder", attempt, "the attempt's folder")->required();
+    CLI11_PARSE(app, argc, argv);
+
+    if (*supervising) return supervise(attempt);
+    spdlog::set_default_logger(spdlog::stderr_color_mt("breachline"));
+    spdlog::set_pattern("%H:%M:%S %n %l: %v");
+    settings.dispatch.bin = std::filesystem::absolute(settings.dispatch.bin);
+    settings.dispatch.retry_delay =
+        std::chrono::milliseconds(static_cast<int>(1000 * retry_seconds));
+    if (!token_file.empty()) settings.http.token = token_in(token_file);
+    return guarded_serve(settings);
+}

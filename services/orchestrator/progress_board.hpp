@@ -1,0 +1,29 @@
+// How far the running tasks say they are. In memory only: after a restart the phases' own lines
+// fill it again.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace breach::orchestrator {
+
+struct Progress {
+    double fraction = 0.0;  ///< [0, 1]
+    std::string message;
+};
+
+class ProgressBoard {
+  public:
+    void set(const std::string& task, Progress progress);
+    void erase(const std::string& task);
+    Progress of(const std::string& task) const;
+    /// Sum of the fractions of a run's running tasks.
+    double sum_of_run(const std::string& run) const;
+
+  private:
+    mutable std::mutex mutex_;
+    std::map<std::string, Progress> tasks_;  ///< by task id; ids of a run lie side by side
+};
+
+}  // namespace breach::orchestrator

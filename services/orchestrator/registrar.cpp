@@ -1,0 +1,102 @@
+#include "services/orchestrator/registrar.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "core/exchange/provenance.hpp"
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr auto pause_after_trouble = std::chrono::seconds(1);
+
+/// Everything below the output folder, in order of name.
+std::vector<Artifact> hashed_outputs(const Task& task, const std::filesystem::path& output) {
+    std::vector<Artifact> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(output)) {
+        if (!entry.is_regular_file() || entry.is_symlink()) continue;
+        found.push_back({.task = task.id,
+                         .name = std::filesystem::relative(entry.path(), output).string(),
+                         .sha256 = exchange::sha256_of_file(entry.path()),
+                         .bytes = static_cast<std::int64_t>(entry.file_size())});
+    }
+    std::ranges::sort(found, {}, &Artifact::name);
+    return found;
+}
+
+/// The facts of result.json; its plan and provenance stay in the file.
+json facts_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    json result = json::parse(stream);
+    if (!result.is_object()) throw fault::IoError(file.string() + ": is not a JSON object");
+    result.erase("provenance");
+    result.erase("plan");
+    return result;
+}
+
+}  // namespace
+
+Registrar::Registrar(Store& store, const DataFolder& data,
+                     std::function<void(const std::string&)> done)
+    : store_(store), data_(data), done_(std::move(done)) {
+    thread_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
+}
+
+void Registrar::add(Task task) {
+    {
+        const std::lock_guard lock(mutex_);
+        waiting_.push_back(std::move(task));
+    }
+    arrived_.notify_one();
+}
+
+void Registrar::serve(std::stop_token stop) {
+    while (true) {
+        std::unique_lock lock(mutex_);
+        if (!arrived_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
+        const Task task = std::move(waiting_.front());
+        waiting_.pop_front();
+        lock.unlock();
+        try {
+            finalize(task);
+        } catch (const StoreError& error) {
+            spdlog::error("{}: {}; trying again", task.id, error.what());
+            std::this_thread::sleep_for(pause_after_trouble);
+            lock.lock();
+            waiting_.push_back(task);
+            continue;
+        }
+        done_(task.id);
+    }
+}
+
+void Registrar::finalize(const Task& task) {
+    const std::filesystem::path output = data_.output(task);
+    json result;
+    std::vector<Artifact> artifacts;
+    std::string trouble;
+    try {
+        result = facts_of(output / "result.json");
+        artifacts = hashed_outputs(task, output);
+    } catch (const json::exception&) {
+        trouble = "the phase ended with exit code 0 but left no readable result.json";
+    } catch (const std::exception& error) {
+        trouble = std::string("the outputs cannot be read: ") + error.what();
+    }
+    store_.write([&](Transaction& transaction) {
+        if (trouble.empty()) {
+            transaction.finish_task(task.id, result, artifacts);
+        } else {
+            transaction.fail_task(task.id, TaskEvent::refuse_outputs, {std::nullopt, trouble});
+        }
+    });
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,36 @@
+// Hashes and stores the outputs of tasks whose process ended well, on a thread of its own: hashing
+// a large output must not hold up the dispatcher.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "services/orchestrator/data_folder.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+class Registrar {
+  public:
+    /// `done` is called on the registrar's thread with each task that has left `finalizing`.
+    Registrar(Store& store, const DataFolder& data, std::function<void(const std::string&)> done);
+
+    void add(Task task);
+
+  private:
+    void serve(std::stop_token stop);
+    void finalize(const Task& task);
+
+    Store& store_;
+    const DataFolder& data_;
+    std::function<void(const std::string&)> done_;
+    std::mutex mutex_;
+    std::condition_variable_any arrived_;
+    std::deque<Task> waiting_;
+    std::jthread thread_;  // last: stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,58 @@
+#include "services/orchestrator/serve.hpp"
+
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <iostream>
+#include <thread>
+
+#include "services/orchestrator/executors/local_executor.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+/// SIGINT and SIGTERM are taken by one waiting thread; every thread made later inherits the mask.
+sigset_t blocked_stop_signals() {
+    sigset_t set{};
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    return set;
+}
+
+void announce(const ServeSettings& settings, int port) {
+    const std::string url = "http://" + settings.http.host + ":" + std::to_string(port);
+    std::cout << nlohmann::json{{"event", "listening"}, {"url", url}, {"port", port}}.dump()
+              << std::endl;
+    spdlog::info("listening on {}, data in {}, {} slots", url, settings.data.string(),
+                 settings.dispatch.slots);
+}
+
+}  // namespace
+
+int serve(const ServeSettings& settings) {
+    const sigset_t stop_signals = blocked_stop_signals();
+    std::signal(SIGPIPE, SIG_IGN);
+
+    const DataFolder data(settings.data);
+    Store store(data.database());
+    ProgressBoard board;
+    LocalExecutor executor(settings.self);
+    FrameReader frames;
+    Dispatcher dispatcher(store, data, executor, board, settings.dispatch);
+    Service service{store, data, dispatcher, board, frames, settings.dispatch.bin, settings.web};
+    HttpServer server(service, settings.http);
+
+    std::jthread answering([&] { server.serve(); });
+    announce(settings, server.port());
+    int signal = 0;
+    sigwait(&stop_signals, &signal);
+    spdlog::info("stopping: running phases save their checkpoints");
+    server.stop();
+    return 0;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,23 @@
+// `breachline serve`: puts the parts together and runs until SIGINT or SIGTERM.
+#pragma once
+
+#include <filesystem>
+
+#include "services/orchestrator/dispatcher.hpp"
+#include "services/orchestrator/http/http_server.hpp"
+
+namespace breach::orchestrator {
+
+struct ServeSettings {
+    std::filesystem::path data = "breachline-data";
+    std::filesystem::path web;
+    std::filesystem::path self;  ///< this executable, for supervisors
+    DispatchSettings dispatch;
+    HttpSettings http;
+};
+
+/// Prints {"event":"listening","url",...} on stdout when requests are answered. Returns the exit
+/// code; throws what keeps it from starting.
+int serve(const ServeSettings& settings);
+
+}  // namespace breach::orchestrator

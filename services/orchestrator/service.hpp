@@ -1,0 +1,25 @@
+// What the HTTP layer may use of the service.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "services/orchestrator/data_folder.hpp"
+#include "services/orchestrator/dispatcher.hpp"
+#include "services/orchestrator/frames.hpp"
+#include "services/orchestrator/progress_board.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+struct Service {
+    Store& store;
+    const DataFolder& data;
+    Dispatcher& dispatcher;
+    const ProgressBoard& board;
+    FrameReader& frames;
+    std::filesystem::path bin;  ///< the phase executables
+    std::filesystem::path web;  ///< the dashboard's files
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,12 @@
+// The tables, version by version (PRAGMA user_version).
+#pragma once
+
+#include "services/orchestrator/store/connection.hpp"
+
+namespace breach::orchestrator {
+
+/// Brings the database to this program's version in one transaction, after a backup beside it when
+/// it held data. Throws StoreError when the database is newer than the program.
+void migrate(Connection& database, const std::filesystem::path& file);
+
+}  // namespace breach::orchestrator

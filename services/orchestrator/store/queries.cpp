@@ -1,0 +1,255 @@
+// The reading half of the store.
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* run_columns =
+    "SELECT r.id, r.name, r.title, r.state, r.created, r.started, r.finished, r.tasks_total, "
+    "r.tasks_done, "
+    "r.tasks_failed, coalesce((SELECT t.label || ': ' || t.fault_summary FROM tasks t WHERE t.run "
+    "= r.id AND "
+    "t.fault_summary IS NOT NULL ORDER BY t.id LIMIT 1), '') FROM run_summaries r ";
+
+Run run_from(const Row& row) {
+    return {.id = row.text(0),
+            .name = row.text(1),
+            .title = row.text(2),
+            .state = row.text(3),
+            .created = row.text(4),
+            .started = row.optional_text(5),
+            .finished = row.optional_text(6),
+            .tasks_total = row.integer(7),
+            .tasks_done = row.integer(8),
+            .tasks_failed = row.integer(9),
+            .message = row.text(10)};
+}
+
+constexpr const char* task_columns =
+    "SELECT id, run, phase, label, transfer_time, state, parent, release, input, overrides, tries, "
+    "started, "
+    "finished, result, fault_exit, fault_summary FROM tasks ";
+
+Release release_named(const std::string& name) {
+    if (name == "at_once") return Release::at_once;
+    return name == "file_exists" ? Release::file_exists : Release::parent_succeeded;
+}
+
+Task task_from(const Row& row) {
+    Task task{.id = row.text(0),
+              .run = row.text(1),
+              .phase = row.text(2),
+              .label = row.text(3),
+              .transfer_time = row.optional_real(4),
+              .state = task_state_named(row.text(5)),
+              .parent = row.optional_text(6),
+              .release = release_named(row.text(7)),
+              .input = row.text(8),
+              .overrides = json::parse(row.text(9)).get<std::vector<std::string>>(),
+              .tries = row.integer(10),
+              .started = row.optional_text(11),
+              .finished = row.optional_text(12),
+              .result = std::nullopt,
+              .fault = std::nullopt};
+    if (!row.is_null(13)) task.result = json::parse(row.text(13));
+    if (!row.is_null(15)) task.fault = TaskFault{row.optional_integer(14), row.text(15)};
+    return task;
+}
+
+Value as_value(std::size_t count) { return static_cast<std::int64_t>(count); }
+Value as_value(TaskState state) { return std::string(name_of(state)); }
+
+}  // namespace
+
+std::vector<Run> Store::runs(std::size_t most) const {
+    std::vector<Run> found;
+    read([&](Connection& database) {
+        database.query(std::string(run_columns) + "ORDER BY r.id DESC LIMIT ?", {as_value(most)},
+                       [&](const Row& row) { found.push_back(run_from(row)); });
+    });
+    return found;
+}
+
+std::optional<Run> Store::run(const std::string& id) const {
+    std::optional<Run> found;
+    read([&](Connection& database) {
+        database.query(std::string(run_columns) + "WHERE r.id=?", {id},
+                       [&](const Row& row) { found = run_from(row); });
+    });
+    return found;
+}
+
+std::optional<json> Store::study_of(const std::string& run) const {
+    std::optional<json> found;
+    read([&](Connection& database) {
+        database.query("SELECT study FROM runs WHERE id=?", {run},
+                       [&](const Row& row) { found = json::parse(row.text(0)); });
+    });
+    return found;
+}
+
+std::optional<std::string> Store::scene_of(const std::string& run) const {
+    std::optional<std::string> found;
+    read([&](Connection& database) {
+        database.query("SELECT scene FROM runs WHERE id=?", {run},
+                       [&](const Row& row) { found = row.text(0); });
+    });
+    return found;
+}
+
+std::optional<Task> Store::task(const std::string& id) const {
+    std::optional<Task> found;
+    read([&](Connection& database) {
+        database.query(std::string(task_columns) + "WHERE id=?", {id},
+                       [&](const Row& row) { found = task_from(row); });
+    });
+    return found;
+}
+
+std::vector<Task> Store::tasks_of(const std::string& run) const {
+    std::vector<Task> found;
+    read([&](Connection& database) {
+        database.query(std::string(task_columns) + "WHERE run=? ORDER BY id", {run},
+                       [&](const Row& row) { found.push_back(task_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Task> Store::tasks_in(TaskState state, std::size_t most) const {
+    std::vector<Task> found;
+    read([&](Connection& database) {
+        database.query(std::string(task_columns) + "WHERE state=? ORDER BY id LIMIT ?",
+                       {as_value(state), as_value(most)},
+                       [&](const Row& row) { found.push_back(task_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Task> Store::blocked_children(const std::string& parent) const {
+    std::vector<Task> found;
+    read([&](Connection& database) {
+        database.query(std::string(task_columns) + "WHERE parent=? AND state='blocked' ORDER BY id",
+                       {parent}, [&](const Row& row) { found.push_back(task_from(row)); });
+    });
+    return found;
+}
+
+std::vector<std::string> Store::parents_of_blocked() const {
+    std::vector<std::string> found;
+    read([&](Connection& database) {
+        database.query("SELECT DISTINCT parent FROM tasks WHERE state='blocked'", {},
+                       [&](const Row& row) { found.push_back(row.text(0)); });
+    });
+    return found;
+}
+
+std::vector<std::string> Store::due_retries(std::int64_t now) const {
+    std::vector<std::string> found;
+    read([&](Connection& database) {
+        database.query("SELECT id FROM tasks WHERE state='retry_wait' AND retry_at<=?", {now},
+                       [&](const Row& row) { found.push_back(row.text(0)); });
+    });
+    return found;
+}
+
+std::optional<std::int64_t> Store::next_retry() const {
+    std::optional<std::int64_t> found;
+    read([&](Connection& database) {
+        database.query("SELECT min(retry_at) FROM tasks WHERE state='retry_wait'", {},
+                       [&](const Row& row) { found = row.optional_integer(0); });
+    });
+    return found;
+}
+
+std::vector<Attempt> Store::attempts_of(const std::string& task) const {
+    std::vector<Attempt> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT task, number, state, created, started, finished, exit_code, signal, "
+            "wall_seconds, "
+            "cpu_seconds FROM attempts WHERE task=? ORDER BY number",
+            {task}, [&](const Row& row) {
+                found.push_back({.task = row.text(0),
+                                 .number = row.integer(1),
+                                 .state = attempt_state_named(row.text(2)),
+                                 .created = row.text(3),
+                                 .started = row.optional_text(4),
+                                 .finished = row.optional_text(5),
+                                 .exit_code = row.optional_integer(6),
+                                 .signal = row.optional_integer(7),
+                                 .wall_seconds = row.optional_real(8),
+                                 .cpu_seconds = row.optional_real(9)});
+            });
+    });
+    return found;
+}
+
+std::vector<Artifact> Store::artifacts_of(const std::string& task) const {
+    std::vector<Artifact> found;
+    read([&](Connection& database) {
+        database.query("SELECT task, name, sha256, bytes FROM artifacts WHERE task=? ORDER BY name",
+                       {task}, [&](const Row& row) {
+                           found.push_back({row.text(0), row.text(1), row.text(2), row.integer(3)});
+                       });
+    });
+    return found;
+}
+
+std::optional<Artifact> Store::artifact(const std::string& sha256) const {
+    std::optional<Artifact> found;
+    read([&](Connection& database) {
+        database.query("SELECT task, name, sha256, bytes FROM artifacts WHERE sha256=? LIMIT 1",
+                       {sha256}, [&](const Row& row) {
+                           found = Artifact{row.text(0), row.text(1), row.text(2), row.integer(3)};
+                       });
+    });
+    return found;
+}
+
+std::vector<SweepRow> Store::results(const std::string& run) const {
+    std::vector<SweepRow> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT transfer_time, state, runout, runout_beyond_toe, runout_largest, volume_ratio, "
+            "numerical_share, cpu_seconds, reason, transfer_task, mpm_task FROM sweep_results "
+            "WHERE run=? "
+            "ORDER BY transfer_time",
+            {run}, [&](const Row& row) {
+                found.push_back({.transfer_time = row.real(0),
+                                 .state = row.text(1),
+                                 .runout = row.optional_real(2),
+                                 .runout_beyond_toe = row.optional_real(3),
+                                 .runout_largest = row.optional_real(4),
+                                 .volume_ratio = row.optional_real(5),
+                                 .numerical_share = row.optional_real(6),
+                                 .cpu_seconds = row.optional_real(7),
+                                 .reason = row.text(8),
+                                 .transfer_task = row.text(9),
+                                 .mpm_task = row.text(10)});
+            });
+    });
+    return found;
+}
+
+std::vector<Event> Store::events_after(std::int64_t seq, std::size_t most) const {
+    std::vector<Event> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT seq, time, run, task, kind, detail FROM events WHERE seq>? ORDER BY seq LIMIT "
+            "?",
+            {seq, as_value(most)}, [&](const Row& row) {
+                found.push_back({.seq = row.integer(0),
+                                 .time = row.text(1),
+                                 .run = row.text(2),
+                                 .task = row.optional_text(3),
+                                 .kind = row.text(4),
+                                 .detail = json::parse(row.text(5))});
+            });
+    });
+    return found;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,119 @@
+#include "services/orchestrator/store/store.hpp"
+
+#include <exception>
+
+#include "services/orchestrator/store/migrations.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+constexpr std::size_t largest_group = 256;
+
+std::filesystem::path migrated(const std::filesystem::path& file) {
+    Connection database(file, Access::read_write);
+    migrate(database, file);
+    return file;
+}
+
+}  // namespace
+
+Store::Store(const std::filesystem::path& file)
+    : file_(migrated(file)), writing_(file, Access::read_write) {
+    writing_.query("SELECT coalesce(max(seq), 0) FROM events", {},
+                   [&](const Row& row) { last_event_ = row.integer(0); });
+    writer_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
+}
+
+Store::~Store() = default;
+
+void Store::write(std::function<void(Transaction&)> change) {
+    Job job{std::move(change), {}, nullptr};
+    std::future<void> done = job.done.get_future();
+    {
+        const std::lock_guard lock(jobs_mutex_);
+        jobs_.push_back(std::move(job));
+    }
+    jobs_arrived_.notify_one();
+    done.get();
+}
+
+void Store::serve(std::stop_token stop) {
+    while (true) {
+        std::deque<Job> group;
+        {
+            std::unique_lock lock(jobs_mutex_);
+            if (!jobs_arrived_.wait(lock, stop, [&] { return !jobs_.empty(); })) return;
+            while (!jobs_.empty() && group.size() < largest_group) {
+                group.push_back(std::move(jobs_.front()));
+                jobs_.pop_front();
+            }
+        }
+        commit(group);
+    }
+}
+
+void Store::commit(std::deque<Job>& jobs) {
+    std::int64_t newest = 0;
+    try {
+        writing_.script("BEGIN IMMEDIATE");
+        for (Job& job : jobs) {
+            writing_.script("SAVEPOINT job");
+            try {
+                Transaction transaction(writing_);
+                job.change(transaction);
+                newest = std::max(newest, transaction.last_event());
+            } catch (...) {
+                job.refused = std::current_exception();
+                writing_.script("ROLLBACK TO job");
+            }
+            writing_.script("RELEASE job");
+        }
+        writing_.script("COMMIT");
+    } catch (const StoreError&) {
+        const std::exception_ptr failure = std::current_exception();
+        try {
+            writing_.script("ROLLBACK");
+        } catch (const StoreError&) {
+            // SQLite has already rolled back by itself (disk full, I/O error).
+        }
+        for (Job& job : jobs) job.done.set_exception(failure);
+        return;
+    }
+    if (newest > 0) {
+        {
+            const std::lock_guard lock(events_mutex_);
+            last_event_ = newest;
+        }
+        event_stored_.notify_all();
+    }
+    for (Job& job : jobs) {
+        if (job.refused) {
+            job.done.set_exception(job.refused);
+        } else {
+            job.done.set_value();
+        }
+    }
+}
+
+void Store::read(const std::function<void(Connection&)>& read) const {
+    std::unique_ptr<Connection> connection;
+    {
+        const std::lock_guard lock(readers_mutex_);
+        if (!idle_readers_.empty()) {
+            connection = std::move(idle_readers_.back());
+            idle_readers_.pop_back();
+        }
+    }
+    if (!connection) connection = std::make_unique<Connection>(file_, Access::read_only);
+    read(*connection);
+    const std::lock_guard lock(readers_mutex_);
+    idle_readers_.push_back(std::move(connection));
+}
+
+bool Store::wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const {
+    std::unique_lock lock(events_mutex_);
+    return event_stored_.wait_for(lock, longest, [&] { return last_event_ > seq; });
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,83 @@
+// The memory of the service: one database file behind one door. A single writer thread owns the
+// only writing connection and commits what has queued up together (group commit); readers use their
+// own read-only connections. SQLite 3.40 can corrupt when two connections write or checkpoint at
+// once, hence "single".
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <thread>
+
+#include "services/orchestrator/store/transaction.hpp"
+
+namespace breach::orchestrator {
+
+class Store {
+  public:
+    explicit Store(const std::filesystem::path& file);
+    ~Store();
+    Store(const Store&) = delete;
+    Store& operator=(const Store&) = delete;
+
+    /// Runs `change` and returns when it is on the disk. What it throws is thrown here, and nothing
+    /// of it is kept. Throws StoreError when the commit fails.
+    void write(std::function<void(Transaction&)> change);
+
+    std::vector<Run> runs(std::size_t most) const;
+    std::optional<Run> run(const std::string& id) const;
+    std::optional<nlohmann::json> study_of(const std::string& run) const;
+    std::optional<std::string> scene_of(const std::string& run) const;
+
+    std::optional<Task> task(const std::string& id) const;
+    std::vector<Task> tasks_of(const std::string& run) const;
+    std::vector<Task> tasks_in(TaskState state, std::size_t most) const;
+    /// Blocked tasks whose input comes from `parent`.
+    std::vector<Task> blocked_children(const std::string& parent) const;
+    std::vector<std::string> parents_of_blocked() const;
+    /// Ids of tasks whose retry time is not after `now`, and the earliest later one.
+    std::vector<std::string> due_retries(std::int64_t now) const;
+    std::optional<std::int64_t> next_retry() const;
+
+    std::vector<Attempt> attempts_of(const std::string& task) const;
+    std::vector<Artifact> artifacts_of(const std::string& task) const;
+    std::optional<Artifact> artifact(const std::string& sha256) const;
+    std::vector<SweepRow> results(const std::string& run) const;
+
+    std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
+    std::int64_t last_event() const { return last_event_; }
+    /// Waits until an event after `seq` is stored, the time is over or the store closes; true:
+    /// there is one.
+    bool wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const;
+
+  private:
+    struct Job {
+        std::function<void(Transaction&)> change;
+        std::promise<void> done;
+        std::exception_ptr refused;
+    };
+    void serve(std::stop_token stop);
+    void commit(std::deque<Job>& jobs);
+    /// A reading connection for the duration of `read`.
+    void read(const std::function<void(Connection&)>& read) const;
+
+    std::filesystem::path file_;
+    Connection writing_;
+    std::mutex jobs_mutex_;
+    std::condition_variable_any jobs_arrived_;
+    std::deque<Job> jobs_;
+
+    mutable std::mutex readers_mutex_;
+    mutable std::vector<std::unique_ptr<Connection>> idle_readers_;
+
+    mutable std::mutex events_mutex_;
+    mutable std::condition_variable event_stored_;
+    std::atomic<std::int64_t> last_event_ = 0;
+
+    std::jthread writer_;  // last: stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

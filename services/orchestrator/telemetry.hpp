@@ -1,0 +1,21 @@
+// Telemetry of a phase: JSON lines that may still grow, read from a given line on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace breach::orchestrator {
+
+struct TelemetryWish {
+    std::vector<std::string> fields;  ///< empty: all
+    std::int64_t from = 0;            ///< first line, from 0
+    std::int64_t stride = 1;          ///< every stride-th line, counted from line 0
+};
+
+/// {"lines":[...],"next":LINE}: `next` is where to go on; a torn last line waits until it is whole.
+nlohmann::json read_telemetry(const std::filesystem::path& file, const TelemetryWish& wish);
+
+}  // namespace breach::orchestrator

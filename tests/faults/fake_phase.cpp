@@ -1,0 +1,216 @@
+// Stands for all four phases in the tests of the orchestrator: obeys the contract of a phase with
+// numbers that take no time to compute, and misbehaves as the scene's title says (words
+// "name=value"):
+//     fem_steps mpm_steps  number of steps of 20 ms          entangle_at=T  the FEM ends with 70
+//     before time T damage=T     the snapshot at T holds nonsense          deaf=1         the MPM
+//     ignores TERM and leaves a daemon try_again=1  the MPM's first attempt ends with 75 crash=1
+//     the MPM's first attempt ends by SIGKILL always_crash=1  the MPM never gets through
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+volatile std::sig_atomic_t stop = 0;
+void note_stop(int signal) { stop = signal; }
+
+struct Order {
+    std::string phase;
+    fs::path scene;
+    fs::path input;
+    fs::path output;
+    std::vector<std::string> overrides;
+    bool resume = false;
+    bool plan = false;
+};
+
+Order order_from(int argc, char** argv) {
+    Order order;
+    order.phase = fs::path(argv[0]).filename();
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--input")
+            order.input = argv[++i];
+        else if (word == "--output")
+            order.output = argv[++i];
+        else if (word == "--set")
+            order.overrides.emplace_back(argv[++i]);
+        else if (word == "--progress" || word == "--threads")
+            ++i;
+        else if (word == "--resume")
+            order.resume = true;
+        else if (word == "--plan")
+            order.plan = true;
+        else
+            order.scene = word;
+    }
+    return order;
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+void publish(const fs::path& file, const std::string& text) {
+    const fs::path temporary = file.string() + ".part";
+    std::ofstream(temporary) << text;
+    fs::rename(temporary, file);
+}
+
+/// The misbehaviour wanted, from the scene's title.
+std::map<std::string, double> wishes(const json& scene) {
+    std::map<std::string, double> found;
+    std::istringstream words(scene.value("title", ""));
+    for (std::string word; words >> word;) {
+        const auto equals = word.find('=');
+        if (equals != std::string::npos)
+            found[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
+    }
+    return found;
+}
+
+double wish(const std::map<std::string, double>& wanted, const std::string& name,
+            double otherwise) {
+    const auto found = wanted.find(name);
+    return found == wanted.end() ? otherwise : found->second;
+}
+
+void say(const json& line) { std::cout << line.dump() << std::endl; }
+
+[[noreturn]] void end_with_fault(const Order& order, int code, const std::string& summary) {
+    publish(order.output / "fault.json", json{{"exit_code", code}, {"summary", summary}}.dump());
+    std::cerr << order.phase << ": " << summary << "\n";
+    std::exit(code);
+}
+
+[[noreturn]] void end_well(const Order& order, const json& result) {
+    publish(order.output / "result.json", result.dump());
+    say({{"event", "result"}, {"result", result}});
+    // A witness outside the service: one line for each time that a task came through.
+    if (const char* ledger = std::getenv("FAKE_PHASE_LEDGER")) {
+        std::ofstream(ledger, std::ios::app) << order.output.string() + "\n" << std::flush;
+    }
+    std::exit(0);
+}
+
+/// Steps of 20 ms with a checkpoint after each; a resumed phase goes on where the last one was.
+template <class Step>
+void walk(const Order& order, int steps, Step step) {
+    const fs::path checkpoint = order.output / "checkpoint.h5";
+    int done = order.resume && fs::exists(checkpoint) ? std::stoi(text_of(checkpoint)) : 0;
+    for (; done < steps; ++done) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        step(done);
+        publish(checkpoint, std::to_string(done + 1));
+        say({{"event", "progress"}, {"fraction", (done + 1.0) / steps}, {"message", "step"}});
+        std::ofstream(order.output / "telemetry.jsonl", std::ios::app)
+            << json{{"time", done}, {"speed", 0.5 * done}}.dump() + "\n";
+        if (stop != 0) std::exit(128 + static_cast<int>(stop));
+    }
+}
+
+std::string spelt(double time) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6f", time);
+    return text;
+}
+
+void fem(const Order& order, const std::map<std::string, double>& wanted) {
+    std::vector<double> times;
+    const std::string key = "/fem/snapshot_times=";
+    for (const std::string& each : order.overrides) {
+        if (each.starts_with(key))
+            times = json::parse(each.substr(key.size())).get<std::vector<double>>();
+    }
+    const double end = 3.0;
+    const int steps = static_cast<int>(wish(wanted, "fem_steps", 10));
+    const double entangled = wish(wanted, "entangle_at", 1e9);
+    walk(order, steps, [&](int done) {
+        const double from = end * done / steps;
+        const double to = end * (done + 1) / steps;
+        if (to > entangled)
+            end_with_fault(order, 70, "the mesh is entangled at t = " + spelt(from) + " s");
+        for (const double time : times) {
+            if (time < from || (time >= to && done + 1 < steps)) continue;
+            const bool damaged = std::abs(time - wish(wanted, "damage", -1)) < 1e-9;
+            publish(order.output / ("snapshot_" + spelt(time) + ".vtkhdf"),
+                    damaged ? "" : spelt(time));
+        }
+    });
+    end_well(order, {{"phase", "fem_solver"}});
+}
+
+void transfer(const Order& order) {
+    const std::string snapshot = text_of(order.input);
+    if (snapshot.empty())
+        end_with_fault(order, 65, order.input.filename().string() + ": is truncated");
+    publish(order.output / "particles.vtkhdf", snapshot);
+    end_well(order, {{"phase", "transfer_tool"}});
+}
+
+/// A daemon that has left the phase's session and process group, and will not hear TERM.
+void leave_a_daemon(const fs::path& pid_file) {
+    if (fork() != 0) return;
+    setsid();
+    if (fork() != 0) _exit(0);
+    std::signal(SIGTERM, SIG_IGN);
+    publish(pid_file, std::to_string(getpid()));
+    while (true) sleep(1);
+}
+
+void mpm(const Order& order, const std::map<std::string, double>& wanted) {
+    const double time = std::stod(text_of(order.input));
+    if (wish(wanted, "try_again", 0) > 0 && !order.resume)
+        end_with_fault(order, 75, "not enough memory");
+    if (wish(wanted, "deaf", 0) > 0) {
+        std::signal(SIGTERM, SIG_IGN);
+        leave_a_daemon(order.output / "daemon.pid");
+    }
+    walk(order, static_cast<int>(wish(wanted, "mpm_steps", 5)), [&](int done) {
+        const bool crash = wish(wanted, "crash", 0) > 0 && !order.resume && done == 2;
+        if (crash || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
+    });
+    end_well(order, {{"phase", "mpm_solver"},
+                     {"runout", 10 + time * time},
+                     {"runout_beyond_toe", time},
+                     {"runout_largest", 12 + time},
+                     {"volume_ratio", 1.0},
+                     {"energy", {{"numerical_share", 0.01}}},
+                     {"cpu_seconds", 0.5}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Order order = order_from(argc, argv);
+    if (order.plan) {
+        std::cout << "the fake " << order.phase << " needs nothing\n";
+        return 0;
+    }
+    std::signal(SIGTERM, note_stop);
+    const json scene = json::parse(text_of(order.scene));
+    fs::create_directories(order.output);
+    std::cerr << order.phase << " begins\n";
+    const auto wanted = wishes(scene);
+    if (order.phase == "fem_solver") fem(order, wanted);
+    if (order.phase == "transfer_tool") transfer(order);
+    if (order.phase == "mpm_solver") mpm(order, wanted);
+    end_well(order, {{"phase", order.phase}, {"safety", 1.2}});
+}

@@ -1,0 +1,88 @@
+// A real `breachline serve` on loopback with the fake phases, its own data folder, and a client.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace breach::testing {
+
+struct Answer {
+    int status = 0;  ///< 0: no answer
+    nlohmann::json body;
+    std::string text;
+    std::multimap<std::string, std::string> headers;
+};
+
+/// A temporary folder with `bin` (the four names of the phases) and `data`; removed at the end.
+class Sandbox {
+  public:
+    Sandbox();
+    ~Sandbox();
+    Sandbox(const Sandbox&) = delete;
+    Sandbox& operator=(const Sandbox&) = delete;
+    std::filesystem::path bin() const { return root_ / "bin"; }
+    std::filesystem::path data() const { return root_ / "data"; }
+    std::filesystem::path root() const { return root_; }
+    /// How often each task's output was brought to success, by the phases' own account.
+    std::map<std::string, int> successes() const;
+
+  private:
+    std::filesystem::path root_;
+};
+
+class Service {
+  public:
+    /// Starts and waits until it listens; valid() is false when it ended instead.
+    explicit Service(const Sandbox& sandbox, std::vector<std::string> more_arguments = {});
+    ~Service();
+    Service(const Service&) = delete;
+    Service& operator=(const Service&) = delete;
+
+    bool valid() const { return port_ > 0; }
+    int port() const { return port_; }
+    /// Standard error of a service that ended at once.
+    const std::string& complaint() const { return complaint_; }
+    int exit_code() const { return exit_code_; }
+
+    void kill_at_once();  ///< SIGKILL
+    void terminate();     ///< SIGTERM, waits for the end
+
+    Answer get(const std::string& path,
+               const std::multimap<std::string, std::string>& headers = {});
+    Answer post(const std::string& path, const std::string& body,
+                const std::string& type = "application/json");
+    Answer ask(const std::string& method, const std::string& path);
+
+    /// Posts the study and returns the run's id.
+    std::string submit(const nlohmann::json& study);
+    /// Waits until the run is in a final state; returns /v1/runs/{id}.
+    nlohmann::json wait_for_end(const std::string& run, double seconds = 30);
+    /// The results without what differs from one execution to the next (ids).
+    nlohmann::json table(const std::string& run);
+
+  private:
+    void end_with(int signal);
+    pid_t pid_ = -1;
+    int port_ = 0;
+    int exit_code_ = -1;
+    std::string complaint_;
+};
+
+/// Polls until it is true; false when the time is over.
+bool eventually(const std::function<bool()>& condition, double seconds = 20);
+
+/// The slope scene with this title (the fake phases' orders), transferred at these times.
+nlohmann::json study(const std::string& title, const std::vector<double>& times);
+
+/// Pids of living phases (not supervisors) started from this sandbox, by the program's name.
+std::vector<pid_t> phases_alive(const Sandbox& sandbox, const std::string& phase);
+bool is_alive(pid_t pid);
+
+}  // namespace breach::testing

@@ -1,0 +1,234 @@
+#include "services/orchestrator/store/store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/store/migrations.hpp"
+
+namespace breach::orchestrator {
+namespace {
+
+using nlohmann::json;
+
+class StoreTest : public ::testing::Test {
+  protected:
+    StoreTest() {
+        std::string pattern = std::filesystem::temp_directory_path() / "breachline-store-XXXXXX";
+        folder_ = mkdtemp(pattern.data());
+    }
+    ~StoreTest() override { std::filesystem::remove_all(folder_); }
+    std::filesystem::path file() const { return folder_ / "test.db"; }
+
+    /// A FEM, one transfer and one MPM.
+    static NewRun small_run() {
+        return {.id = new_run_id(),
+                .name = "small",
+                .title = "",
+                .study = "{}",
+                .scene = "{}",
+                .tasks = {{.phase = "fem_solver",
+                           .label = "fem",
+                           .transfer_time = {},
+                           .parent = {},
+                           .release = Release::at_once,
+                           .input = "",
+                           .overrides = {"/a=1"}},
+                          {.phase = "transfer_tool",
+                           .label = "transfer_0.500000",
+                           .transfer_time = 0.5,
+                           .parent = 0,
+                           .release = Release::file_exists,
+                           .input = "snapshot_0.500000.vtkhdf",
+                           .overrides = {}},
+                          {.phase = "mpm_solver",
+                           .label = "mpm_0.500000",
+                           .transfer_time = 0.5,
+                           .parent = 1,
+                           .release = Release::parent_succeeded,
+                           .input = "particles.vtkhdf",
+                           .overrides = {}}}};
+    }
+
+    static void bring_to_success(Store& store, const std::string& task, const json& result) {
+        store.write([&](Transaction& t) {
+            t.try_move_task(task, TaskEvent::release);
+            t.move_task(task, TaskEvent::claim);
+            const auto number = t.add_attempt(task);
+            t.move_attempt(task, number, AttemptEvent::submit);
+            t.move_task(task, TaskEvent::start);
+            t.move_attempt(task, number, AttemptEvent::exit, {.exit_code = 0, .cpu_seconds = 2.0});
+            t.move_task(task, TaskEvent::exit_well);
+            t.finish_task(task, result, {{task, "result.json", std::string(64, 'a'), 10}});
+        });
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(StoreTest, RunsTasksAttemptsAndArtifactsComeBackAsTheyWereWritten) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    EXPECT_EQ(store.run(run.id)->state, "queued");
+    const auto tasks = store.tasks_of(run.id);
+    ASSERT_EQ(tasks.size(), 3u);
+    EXPECT_EQ(tasks[0].state, TaskState::ready);
+    EXPECT_EQ(tasks[0].overrides, std::vector<std::string>{"/a=1"});
+    EXPECT_EQ(tasks[1].state, TaskState::blocked);
+    EXPECT_EQ(*tasks[1].parent, tasks[0].id);
+    EXPECT_EQ(tasks[1].transfer_time, 0.5);
+
+    for (const Task& task : tasks) {
+        bring_to_success(
+            store, task.id,
+            {{"runout", 12.5}, {"energy", {{"numerical_share", 0.01}}}, {"cpu_seconds", 2}});
+    }
+    EXPECT_EQ(store.run(run.id)->state, "succeeded");
+    EXPECT_TRUE(store.run(run.id)->finished);
+    const auto attempts = store.attempts_of(tasks[2].id);
+    ASSERT_EQ(attempts.size(), 1u);
+    EXPECT_EQ(attempts[0].exit_code, 0);
+    EXPECT_EQ(store.artifacts_of(tasks[0].id).at(0).bytes, 10);
+    const auto rows = store.results(run.id);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].runout, 12.5);
+    EXPECT_EQ(rows[0].numerical_share, 0.01);
+    EXPECT_FALSE(rows[0].volume_ratio);
+}
+
+TEST_F(StoreTest, EveryChangeOfStateLeavesItsEventInTheSameTransaction) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    const std::string fem = task_id(run.id, 0);
+    const auto before = store.last_event();
+    EXPECT_THROW(store.write([&](Transaction& t) {
+        t.move_task(fem, TaskEvent::claim);
+        t.move_task(fem, TaskEvent::exit_well);
+        t.move_task(fem, TaskEvent::claim);  // not from finalizing
+    }),
+                 IllegalMove);
+    EXPECT_EQ(store.task(fem)->state, TaskState::ready);  // nothing of it was kept
+    EXPECT_TRUE(store.events_after(before, 10).empty());
+    store.write([&](Transaction& t) { t.move_task(fem, TaskEvent::claim); });
+    const auto events = store.events_after(before, 10);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].detail.at("from"), "ready");
+    EXPECT_EQ(events[0].detail.at("to"), "starting");
+}
+
+TEST_F(StoreTest, OneBadJobInAGroupDoesNotHarmTheOthers) {
+    Store store(file());
+    std::vector<std::jthread> clients;
+    std::atomic<int> refused = 0;
+    for (int i = 0; i < 8; ++i) {
+        clients.emplace_back([&, i] {
+            for (int k = 0; k < 5; ++k) {
+                try {
+                    store.write([&](Transaction& t) {
+                        t.add_run(small_run());
+                        if (i == 0) throw std::runtime_error("changed my mind");
+                    });
+                } catch (const std::runtime_error&) {
+                    ++refused;
+                }
+            }
+        });
+    }
+    clients.clear();
+    EXPECT_EQ(refused, 5);
+    EXPECT_EQ(store.runs(1000).size(), 35u);
+}
+
+TEST_F(StoreTest, TwoLiveAttemptsOfOneTaskAreRefusedByTheDatabaseItself) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    const std::string fem = task_id(run.id, 0);
+    EXPECT_THROW(store.write([&](Transaction& t) {
+        t.add_attempt(fem);
+        t.add_attempt(fem);
+    }),
+                 StoreError);
+    EXPECT_TRUE(store.attempts_of(fem).empty());
+}
+
+TEST_F(StoreTest, StaleAttemptThatEndsLateIsRefused) {
+    Store store(file());
+    const NewRun run = small_run();
+    const std::string fem = task_id(run.id, 0);
+    store.write([&](Transaction& t) {
+        t.add_run(run);
+        t.move_task(fem, TaskEvent::claim);
+        const auto first = t.add_attempt(fem);
+        t.move_attempt(fem, first, AttemptEvent::vanish);
+        t.move_task(fem, TaskEvent::vanish);
+        t.move_task_to_retry(fem, TaskEvent::retry, 0, json::object());
+        t.move_task(fem, TaskEvent::wait_over);
+        t.move_task(fem, TaskEvent::claim);
+        t.add_attempt(fem);
+    });
+    EXPECT_THROW(store.write([&](Transaction& t) { t.move_attempt(fem, 1, AttemptEvent::exit); }),
+                 IllegalMove);
+    EXPECT_EQ(store.attempts_of(fem).at(1).state, AttemptState::submitting);
+}
+
+TEST_F(StoreTest, CancelEndsWhatWaitsAndMarksWhatRuns) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) {
+        t.add_run(run);
+        t.move_task(task_id(run.id, 0), TaskEvent::claim);
+    });
+    bool known = false;
+    store.write([&](Transaction& t) { known = t.cancel_run(run.id, "test"); });
+    EXPECT_TRUE(known);
+    EXPECT_EQ(store.task(task_id(run.id, 0))->state, TaskState::cancelling);
+    EXPECT_EQ(store.task(task_id(run.id, 1))->state, TaskState::cancelled);
+    EXPECT_EQ(store.run(run.id)->state, "running");
+    store.write([&](Transaction& t) { known = t.cancel_run("nobody", "test"); });
+    EXPECT_FALSE(known);
+}
+
+TEST_F(StoreTest, ReopenedStoreKnowsEverything) {
+    const NewRun run = small_run();
+    std::int64_t seq = 0;
+    {
+        Store store(file());
+        store.write([&](Transaction& t) { t.add_run(run); });
+        seq = store.last_event();
+    }
+    const Store again(file());
+    EXPECT_EQ(again.last_event(), seq);
+    EXPECT_EQ(again.tasks_of(run.id).size(), 3u);
+}
+
+TEST_F(StoreTest, DatabaseOfANewerProgramIsRefused) {
+    { const Store store(file()); }
+    Connection(file(), Access::read_write).script("PRAGMA user_version=99");
+    EXPECT_THROW(Store{file()}, StoreError);
+}
+
+TEST_F(StoreTest, ReaderWokenByANewEventSeesIt) {
+    Store store(file());
+    EXPECT_FALSE(store.wait_for_event(0, std::chrono::milliseconds(10)));
+    std::jthread writer([&] { store.write([&](Transaction& t) { t.add_run(small_run()); }); });
+    ASSERT_TRUE(store.wait_for_event(0, std::chrono::seconds(10)));
+    EXPECT_EQ(store.events_after(0, 10).size(), 1u);
+}
+
+TEST(Identity, RunIdsAscendAndDiffer) {
+    const std::string first = new_run_id();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    const std::string second = new_run_id();
+    EXPECT_EQ(first.size(), 26u);
+    EXPECT_LT(first, second);
+    EXPECT_LT(task_id(first, 9), task_id(first, 10));
+}
+
+}  // namespace
+}  // namespace breach::orchestrator
