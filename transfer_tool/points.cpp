@@ -76,7 +76,7 @@ Points place_points(const MeshSnapshot& mesh, int n) {
     s.thickness = mesh.thickness;
     s.regions = mesh.regions;
     s.materials_of_regions = mesh.materials_of_regions;
-    for (auto* field : {&s.mass, &s.volume, &s.volume_0}) field->reserve(count);
+    for (auto* field : {&s.mass, &s.volume}) field->reserve(count);
     s.position.reserve(count);
     points.xi.reserve(count);
     points.first.push_back(0);
