@@ -11,7 +11,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 from phases import check, coarse_column, result, root, run
 
 scene = root / "workflows/scenes/column.json"
-times = [0.25, 0.5, 1.0]
+times = [0.15, 0.3, 0.6]
 weight = 1800 * 200  # kg per metre
 
 
