@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace breach::transfer {
@@ -64,66 +63,59 @@ double average_distance(std::span<const Vec2> position) {
     return 1.0;  // a single centre: any length will do
 }
 
-LocalInterpolant::LocalInterpolant(const Centres& centres)
-    : centre_(centres.position),
-      middle_(Vec2::Zero()),
-      axes_(Eigen::Matrix2d::Zero()),
-      directions_(0) {
-    const Values& value = centres.value;
+LocalInterpolant::LocalInterpolant(const Centres& centres) {
+    normalise(centres.position);
+    for (const Vec2& x : centres.position) centre_.push_back(normalised(x));
+    epsilon_ = average_distance(centre_);
+
     const auto k = static_cast<Eigen::Index>(centre_.size());
-    for (const Vec2& x : centre_) middle_ += x / static_cast<double>(k);
-    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
-    double radius = 0.0;
-    for (const Vec2& x : centre_) {
-        scatter += (x - middle_) * (x - middle_).transpose() / static_cast<double>(k);
-        radius = std::max(radius, (x - middle_).norm());
-    }
-    // Mean distance of k centres spread over a disc.
-    epsilon_ = radius > 0.0 ? radius * std::sqrt(std::numbers::pi / static_cast<double>(k)) : 1.0;
-
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(scatter);
-    const double along = std::sqrt(std::max(0.0, spread.eigenvalues()[1]));
-    const double across = std::sqrt(std::max(0.0, spread.eigenvalues()[0]));
-    if (along > 0.0) {
-        axes_.col(0) = spread.eigenvectors().col(1) / along;
-        directions_ = 1;
-        if (across > flat * along) {
-            axes_.col(1) = spread.eigenvectors().col(0) / across;
-            directions_ = 2;
-        }
-    }
-
     const Eigen::Index t = 1 + directions_;
     Eigen::MatrixXd P(k, t);
-    for (Eigen::Index i = 0; i < k; ++i) P.row(i) = tail(centre_[i]);
+    P.col(0).setOnes();
+    for (Eigen::Index i = 0; i < k; ++i)
+        P.row(i).tail(directions_) = centre_[i].head(directions_).transpose();
     // The best linear field is taken out first: what is left is small where the field is nearly
     // linear, and so is the round-off of the system below.
-    const Eigen::MatrixXd linear = P.householderQr().solve(value);
+    const Eigen::MatrixXd linear = P.householderQr().solve(centres.value);
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(k + t, k + t);
     for (Eigen::Index i = 0; i < k; ++i)
         for (Eigen::Index j = 0; j <= i; ++j)
-            system(i, j) = system(j, i) = phi(centre_[i], centre_[j], epsilon_) / epsilon_;
+            system(i, j) = system(j, i) = phi(centre_[i], centre_[j], epsilon_);
     system.topRightCorner(k, t) = P;
     system.bottomLeftCorner(t, k) = P.transpose();
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(k + t, value.cols());
-    right.topRows(k) = value - P * linear;
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(k + t, centres.value.cols());
+    right.topRows(k) = centres.value - P * linear;
     coefficient_ = system.partialPivLu().solve(right);
-    coefficient_.topRows(k) /= epsilon_;
     coefficient_.bottomRows(t) += linear;
 }
 
-Eigen::RowVectorXd LocalInterpolant::tail(const Vec2& place) const {
-    Eigen::RowVectorXd row(1 + directions_);
-    row[0] = 1.0;
-    for (int d = 0; d < directions_; ++d) row[1 + d] = axes_.col(d).dot(place - middle_);
-    return row;
+void LocalInterpolant::normalise(const std::vector<Vec2>& position) {
+    const auto k = static_cast<double>(position.size());
+    for (const Vec2& x : position) middle_ += x / k;
+    Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+    for (const Vec2& x : position) scatter += (x - middle_) * (x - middle_).transpose() / k;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(scatter);
+    const double along = std::sqrt(std::max(0.0, spread.eigenvalues()[1]));
+    const double across = std::sqrt(std::max(0.0, spread.eigenvalues()[0]));
+    if (along == 0.0) return;
+    axes_.col(0) = spread.eigenvectors().col(1) / along;
+    directions_ = 1;
+    if (across <= flat * along) return;
+    axes_.col(1) = spread.eigenvectors().col(0) / across;
+    directions_ = 2;
+}
+
+Vec2 LocalInterpolant::normalised(const Vec2& place) const {
+    return axes_.transpose() * (place - middle_);
 }
 
 void LocalInterpolant::at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const {
     const auto k = static_cast<Eigen::Index>(centre_.size());
-    value = tail(place) * coefficient_.bottomRows(1 + directions_);
+    const Vec2 x = normalised(place);
+    value = coefficient_.row(k);
+    for (int d = 0; d < directions_; ++d) value += x[d] * coefficient_.row(k + 1 + d);
     for (Eigen::Index i = 0; i < k; ++i)
-        value += phi(place, centre_[i], epsilon_) * coefficient_.row(i);
+        value += phi(x, centre_[i], epsilon_) * coefficient_.row(i);
 }
 
 GlobalInterpolant::GlobalInterpolant(Centres centres)

@@ -29,8 +29,10 @@ Centres merge_coincident(const std::vector<Vec2>& position, const Values& value)
 double average_distance(std::span<const Vec2> position);
 
 /// Interpolant through a few centres: multiquadric plus a linear tail, exact for constant and
-/// linear fields. Where the centres lie on a line the tail is linear along it, where there is one
-/// centre the tail is its value.
+/// linear fields. Distances are measured along the principal directions of the centres in units of
+/// their spread there, so that a mesh of aspect 1:100 is as well conditioned as one of squares.
+/// Centres on a line give a field that is linear along it and constant across, one centre gives its
+/// value.
 class LocalInterpolant {
   public:
     /// At least one centre.
@@ -39,14 +41,16 @@ class LocalInterpolant {
     void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;
 
   private:
-    Eigen::RowVectorXd tail(const Vec2& place) const;
+    void normalise(const std::vector<Vec2>& position);
+    Vec2 normalised(const Vec2& place) const;
 
-    std::vector<Vec2> centre_;
-    Vec2 middle_;
-    Eigen::Matrix2d axes_;  ///< columns: principal directions over the spread along each [1/m]
-    int directions_;        ///< in how many of them the centres spread
-    double epsilon_;        ///< [m]
-    Eigen::MatrixXd coefficient_;
+    Vec2 middle_ = Vec2::Zero();
+    Eigen::Matrix2d axes_ =
+        Eigen::Matrix2d::Zero();   ///< columns: principal directions over the spread [1/m]
+    int directions_ = 0;           ///< in how many of them the centres spread
+    std::vector<Vec2> centre_;     ///< normalised [-]
+    double epsilon_ = 1.0;         ///< [-]
+    Eigen::MatrixXd coefficient_;  ///< multiquadrics, then constant, then slopes
 };
 
 /// One interpolant through all centres without a tail, around the mean of the values so that a

@@ -1,0 +1,76 @@
+#include "transfer_tool/quad.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace breach::transfer {
+namespace {
+
+Corners kite() {
+    Corners x;
+    x << 0.0, 3.0, 2.0, -0.5,  //
+        0.0, 0.5, 2.5, 1.0;
+    return x;
+}
+
+TEST(Quad, ShapeFunctionsAreOneAtTheirCornerAndSumToOne) {
+    const Vec2 corner[4] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) EXPECT_EQ(shape_functions(corner[k])[i], i == k ? 1.0 : 0.0);
+    EXPECT_NEAR(shape_functions({0.3, -0.7}).sum(), 1.0, 1e-15);
+    EXPECT_NEAR(shape_gradients({0.3, -0.7}).rowwise().sum().norm(), 0.0, 1e-15);
+}
+
+TEST(Quad, ItsJacobianIsLinearBetweenTheCorners) {
+    const Eigen::Vector4d J = corner_jacobians(kite());
+    for (const Vec2& xi : {Vec2(0.0, 0.0), Vec2(0.4, -0.9), Vec2(-1.0, 0.2)})
+        EXPECT_NEAR(jacobian(kite(), xi).determinant(), J.dot(shape_functions(xi)), 1e-14);
+}
+
+TEST(Quad, TheSumOfItsCornerJacobiansIsItsArea) {
+    const Corners x = kite();
+    double twice_area = 0.0;  // shoelace
+    for (int i = 0; i < 4; ++i)
+        twice_area += x(0, i) * x(1, (i + 1) % 4) - x(0, (i + 1) % 4) * x(1, i);
+    EXPECT_NEAR(corner_jacobians(x).sum(), 0.5 * twice_area, 1e-14);
+}
+
+// Gauss-Legendre with n points is exact to degree 2n - 1 and not beyond.
+TEST(GaussRule, IsExactToItsDegree) {
+    for (int n = 1; n <= 8; ++n) {
+        const GaussRule rule = gauss_legendre(n);
+        for (int degree = 0; degree <= 2 * n; ++degree) {
+            double sum = 0.0;
+            for (int i = 0; i < n; ++i) sum += rule.weight[i] * std::pow(rule.position[i], degree);
+            const double exact = degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0;
+            if (degree < 2 * n)
+                EXPECT_NEAR(sum, exact, 1e-14) << n << " points, degree " << degree;
+            else
+                EXPECT_GT(std::abs(sum - exact), 1e-6);
+        }
+    }
+}
+
+TEST(Quad, ClosedFormIntegralsAgreeWithQuadrature) {
+    const GaussRule rule = gauss_legendre(4);
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            for (int k = 0; k < 4; ++k) {
+                double two = 0.0;
+                double three = 0.0;
+                for (int a = 0; a < 4; ++a)
+                    for (int b = 0; b < 4; ++b) {
+                        const Eigen::Vector4d N =
+                            shape_functions({rule.position[a], rule.position[b]});
+                        two += rule.weight[a] * rule.weight[b] * N[i] * N[k];
+                        three += rule.weight[a] * rule.weight[b] * N[i] * N[j] * N[k];
+                    }
+                EXPECT_NEAR(integral(i, k), two, 1e-15);
+                EXPECT_NEAR(integral(i, j, k), three, 1e-15);
+            }
+}
+
+}  // namespace
+}  // namespace breach::transfer
