@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/materials/pm4sand_adaptive.hpp"
 #include "core/materials/pm4sand_call.hpp"
 #include "core/materials/pm4sand_explicit.hpp"
 
@@ -12,7 +13,8 @@ Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options) {
     const Strain<double> d = inward(d_epsilon);
     if (!is_finite(d)) return {old, Outcome::refused, {}};
-    return integrate_reference(law, old, d, options);
+    if (options.scheme == Scheme::reference) return integrate_reference(law, old, d, options);
+    return integrate_adaptive(law, old, d, options);
 }
 
 }  // namespace breach::materials::pm4sand

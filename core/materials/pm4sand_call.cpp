@@ -110,18 +110,23 @@ Crossings crossings(const Ready& law, const Stress& sigma, const Plane& alpha,
 
 }  // namespace
 
-ElasticPart elastic_part(const Ready& law, const Stress& sigma, const Plane& alpha,
-                         const Stress& change) {
+double last_crossing(const Ready& law, const Stress& sigma, const Plane& alpha,
+                     const Stress& change) {
+    return crossings(law, sigma, alpha, change).last;
+}
+
+double elastic_fraction(const Ready& law, const Stress& sigma, const Plane& alpha,
+                        const Stress& change) {
     const double tolerance = 1e-8 * law.unit;
     const Stress trial{sigma.p + change.p, sigma.s + change.s};
-    if (yield_function(law, trial, alpha) <= tolerance) return {1.0};
+    if (yield_function(law, trial, alpha) <= tolerance) return 1.0;
     const double f = yield_function(law, sigma, alpha);
-    if (f < -tolerance) return {crossings(law, sigma, alpha, change).first};
-    if (f > tolerance) return {0.0};
+    if (f < -tolerance) return crossings(law, sigma, alpha, change).first;
+    if (f > tolerance) return 0.0;
     const Plane n = normal(law, sigma, alpha);
     const double size = std::sqrt(2.0 * change.p * change.p + dot(change.s, change.s));
-    if (dot(n, change.s) > -1e-4 * size) return {0.0};
-    return {crossings(law, sigma, alpha, change).last};
+    if (dot(n, change.s) > -1e-4 * size) return 0.0;
+    return crossings(law, sigma, alpha, change).last;
 }
 
 void close_call(const Ready& law, const Plane& z, State& state, Counts& counts) {

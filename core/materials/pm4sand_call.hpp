@@ -18,8 +18,9 @@ Strain<double> inward(const Voigt& d_epsilon);
 /// Largest component of a strain increment as given, max |d_i| with engineering shear.
 double largest_component(const Strain<double>& d);
 
+/// Plane strain: the in-plane mean stress answers with K + G/3.
 inline Stress elastic_change(const Ready& law, double G, const Strain<double>& d) {
-    return {law.K_over_G * G * d.v, (2.0 * G) * d.e};
+    return {(law.K_over_G + 1.0 / 3.0) * G * d.v, (2.0 * G) * d.e};
 }
 
 /// Yield function f [Pa].
@@ -33,14 +34,13 @@ Plane normal(const Ready& law, const Stress& sigma, const Plane& alpha);
 /// Section 11, once per call: detects a reversal and moves the initial back-stress ratios.
 void detect_reversal(const Ready& law, const Strain<double>& d, State& state);
 
-/// How much of a call is elastic.
-struct ElasticPart {
-    double fraction;  ///< in [0, 1]; the rest is plastic
-};
+/// Sections 13.1 and 13.3 from (sigma, alpha): the fraction of the increment that is elastic.
+double elastic_fraction(const Ready& law, const Stress& sigma, const Plane& alpha,
+                        const Stress& change);
 
-/// Sections 13.1 and 13.3 from (sigma, alpha): fraction 1 when the whole increment is elastic.
-ElasticPart elastic_part(const Ready& law, const Stress& sigma, const Plane& alpha,
-                         const Stress& change);
+/// The last fraction in (0, 1] at which the elastic path meets the cone, 0 if it does not.
+double last_crossing(const Ready& law, const Stress& sigma, const Plane& alpha,
+                     const Stress& change);
 
 /// Section 14: moduli at the final stress, return to the bounding surface, fabric sums. `state`
 /// holds the new p, s, alpha and M_b; z is the new fabric.

@@ -89,7 +89,7 @@ Increment Part::rates(const Stress& at, const Plane& alpha_at, const Plane& z_at
         return {elastic_change(law_, G, d), {}, {}};
     }
     multiplier_ = L;
-    return {{K * d.v - L * K * flow.D, 2.0 * G * (d.e - L * point.n)},
+    return {{(K + G / 3.0) * d.v - L * K * flow.D, 2.0 * G * (d.e - L * point.n)},
             (2.0 / 3.0) * L * flow.h * flow.b,
             fabric_rate(fixed_, point, flow, L)};
 }
@@ -216,7 +216,7 @@ Update integrate_reference(const Ready& law, const State& old, const Strain<doub
     State& state = update.state;
     detect_reversal(law, d, state);
     const Stress change = elastic_change(law, state.G, d);
-    const double a = elastic_part(law, {state.p, state.s}, state.alpha, change).fraction;
+    const double a = elastic_fraction(law, {state.p, state.s}, state.alpha, change);
     Part part(law, state, options, update.counts);
     part.sigma = {state.p + a * change.p, state.s + a * change.s};
     part.epsilon_v += a * d.v;
