@@ -49,11 +49,21 @@ void add_to_cell(CellAverages& averages, std::int32_t cell, double V, double trD
     sum.trD += V * trD;
 }
 
-/// Moves a point with the affine velocity at its own place, which differs from its domain's
-/// centroid at walls only.
-void move(Points& points, std::size_t p, const Vec2& v, double from_x, double from_y, double dt) {
-    points.x[p] += dt * (v.x() + points.Lxx[p] * from_x + points.Lxy[p] * from_y);
-    points.y[p] += dt * (v.y() + points.Lyx[p] * from_x + points.Lyy[p] * from_y);
+/// Velocity that moves the point: that of its own place, which at walls is not its domain's
+/// centroid. Nodal velocities are bilinear there, so value, gradient and (in corners) the mixed
+/// derivative give it exactly: a point on a wall stays on it.
+Vec2 velocity_at_place(const Grid& grid, const Stencil& sx, const Stencil& sy, const Gathered& at,
+                       double xi, double eta) {
+    const double dx = xi - sx.centre;
+    const double dy = eta - sy.centre;
+    Lane v = at.value + at.d_x * dx + at.d_y * dy;
+    if (dx != 0.0 && dy != 0.0) {
+        for (int i = 0; i < 3; ++i) {
+            const Lane* node = &grid.motion[(sx.first + i) * grid.rows + sy.first];
+            for (int j = 0; j < 3; ++j) v += node[j] * (sx.dN[i] * sy.dN[j] * dx * dy);
+        }
+    }
+    return {v[0], v[1]};
 }
 
 }  // namespace
@@ -79,19 +89,18 @@ void grid_to_particle(Body& body, double dt) {
             points.vx[p] = (1.0 - blend) * (points.vx[p] + at.value[2]) + blend * at.value[0];
             points.vy[p] = (1.0 - blend) * (points.vy[p] + at.value[3]) + blend * at.value[1];
             set_gradient(points, p, at, grid.h);
-            const Vec2 v{at.value[0], at.value[1]};
-            const double from_x = (xi - sx.centre) * grid.h;
-            const double from_y = (eta - sy.centre) * grid.h;
+            const Vec2 v = velocity_at_place(grid, sx, sy, at, xi, eta);
             if constexpr (order == UpdateOrder::usl) {
-                move(points, p, v, from_x, from_y, dt);
+                points.x[p] += dt * v.x();
+                points.y[p] += dt * v.y();
                 if (!grid.holds(points.x[p], points.y[p])) body.tally.lost = p;
                 if constexpr (anti_locking == AntiLocking::on) {
                     add_to_cell(body.averages[z], points.cell[p], points.V[p],
                                 points.Lxx[p] + points.Lyy[p]);
                 }
             } else {
-                body.drift_x[p] = v.x() + points.Lxx[p] * from_x + points.Lxy[p] * from_y;
-                body.drift_y[p] = v.y() + points.Lyx[p] * from_x + points.Lyy[p] * from_y;
+                body.drift_x[p] = v.x();
+                body.drift_y[p] = v.y();
             }
             const double v2 = points.vx[p] * points.vx[p] + points.vy[p] * points.vy[p];
             kinetic += 0.5 * points.m[p] * v2;
