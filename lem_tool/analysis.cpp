@@ -94,7 +94,7 @@ Analysed analyse_circle(const scene::Scene& scene, const Model& model, const sce
             why = because(verdict);
             continue;
         }
-        const Bishop result = bishop(slices, slide_of(slices));
+        const Bishop result = bishop(slices, slide_of(slices), model.k_h);
         // a small m_alpha is reported, not refused: this circle was asked for
         if (result.balance != Balance::found && result.balance != Balance::small_m_alpha) {
             why = because(result.balance);
@@ -129,12 +129,13 @@ void write_surfaces(process::Session& session, const std::vector<PairBest>& pair
     reals["slice_width"] = first(slices.width, slices.count);
     reals["slice_base"] = first(slices.base, slices.count);
     reals["slice_weight"] = first(slices.weight, slices.count);
+    reals["slice_u"] = first(slices.u, slices.count);
     reals["slice_c"] = first(slices.c, slices.count);
     reals["slice_tan_phi"] = first(slices.tan_phi, slices.count);
     for (const auto& [name, array] : reals) archive.units[name] = "m";
     archive.units["pair_factor_of_safety"] = archive.units["slice_tan_phi"] = "1";
     archive.units["slice_weight"] = "N/m";
-    archive.units["slice_c"] = "Pa";
+    archive.units["slice_c"] = archive.units["slice_u"] = "Pa";
     const auto file = session.output("surfaces.h5");
     exchange::write_archive(file, archive, session.provenance());
     session.announce(file, {{"kind", "surfaces"}});
@@ -176,12 +177,76 @@ process::Plan plan(const scene::Scene& scene) {
                                   : "every region has a Mohr-Coulomb law",
          "/materials"},
         {"softening", Use::left_out, "limit equilibrium takes the peak strength", "/materials"},
-        {"pore pressure", Use::left_out, "the scene has no water", "/lem"},
-        {"tension crack", Use::left_out, "the scene has none", "/lem"},
-        {"seismic coefficient", Use::left_out, "the scene has none", "/lem"},
-        {"liquefied layers", Use::left_out, "the scene has none", "/lem"},
+        {"water", use(lem.water.has_value()),
+         lem.water ? "hydrostatic below the line, free water above ground" : "no line is given",
+         "/lem/water"},
+        {"pore pressure ratio", use(!lem.pore_pressure_ratios.empty()),
+         std::to_string(lem.pore_pressure_ratios.size()) + " regions have one",
+         "/lem/pore_pressure_ratios"},
+        {"seismic coefficient", use(lem.seismic_coefficient > 0.0),
+         lem.seismic_coefficient > 0.0 ? "weight pushes sideways" : "k_h is zero",
+         "/lem/seismic_coefficient"},
+        {"surcharge", use(!lem.surcharge.empty()),
+         std::to_string(lem.surcharge.size()) + " loads on the ground", "/lem/surcharge"},
+        {"liquefied layers", use(!lem.liquefaction.empty()),
+         std::to_string(lem.liquefaction.size()) + " layers, one search per stage",
+         "/lem/liquefaction"},
     };
 }
+
+namespace {
+
+double top_of(const scene::Region& region) { return scene::bounding_box(region.polygon).high.y(); }
+double bottom_of(const scene::Region& region) {
+    return scene::bounding_box(region.polygon).low.y();
+}
+
+/// Depth at which F falls through 1, linear between the stages around it.
+json depth_at_one(const json& stages) {
+    for (std::size_t i = 1; i < stages.size(); ++i) {
+        const double before = stages[i - 1].at("factor_of_safety");
+        const double after = stages[i].at("factor_of_safety");
+        if (before < 1.0 || after >= 1.0) continue;
+        const double from = stages[i - 1].at("liquefied_depth");
+        const double to = stages[i].at("liquefied_depth");
+        return from + (to - from) * (before - 1.0) / (before - after);
+    }
+    return nullptr;
+}
+
+/// The search with 0, 1, 2, ... layers liquefied. Depths are below the top of the first layer.
+void run_stages(const scene::Scene& scene, const Model& sound, Slices& slices, json& result) {
+    const std::vector<scene::LiquefiedLayer>& layers = scene.lem->liquefaction;
+    const double top = top_of(scene.section.regions[layers.front().region]);
+    std::int64_t analysed = 0;
+    json stages = json::array();
+    for (std::size_t count = 0; count <= layers.size(); ++count) {
+        Model model = sound;
+        model.soils = liquefied(sound, layers, count);
+        const SearchResult found = search(model, *scene.lem->search);
+        if (!found.critical) refuse_search(scene, found.tally);
+        cut(model.strata, model.soils, found.critical->surface, model.slices, slices);
+        json stage = facts_of(*found.critical, slices.depth);
+        stage["layers_liquefied"] = count;
+        stage["liquefied_depth"] =
+            count == 0 ? 0.0 : top - bottom_of(scene.section.regions[layers[count - 1].region]);
+        stage["lowest_point_depth"] = top - stage.at("lowest_point")[1].get<double>();
+        analysed += found.tally.analysed;
+        stages.push_back(stage);
+    }
+    const auto lowest =
+        std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
+            // a stage that repeats the minimum adds nothing: the earlier one counts
+            return a.at("factor_of_safety").get<double>() <
+                   b.at("factor_of_safety").get<double>() * (1.0 - 1e-6);
+        });
+    result["stages"] = stages;
+    result["critical_depth"] = lowest->at("lowest_point_depth");
+    result["depth_at_fs_1"] = depth_at_one(stages);
+    result["surfaces_analysed_in_stages"] = analysed;
+}
+
+}  // namespace
 
 process::Outcome run(process::Session& session) {
     const auto began = std::chrono::steady_clock::now();
@@ -210,11 +275,12 @@ process::Outcome run(process::Session& session) {
         result["surfaces"] = facts_of(found.tally);
         pairs = std::move(found.pairs);
     }
-    result["surfaces_analysed"] = result["surfaces"]["analysed"];
     result["slices"] = slices.count;
+    result["surfaces_analysed"] = result["surfaces"]["analysed"];
+    write_surfaces(session, pairs, slices);
+    if (!lem.liquefaction.empty()) run_stages(scene, model, slices, result);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
     result["seconds"] = took.count();
-    write_surfaces(session, pairs, slices);
     session.progress(1.0, "factor of safety " + result["factor_of_safety"].dump());
     return process::Outcome::done;
 }

@@ -22,11 +22,9 @@ struct Resistance {
 Resistance resistance(const Slices& slices, double sense, double F) {
     Resistance total{0.0, 0.0};
     for (std::size_t i = 0; i < slices.count; ++i) {
-        const double force =
-            slices.c[i] * slices.length[i] * slices.cos_a[i] + slices.weight[i] * slices.tan_phi[i];
         const double turn = sense * slices.sin_a[i] * slices.tan_phi[i] / F;
         const double inverse = 1.0 / (slices.cos_a[i] + turn);
-        const double share = force * inverse;
+        const double share = slices.force[i] * inverse;
         total.sum += share;
         total.slope += share * inverse * turn;
     }
@@ -58,9 +56,10 @@ Slide slide_of(const Slices& slices) {
     return sum_of_driving(slices) >= 0.0 ? Slide::to_left : Slide::to_right;
 }
 
-Bishop bishop(const Slices& slices, Slide slide) {
+Bishop bishop(const Slices& slices, Slide slide, double k_h) {
     const double sense = slide == Slide::to_left ? 1.0 : -1.0;
-    const double driving = sense * sum_of_driving(slices);
+    double driving = sense * sum_of_driving(slices);
+    for (std::size_t i = 0; k_h != 0.0 && i < slices.count; ++i) driving += k_h * slices.shaking[i];
     Bishop result{Balance::not_converged, 0.0, 1.0, 0};
     double scale = 0.0;
     for (std::size_t i = 0; i < slices.count; ++i) scale += std::abs(slices.driving[i]);
@@ -71,8 +70,7 @@ Bishop bishop(const Slices& slices, Slide slide) {
     const double least = pole(slices, sense);
     double plain = 0.0;
     for (std::size_t i = 0; i < slices.count; ++i) {
-        plain +=
-            slices.c[i] * slices.length[i] * slices.cos_a[i] + slices.weight[i] * slices.tan_phi[i];
+        plain += slices.force[i];
     }
     if (plain <= 0.0) return {Balance::found, 0.0, 1.0, 0};  // no strength at all
     double F = std::max(plain / driving, 1.01 * least);

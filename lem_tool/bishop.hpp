@@ -28,11 +28,12 @@ struct Bishop {
     int iterations;
 };
 
-/// The direction in which the weight turns the mass.
+/// The direction in which the loads turn the mass.
 Slide slide_of(const Slices& slices);
 
-/// F = sum (c l cos a + W tan phi) / m_a / sum W sin a,  m_a = cos a + sin a tan phi / F   (Bishop
-/// 1955).
-Bishop bishop(const Slices& slices, Slide slide);
+/// F = sum (c l cos a + (W - u l cos a) tan phi) / m_a / (sum of driving moments / R),
+/// m_a = cos a + sin a tan phi / F   (Bishop 1955). k_h: horizontal over vertical acceleration,
+/// towards the slide [-].
+Bishop bishop(const Slices& slices, Slide slide, double k_h);
 
 }  // namespace breach::lem

@@ -101,7 +101,7 @@ class Search {
         }
         const double entry = at(ranges_.entry, place.entry);
         const Slide slide = entry == surface.right ? Slide::to_left : Slide::to_right;
-        const Bishop bishop_result = bishop(slices_, slide);
+        const Bishop bishop_result = bishop(slices_, slide, model_.k_h);
         if (bishop_result.balance != Balance::found) {
             ++result_.tally.no_answer;
             return none;

@@ -17,8 +17,13 @@ struct Model {
     Strata strata;
     std::vector<Soil> soils;  ///< by region
     int slices;
+    double k_h = 0.0;  ///< horizontal seismic coefficient [-]
 };
 Model make_model(const scene::Scene& scene);
+
+/// The soils after the first `count` layers have liquefied: c = s_r, phi = 0.
+std::vector<Soil> liquefied(const Model& model, const std::vector<scene::LiquefiedLayer>& layers,
+                            std::size_t count);
 
 /// A surface with its factor of safety.
 struct Critical {

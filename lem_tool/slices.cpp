@@ -11,11 +11,11 @@ double Surface::level(double x) const {
 }
 
 void Slices::reserve(std::size_t slices, std::size_t most_layers) {
-    for (auto* array :
-         {&left, &width, &base, &sin_a, &cos_a, &length, &weight, &driving, &c, &tan_phi}) {
+    for (auto* array : {&left, &width, &base, &sin_a, &cos_a, &length, &weight, &u, &driving,
+                        &shaking, &force, &c, &tan_phi}) {
         array->assign(slices, 0.0);
     }
-    crossings.reserve(2 * most_layers + 2);
+    crossings.reserve(2 * most_layers + 4);
 }
 
 Slices make_slices(const Strata& strata, int wanted) {
@@ -25,9 +25,9 @@ Slices make_slices(const Strata& strata, int wanted) {
     }
     // a strip is cut by each of its boundaries at most twice; every piece may round up by one slice
     Slices slices;
-    slices.reserve(
-        static_cast<std::size_t>(wanted) + strata.strips.size() + 2 * strata.layers.size() + 1,
-        most_layers);
+    slices.reserve(static_cast<std::size_t>(wanted) + strata.strips.size() +
+                       2 * strata.layers.size() + 2 * strata.strips.size() + 1,
+                   most_layers);
     return slices;
 }
 
@@ -132,6 +132,10 @@ class Cutter {
             const Meeting meeting = meet(surface_.circle, top, from, to);
             for (int j = 0; j < meeting.count; ++j) crossings.push_back(meeting.x[j]);
         }
+        if (strata_.gamma_w > 0.0) {
+            const Meeting meeting = meet(surface_.circle, strip.water, from, to);
+            for (int j = 0; j < meeting.count; ++j) crossings.push_back(meeting.x[j]);
+        }
         std::sort(crossings.begin(), crossings.end());
         crossings.push_back(to);
     }
@@ -152,15 +156,15 @@ class Cutter {
         for (int part = 1; part <= parts; ++part) {
             const double next_x = part == parts ? to : from + part * width;
             const double next_y = surface_.level(next_x);
-            add_slice(layer, soil, x, y, next_x, next_y);
+            add_slice(strip, layer, soil, x, y, next_x, next_y);
             x = next_x;
             y = next_y;
         }
         return Cut::done;
     }
 
-    void add_slice(const Layer& layer, const Soil& soil, double x0, double y0, double x1,
-                   double y1) {
+    void add_slice(const Strip& strip, const Layer& layer, const Soil& soil, double x0, double y0,
+                   double x1, double y1) {
         const double R = surface_.circle.radius;
         const double dx = x1 - x0;
         const double dy = y1 - y0;
@@ -173,19 +177,50 @@ class Cutter {
         const double d0 = x0 - surface_.circle.center.x();
         const double d1 = x1 - surface_.circle.center.x();
         const std::size_t i = slices_.count++;
+        const double soil_weight = 0.5 * dx * (w0 + w1) + layer.gamma * segment;
         slices_.left[i] = x0;
         slices_.width[i] = dx;
         slices_.base[i] = 0.5 * (y0 + y1);
         slices_.cos_a[i] = dx / chord;
         slices_.sin_a[i] = dy / chord;
         slices_.length[i] = chord * (1.0 + bend / 24.0);
-        slices_.weight[i] = 0.5 * dx * (w0 + w1) + layer.gamma * segment;
-        // exact integral of the linear weight times the linear arm, and the segment at its middle
-        slices_.driving[i] = (dx * ((w0 + w1) * (d0 + d1) / 4.0 + (w1 - w0) * (d1 - d0) / 12.0) +
-                              layer.gamma * segment * 0.5 * (d0 + d1)) /
+        slices_.weight[i] = soil_weight + strip.surcharge * dx;
+        slices_.driving[i] = (moment(dx, w0, w1, d0, d1) +
+                              (layer.gamma * segment + strip.surcharge * dx) * 0.5 * (d0 + d1)) /
                              R;
+        const double middle = 0.5 * (x0 + x1);
+        const double mid_height = 0.5 * (strata_.ground(strip).at(middle) + slices_.base[i]);
+        slices_.shaking[i] = soil_weight * (surface_.circle.center.y() - mid_height) / R;
+        slices_.u[i] = soil.r_u * soil_weight / dx;
+        if (strata_.gamma_w > 0.0) add_water(strip, i, x0, x1, d0, d1);
         slices_.c[i] = soil.c;
         slices_.tan_phi[i] = soil.tan_phi;
+        const double flat = slices_.length[i] * slices_.cos_a[i];
+        slices_.force[i] = soil.c * flat + (slices_.weight[i] - slices_.u[i] * flat) * soil.tan_phi;
+    }
+
+    /// Exact integral of a linear load (w0 to w1) times a linear arm (d0 to d1).
+    static double moment(double dx, double w0, double w1, double d0, double d1) {
+        return dx * ((w0 + w1) * (d0 + d1) / 4.0 + (w1 - w0) * (d1 - d0) / 12.0);
+    }
+
+    /// Pore pressure below the water line; above ground the water's weight, and its thrust on the
+    /// slope.
+    void add_water(const Strip& strip, std::size_t i, double x0, double x1, double d0, double d1) {
+        const double dx = x1 - x0;
+        const double below = strip.water.at(0.5 * (x0 + x1)) - slices_.base[i];
+        if (below <= 0.0) return;
+        slices_.u[i] = strata_.gamma_w * below;
+        const Line& ground = strata_.ground(strip);
+        const double p0 = strata_.gamma_w * std::max(0.0, strip.water.at(x0) - ground.at(x0));
+        const double p1 = strata_.gamma_w * std::max(0.0, strip.water.at(x1) - ground.at(x1));
+        if (p0 + p1 <= 0.0) return;
+        const double y0 = ground.at(x0) - surface_.circle.center.y();
+        const double y1 = ground.at(x1) - surface_.circle.center.y();
+        slices_.weight[i] += 0.5 * dx * (p0 + p1);
+        slices_.driving[i] +=
+            (moment(dx, p0, p1, d0, d1) + ground.slope * moment(dx, p0, p1, y0, y1)) /
+            surface_.circle.radius;
     }
 
     const Strata& strata_;

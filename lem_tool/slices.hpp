@@ -30,6 +30,7 @@ Meeting meet(const scene::Circle& circle, const Line& line, double from, double 
 struct Soil {
     double c;        ///< [Pa]
     double tan_phi;  ///< [-]
+    double r_u;  ///< pore pressure over the soil's vertical stress, where no water line counts [-]
     enum class Passage {
         open,
         closed
@@ -39,17 +40,21 @@ struct Soil {
 /// Slices from left to right, one array per quantity; `resize`d once, then only `count` changes.
 struct Slices {
     std::size_t count = 0;
-    double depth = 0.0;             ///< greatest vertical depth of the mass [m]
-    std::vector<double> left;       ///< x of the left side [m]
-    std::vector<double> width;      ///< [m]
-    std::vector<double> base;       ///< y of the base's middle [m]
-    std::vector<double> sin_a;      ///< base inclination, positive when rising to the right [-]
-    std::vector<double> cos_a;      ///< [-]
-    std::vector<double> length;     ///< arc length of the base [m]
-    std::vector<double> weight;     ///< [N/m]
-    std::vector<double> driving;    ///< moment of the weight about the centre over the radius [N/m]
-    std::vector<double> c;          ///< [Pa]
-    std::vector<double> tan_phi;    ///< [-]
+    double depth = 0.0;          ///< greatest vertical depth of the mass [m]
+    std::vector<double> left;    ///< x of the left side [m]
+    std::vector<double> width;   ///< [m]
+    std::vector<double> base;    ///< y of the base's middle [m]
+    std::vector<double> sin_a;   ///< base inclination, positive when rising to the right [-]
+    std::vector<double> cos_a;   ///< [-]
+    std::vector<double> length;  ///< arc length of the base [m]
+    std::vector<double> weight;  ///< soil, surcharge and free water above [N/m]
+    std::vector<double> u;       ///< pore pressure at the base [Pa]
+    std::vector<double>
+        driving;  ///< moment of all vertical loads and of free water about the centre over R [N/m]
+    std::vector<double> shaking;  ///< moment of the soil's weight, put horizontal, over R [N/m]
+    std::vector<double> force;    ///< c l cos a + (W - u l cos a) tan phi: Bishop's numerator [N/m]
+    std::vector<double> c;        ///< [Pa]
+    std::vector<double> tan_phi;  ///< [-]
     std::vector<double> crossings;  ///< scratch of the cutting
 
     void reserve(std::size_t slices, std::size_t most_layers);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace breach::lem {
@@ -18,7 +19,33 @@ struct Extent {
     double height;
 };
 
-std::vector<double> strip_borders(const scene::Section& section, Extent& extent) {
+/// Where the water line crosses the border of a region: among them, where free water meets the
+/// ground.
+std::vector<double> shorelines(const scene::Section& section,
+                               const std::vector<scene::Vec2>& water) {
+    std::vector<double> xs;
+    for (const scene::Region& region : section.regions) {
+        for (std::size_t i = 0; i < region.polygon.size(); ++i) {
+            const scene::Vec2& a = region.polygon[i];
+            const scene::Vec2 ab = region.polygon[(i + 1) % region.polygon.size()] - a;
+            for (std::size_t j = 0; j + 1 < water.size(); ++j) {
+                const scene::Vec2 cd = water[j + 1] - water[j];
+                const scene::Vec2 ac = water[j] - a;
+                const double cross = ab.x() * cd.y() - ab.y() * cd.x();
+                if (cross == 0.0) continue;
+                const double s = (ac.x() * cd.y() - ac.y() * cd.x()) / cross;
+                const double t = (ac.x() * ab.y() - ac.y() * ab.x()) / cross;
+                if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) xs.push_back(a.x() + s * ab.x());
+            }
+        }
+    }
+    return xs;
+}
+
+/// Abscissae between which everything is straight.
+std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
+    const scene::Section& section = scene.section;
+    const scene::Lem& lem = scene::lem_of(scene);
     std::vector<double> xs;
     double low = section.regions.front().polygon.front().y();
     double high = low;
@@ -29,8 +56,22 @@ std::vector<double> strip_borders(const scene::Section& section, Extent& extent)
             high = std::max(high, vertex.y());
         }
     }
+    const auto [left, right] = std::minmax_element(xs.begin(), xs.end());
+    const double from = *left;
+    const double to = *right;
+    const auto add = [&](double x) {
+        if (x > from && x < to) xs.push_back(x);
+    };
+    extent = {to - from, high - low};
+    if (lem.water) {
+        for (const scene::Vec2& vertex : lem.water->line) add(vertex.x());
+        for (const double x : shorelines(section, lem.water->line)) add(x);
+    }
+    for (const scene::Surcharge& load : lem.surcharge) {
+        add(load.from);
+        add(load.to);
+    }
     std::sort(xs.begin(), xs.end());
-    extent = {xs.back() - xs.front(), high - low};
     const double tolerance = same_place * extent.width;
     xs.erase(
         std::unique(xs.begin(), xs.end(), [&](double a, double b) { return b - a <= tolerance; }),
@@ -69,6 +110,27 @@ void add_pieces(const scene::Polygon& polygon, std::size_t region, double from, 
     }
 }
 
+constexpr Line no_water{-std::numeric_limits<double>::infinity(), 0.0};
+
+/// Level of the water over a strip; the line goes on level beyond its ends.
+Line water_over(const scene::Lem& lem, double middle) {
+    if (!lem.water) return no_water;
+    const std::vector<scene::Vec2>& line = lem.water->line;
+    if (middle <= line.front().x()) return {line.front().y(), 0.0};
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        if (middle < line[i + 1].x()) return line_through(line[i], line[i + 1]);
+    }
+    return {line.back().y(), 0.0};
+}
+
+double surcharge_on(const scene::Lem& lem, double middle) {
+    double pressure = 0.0;
+    for (const scene::Surcharge& load : lem.surcharge) {
+        if (middle > load.from && middle < load.to) pressure += load.pressure;
+    }
+    return pressure;
+}
+
 [[noreturn]] void refuse_gap(const scene::Scene& scene, double x, const std::string& what) {
     throw fault::BadInput(
         scene.name,
@@ -89,7 +151,13 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
     std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& p, const Piece& q) {
         return p.top.at(middle) > q.top.at(middle);
     });
-    Strip strip{from, to, strata.layers.size(), 0, pieces.back().bottom};
+    Strip strip{from,
+                to,
+                strata.layers.size(),
+                0,
+                pieces.back().bottom,
+                water_over(scene::lem_of(scene), middle),
+                surcharge_on(scene::lem_of(scene), middle)};
     Line weight{0.0, 0.0};
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
@@ -112,8 +180,10 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
 
 Strata make_strata(const scene::Scene& scene) {
     Extent extent{};
-    const std::vector<double> borders = strip_borders(scene.section, extent);
+    const std::vector<double> borders = strip_borders(scene, extent);
     Strata strata;
+    const scene::Lem& lem = scene::lem_of(scene);
+    if (lem.water) strata.gamma_w = lem.water->density * scene.gravity;
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
         add_strip(scene, borders[i], borders[i + 1], extent, strata);
     }

@@ -31,20 +31,23 @@ struct Strip {
     std::size_t first;  ///< layers first .. last - 1, from the ground down
     std::size_t last;
     Line bottom;  ///< lower border of the model [m]
+    Line water;  ///< phreatic level, or the free water's where it lies above ground; -inf: none [m]
+    double surcharge;  ///< vertical pressure on the ground [Pa]
 };
 
 struct Strata {
     std::vector<Strip> strips;  ///< left to right, without gaps
     std::vector<Layer> layers;
+    double gamma_w = 0.0;  ///< unit weight of water [N/m3]; 0 in a scene without water
 
     double left() const { return strips.front().from; }
     double right() const { return strips.back().to; }
     const Line& ground(const Strip& strip) const { return layers[strip.first].top; }
 };
 
-/// Cuts the section at every vertex. Throws BadInput where a vertical line meets air below ground
-/// (an overhang, a cavity, two separate bodies): limit equilibrium with vertical slices has no
-/// answer there.
+/// Cuts the section at every vertex, water kink, end of a surcharge and where water meets the
+/// ground. Throws BadInput where a vertical line meets air below ground (an overhang, a cavity, two
+/// separate bodies): limit equilibrium with vertical slices has no answer there.
 Strata make_strata(const scene::Scene& scene);
 
 /// Index of the strip that holds x, the left one on a border; x is clamped to the model.

@@ -134,6 +134,50 @@ void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     }
 }
 
+void read_water(Reader& reader, const json& lem, Lem& result) {
+    if (!lem.contains("water")) return;
+    Water water{.line = {}, .density = lem.at("water").at("density")};
+    for (const json& vertex : lem.at("water").at("line")) water.line.push_back(point_from(vertex));
+    check_order(
+        reader, water.line, [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); },
+        "/lem/water/line", "give points from left to right, no two with the same x");
+    result.water = std::move(water);
+}
+
+/// Index of a region by its name; a fault when there is none.
+std::optional<std::size_t> region_named(Reader& reader, const Scene& scene, const json& name,
+                                        const std::string& pointer) {
+    if (!reader.sound("/section")) return std::nullopt;  // its own faults are named already
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        if (scene.section.regions[i].name == name) return i;
+    }
+    reader.add(pointer, "names no region", "give the name of one of /section/regions");
+    return std::nullopt;
+}
+
+void read_loads_and_layers(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
+    constexpr double kPa = 1e3;
+    for (const json& load : lem.at("surcharge")) {
+        const std::string pointer = "/lem/surcharge/" + std::to_string(result.surcharge.size());
+        check_ascending(reader, {load.at("from"), load.at("to")}, pointer);
+        result.surcharge.push_back(
+            {load.at("from"), load.at("to"), load.at("pressure_kPa").get<double>() * kPa});
+    }
+    for (std::size_t i = 0; i < lem.at("pore_pressure_ratios").size(); ++i) {
+        const json& each = lem.at("pore_pressure_ratios")[i];
+        const std::string pointer = "/lem/pore_pressure_ratios/" + std::to_string(i) + "/region";
+        const auto region = region_named(reader, scene, each.at("region"), pointer);
+        if (region) result.pore_pressure_ratios.push_back({*region, each.at("r_u")});
+    }
+    for (std::size_t i = 0; i < lem.at("liquefaction").size(); ++i) {
+        const json& each = lem.at("liquefaction")[i];
+        const std::string pointer = "/lem/liquefaction/" + std::to_string(i) + "/region";
+        const auto region = region_named(reader, scene, each.at("region"), pointer);
+        const double s_r = each.at("residual_strength_kPa").get<double>() * kPa;
+        if (region) result.liquefaction.push_back({*region, s_r});
+    }
+}
+
 Wall wall_from(const std::string& text) {
     if (text == "roller") return Wall::roller;
     return text == "fixed" ? Wall::fixed : Wall::open;
@@ -144,7 +188,11 @@ Wall wall_from(const std::string& text) {
 void read_lem(Reader& reader, Scene& scene) {
     if (!reader.sound("/lem")) return;
     const json& lem = reader.document().at("lem");
-    Lem result{.circle = {}, .search = {}, .slices = lem.at("slices")};
+    Lem result{};
+    result.slices = lem.at("slices");
+    result.seismic_coefficient = lem.at("seismic_coefficient");
+    read_water(reader, lem, result);
+    read_loads_and_layers(reader, scene, lem, result);
     if (lem.contains("circle")) {
         result.circle =
             Circle{point_from(lem.at("circle").at("center")), lem.at("circle").at("radius")};
@@ -162,6 +210,10 @@ void read_lem(Reader& reader, Scene& scene) {
     }
     if (!result.circle && !result.search) {
         reader.add("/lem", "has neither a circle nor a search", "give one of them, or both");
+    }
+    if (!result.liquefaction.empty() && !result.search) {
+        reader.add("/lem/liquefaction", "needs a search: every stage has its own critical circle",
+                   "give /lem/search");
     }
     scene.lem = result;
 }

@@ -54,10 +54,38 @@ struct SlipSearch {
     double minimum_depth;  ///< least depth of sliding mass below ground [m]
 };
 
+/// Hydrostatic water below (and, where it lies above ground, free water above) a line.
+struct Water {
+    std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
+    double density;          ///< [kg/m3]
+};
+
+struct PorePressureRatio {
+    std::size_t region;  ///< index into the section's regions
+    double r_u;          ///< u over the vertical total stress of the soil [-]
+};
+
+/// Vertical pressure on the ground for x in [from, to].
+struct Surcharge {
+    double from;      ///< [m]
+    double to;        ///< [m]
+    double pressure;  ///< [Pa]
+};
+
+struct LiquefiedLayer {
+    std::size_t region;        ///< index into the section's regions
+    double residual_strength;  ///< s_r [Pa]
+};
+
 struct Lem {
     std::optional<Circle> circle;
     std::optional<SlipSearch> search;
     int slices;
+    std::optional<Water> water;
+    std::vector<PorePressureRatio> pore_pressure_ratios;
+    double seismic_coefficient;  ///< k_h, towards the slide [-]
+    std::vector<Surcharge> surcharge;
+    std::vector<LiquefiedLayer> liquefaction;  ///< from the top down, one more per stage
 };
 
 // ---------------------------------------------------------------- fem_solver
