@@ -47,6 +47,8 @@ void report(process::Session& session, const Transferred& t) {
 
 process::Outcome run(process::Session& session) {
     const std::string file = session.input().string();
+    const auto output = session.output("particles.vtkhdf");
+    std::filesystem::remove(output);  // points of an earlier transfer must not pass for this one's
     session.progress(0.0, "reading");
     const exchange::MeshSnapshot mesh = exchange::read_mesh_snapshot(session.input()).snapshot;
     if (session.stop_requested()) return process::Outcome::stopped;
@@ -57,7 +59,6 @@ process::Outcome run(process::Session& session) {
     report(session, transferred);
     refuse_losses(transferred.ledger, scene::transfer_of(session.scene()));
 
-    const auto output = session.output("particles.vtkhdf");
     exchange::write_particle_state(output, transferred.state, session.provenance(),
                                    transferred.ledger);
     session.result()["particles"] = output.filename().string();

@@ -79,6 +79,19 @@ TEST(Conservation, ARectangleInTranslationHasTheTextbookAmounts) {
     EXPECT_LT(difference(t.ledger, "total", "elastic energy"), 1e-12);
 }
 
+// The sums themselves must not eat the digits that the ledger promises: 360,000 equal points.
+TEST(Conservation, ManyPointsDoNotWearOutTheSums) {
+    auto mesh = meshes::grid({.nx = 300, .ny = 300});
+    for (auto& v : mesh.velocity) v = {0.1, -0.7};
+    Points points = place_points(mesh, 2);
+    carry_nodal_fields(mesh, points);
+    points.state.stress.assign(points.state.size(), mechanics::Voigt::Zero());
+    const std::vector<materials::Law> laws{meshes::elastic};
+    const auto ledger = ledger_of(mesh, points.state, laws, 9.81, "mesh");
+    for (const std::string quantity : {"mass", "volume", "momentum x", "momentum y"})
+        EXPECT_LT(difference(ledger, "total", quantity), 1e-14) << quantity;
+}
+
 // One point per element cannot carry the momentum of a trapezoid, and the ledger says so.
 TEST(Conservation, OnePointPerElementIsCaughtByTheLedger) {
     auto mesh = meshes::grid({.skew = 0.2});
