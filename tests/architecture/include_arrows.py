@@ -24,13 +24,14 @@ arrows = {
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
     "services/orchestrator": {"core/fault", "core/scene", "core/exchange"},
+    "services/cli": {"core/fault", "core/scene", "core/exchange"},
 }
 # outside header -> places (folder or file prefix) that may include it
 owners = {
     "hdf5.h": ["core/exchange/"],
     "sqlite3.h": ["services/orchestrator/store/"],
-    "httplib.h": ["services/orchestrator/http/"],
-    "CLI/": ["core/process/", "services/orchestrator/"],
+    "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],
+    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/"],
     "openssl/": ["core/exchange/", "services/orchestrator/"],
 }
 include = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -1,0 +1,233 @@
+#include "services/cli/command_line.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+#include "services/cli/commands.hpp"
+#include "services/cli/export_run.hpp"
+#include "services/cli/logs.hpp"
+#include "services/cli/table.hpp"
+#include "services/cli/watch.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+
+namespace {
+
+constexpr const char* default_server = "http://127.0.0.1:8470";
+
+/// What the arguments say; each command reads its own part.
+struct Arguments {
+    std::string server = default_server;
+    std::string token_file;
+    bool json = false;
+    bool csv = false;
+    std::string id;  ///< run or task
+    SubmitWish submit;
+    bool watch = false;
+    std::size_t most_runs = 20;
+    LogWish log;
+    bool follow = false;
+    TelemetryWish telemetry;
+    std::filesystem::path folder;
+    std::filesystem::path scene;
+};
+
+using Command = std::function<ExitCode(Server&, const Console&)>;
+
+std::optional<std::string> read_token(const std::string& file) {
+    if (file.empty()) return std::nullopt;
+    std::ifstream stream(file);
+    std::string token;
+    if (!(stream >> token)) throw fault::IoError(file + ": holds no token, or cannot be read");
+    return token;
+}
+
+class CommandLine {
+  public:
+    CommandLine()
+        : app_("Talks to a Breachline server: submits studies and shows what became of them.",
+               "breach") {
+        app_.set_version_flag("--version", "breach " BREACH_VERSION);
+        app_.require_subcommand(1);
+        app_.fallthrough();  // --json may stand behind the command
+        app_.add_option("--server", a_.server, "the server's address")
+            ->envname("BREACH_SERVER")
+            ->capture_default_str()
+            ->check([](const std::string& url) {
+                return address_from(url) ? ""
+                                         : url + " is not an address such as " + default_server;
+            });
+        app_.add_option("--token-file", a_.token_file, "file with the bearer token")
+            ->envname("BREACH_TOKEN_FILE");
+        app_.add_flag("--json", a_.json, "the server's answer as JSON");
+        app_.footer(
+            "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed,\n"
+            "74 file fault, 75 the server does not answer.");
+        add_run_commands();
+        add_task_commands();
+        add_file_commands();
+    }
+
+    /// Throws CLI::ParseError.
+    void parse(int argc, char** argv) { app_.parse(argc, argv); }
+    int explain(const CLI::ParseError& error) const { return app_.exit(error); }
+
+    ExitCode execute() {
+        Server server(*address_from(a_.server), read_token(a_.token_file));
+        const Style style = a_.json ? Style::json : a_.csv ? Style::csv : Style::people;
+        const Screen screen = isatty(STDOUT_FILENO) == 1 ? Screen::terminal : Screen::plain;
+        return command_(server, {std::cout, std::cerr, style, screen});
+    }
+
+  private:
+    CLI::App* add(const std::string& word, const std::string& what, Command command) {
+        CLI::App* sub = app_.add_subcommand(word, what);
+        sub->callback([this, command = std::move(command)] { command_ = command; });
+        return sub;
+    }
+
+    void add_run_commands() {
+        CLI::App* submit_ = add("submit", "submit a study; prints the run's id",
+                                [this](Server& s, const Console& c) {
+                                    const std::string run = submit(s, a_.submit, c);
+                                    return a_.watch ? watch(s, run, c) : ExitCode::done;
+                                });
+        submit_
+            ->add_option("STUDY", a_.submit.study,
+                         "study file (JSON); a scene named in it is put into it")
+            ->required();
+        submit_
+            ->add_option("--set", a_.submit.overrides,
+                         "/json/pointer=value, changes the scene; repeatable")
+            ->allow_extra_args(false);
+        submit_->add_option("--key", a_.submit.idempotency_key,
+                            "submitting again with the same key makes no second run");
+        submit_->add_flag("--watch", a_.watch, "watch the run until it ends");
+
+        CLI::App* list_ = add("list", "the newest runs", [this](Server& s, const Console& c) {
+            return list_runs(s, a_.most_runs, c);
+        });
+        list_->add_option("-n,--most", a_.most_runs, "how many; 0: all")->capture_default_str();
+
+        CLI::App* show_ =
+            add("show", "a run with its tasks, or a task with its attempts and artifacts",
+                [this](Server& s, const Console& c) { return show(s, a_.id, c); });
+        show_->add_option("RUN|TASK", a_.id, "whose page")->required();
+
+        take_run(add("watch", "a run while it runs; ends with it",
+                     [this](Server& s, const Console& c) { return watch(s, a_.id, c); }));
+        take_run(add("cancel", "stop a run's tasks and skip the rest",
+                     [this](Server& s, const Console& c) { return cancel(s, a_.id, c); }));
+        CLI::App* results_ =
+            add("results", "runout against transfer time",
+                [this](Server& s, const Console& c) { return results(s, a_.id, c); });
+        take_run(results_);
+        results_->add_flag("--csv", a_.csv, "comma-separated, for other programs");
+    }
+
+    void add_task_commands() {
+        CLI::App* logs_ = add("logs", "a task's log", [this](Server& s, const Console& c) {
+            a_.log.follow = a_.follow ? Follow::until_the_end : Follow::no;
+            return show_log(s, a_.log, c);
+        });
+        logs_->add_option("TASK", a_.log.task, "whose log; `show RUN` lists the tasks")->required();
+        logs_->add_option("--attempt", a_.log.attempt, "which attempt (default: the newest)");
+        logs_->add_option("-n,--lines", a_.log.lines, "only the last so many lines");
+        logs_->add_flag("-f,--follow", a_.follow, "go on until the task ends");
+
+        TelemetryWish& wish = a_.telemetry;
+        CLI::App* telemetry_ =
+            add("telemetry", "what a phase measured while it ran",
+                [this](Server& s, const Console& c) { return telemetry(s, a_.telemetry, c); });
+        telemetry_->add_option("RUN", wish.run, "which run")->required();
+        telemetry_->add_option("PHASE", wish.phase, "fem_solver or mpm_solver")->required();
+        telemetry_->add_option("--transfer-time", wish.transfer_time,
+                               "which of the sweep's runouts [s]");
+        telemetry_->add_option("--fields", wish.fields, "only these, separated by commas");
+        telemetry_->add_option("--from", wish.from, "first line, counted from 0")
+            ->check(CLI::NonNegativeNumber);
+        telemetry_->add_option("--stride", wish.stride, "every n-th line")
+            ->check(CLI::PositiveNumber);
+        telemetry_->add_flag("--csv", a_.csv, "comma-separated, for other programs");
+    }
+
+    void add_file_commands() {
+        CLI::App* export_ =
+            add("export", "a run as a folder: results, study, logs, verified artifacts, provenance",
+                [this](Server& s, const Console& c) { return export_run(s, a_.id, a_.folder, c); });
+        take_run(export_);
+        export_
+            ->add_option("DIR", a_.folder,
+                         "a new or empty folder, or one with an earlier export of the run")
+            ->required();
+        CLI::App* plan_ =
+            add("plan", "what a scene needs of each phase, what it leaves out, and why",
+                [this](Server& s, const Console& c) { return plan(s, a_.scene, c); });
+        plan_->add_option("SCENE", a_.scene, "scene file (JSON)")->required();
+    }
+
+    void take_run(CLI::App* sub) { sub->add_option("RUN", a_.id, "which run")->required(); }
+
+    CLI::App app_;
+    Arguments a_;
+    Command command_;
+};
+
+void tell(const std::string& summary, const std::vector<fault::Fault>& faults) {
+    std::cerr << "breach: " << harmless(summary) << "\n";
+    for (const fault::Fault& each : faults) {
+        std::cerr << "  " << (each.pointer.empty() ? "/" : harmless(each.pointer)) << ": "
+                  << harmless(each.cause) << "\n";
+        if (!each.remedy.empty()) std::cerr << "      remedy: " << harmless(each.remedy) << "\n";
+    }
+}
+
+ExitCode guarded(CommandLine& line) {
+    try {
+        return line.execute();
+    } catch (const Refused& error) {
+        tell(error.what(), error.faults());
+        return ExitCode::bad_input;
+    } catch (const fault::BadInput& error) {
+        std::cerr << "breach: " << error.what() << "\n";  // what() lists the faults
+        return ExitCode::bad_input;
+    } catch (const Unreachable& error) {
+        tell(error.what(), {});
+        return ExitCode::try_again;
+    } catch (const fault::IoError& error) {
+        tell(error.what(), {});
+        return ExitCode::io;
+    } catch (const nlohmann::json::exception& error) {
+        tell(std::string("the server's answer is not what this version expects: ") + error.what(),
+             {});
+        return ExitCode::io;
+    } catch (const std::exception& error) {
+        tell(error.what(), {});
+        return ExitCode::io;
+    }
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);  // a lost server is an answer of its own
+    CommandLine line;
+    try {
+        line.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return line.explain(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    }
+    const ExitCode code = guarded(line);
+    std::cout.flush();
+    if (!std::cout && code == ExitCode::done) return static_cast<int>(ExitCode::io);
+    return static_cast<int>(code);
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,162 @@
+#include "services/cli/commands.hpp"
+
+#include <algorithm>
+
+#include "services/cli/study_file.hpp"
+#include "services/cli/table.hpp"
+#include "services/cli/views.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using nlohmann::json;
+
+namespace {
+
+void show_json(const json& answer, const Console& console) {
+    console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
+}
+
+/// Tasks are named after their run: "<run>-00007".
+bool names_task(const std::string& id) { return id.find('-') != std::string::npos; }
+
+std::string csv_field(const json& value) {
+    if (value.is_null()) return "";
+    if (!value.is_string()) return value.dump();
+    std::string quoted = "\"";
+    for (const char each : value.get_ref<const std::string&>()) {
+        if (each == '"') quoted += '"';
+        quoted += each;
+    }
+    return quoted + '"';
+}
+
+void show_as_csv(const json& lines, const Console& console) {
+    if (lines.empty()) return;
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : lines.front().items())
+        if (value.is_primitive()) keys.push_back(key);
+    for (std::size_t i = 0; i < keys.size(); ++i) console.out << (i > 0 ? "," : "") << keys[i];
+    for (const json& line : lines) {
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            console.out << (i > 0 ? "," : "\n") << csv_field(line.value(keys[i], json()));
+    }
+    console.out << "\n";
+}
+
+}  // namespace
+
+std::string run_named(Server& server, const std::string& name) {
+    if (name != "latest") return name;
+    const json runs = server.get("/v1/runs").at("runs");
+    if (runs.empty()) throw Refused(404, "there is no run yet", {});
+    return runs.front().at("id");
+}
+
+std::string submit(Server& server, const SubmitWish& wish, const Console& console) {
+    const json study = read_study(wish.study, wish.overrides);
+    Headers headers;
+    if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
+    const json run = server.post("/v1/runs", study, headers);
+    if (console.style == Style::json) {
+        show_json(run, console);
+    } else {
+        console.out << cell(run, "id") << std::endl;
+    }
+    return run.at("id");
+}
+
+ExitCode list_runs(Server& server, std::size_t most, const Console& console) {
+    json runs = server.get("/v1/runs").at("runs");
+    if (most > 0 && runs.size() > most)
+        runs.erase(runs.begin() + static_cast<long>(most), runs.end());
+    if (console.style == Style::json) {
+        show_json(runs, console);
+    } else if (runs.empty()) {
+        console.notes << "no runs\n";
+    } else {
+        console.out << as_run_table(runs);
+    }
+    return ExitCode::done;
+}
+
+ExitCode show(Server& server, const std::string& id, const Console& console) {
+    const bool task = names_task(id);
+    const json answer =
+        server.get(task ? path_of({"tasks", id}) : path_of({"runs", run_named(server, id)}));
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        console.out << (task ? as_task_page(answer) : as_run_page(answer));
+    }
+    return ExitCode::done;
+}
+
+ExitCode cancel(Server& server, const std::string& run, const Console& console) {
+    const json answer =
+        server.post(path_of({"runs", run_named(server, run), "cancel"}), json::object());
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        console.out << as_progress_line(answer) << "\n";
+    }
+    return ExitCode::done;
+}
+
+ExitCode results(Server& server, const std::string& run, const Console& console) {
+    const std::string id = run_named(server, run);
+    const std::string path = path_of({"runs", id, "results"});
+    if (console.style == Style::csv) {
+        console.out << server.get_text(path + "?format=csv").body;
+    } else if (console.style == Style::json) {
+        show_json(server.get(path), console);
+    } else {
+        console.out << as_result_table(server.get(path).at("rows"));
+    }
+    const json state = server.get(path_of({"runs", id}));
+    if (end_of(state) == RunEnd::good) return ExitCode::done;
+    console.notes << as_progress_line(state) << "\n";
+    return end_of(state) == RunEnd::bad ? ExitCode::breakdown : ExitCode::done;
+}
+
+ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console) {
+    const std::string path = path_of({"runs", run_named(server, wish.run), "telemetry"});
+    json lines = json::array();
+    std::int64_t from = wish.from;
+    for (;;) {  // the server answers with a part of a long file at a time
+        json answer = server.get(path + query_of({{"phase", wish.phase},
+                                                  {"transfer_time", wish.transfer_time},
+                                                  {"fields", wish.fields},
+                                                  {"from", std::to_string(from)},
+                                                  {"stride", std::to_string(wish.stride)}}));
+        for (json& line : answer.at("lines")) lines.push_back(std::move(line));
+        const std::int64_t next = answer.at("next");
+        if (next <= from || answer["lines"].empty()) break;
+        from = next;
+    }
+    switch (console.style) {
+        case Style::json:
+            for (const json& line : lines) console.out << line.dump() << "\n";
+            break;
+        case Style::csv:
+            show_as_csv(lines, console);
+            break;
+        case Style::people:
+            console.out << as_telemetry_table(lines);
+            break;
+    }
+    return ExitCode::done;
+}
+
+ExitCode plan(Server& server, const std::filesystem::path& scene, const Console& console) {
+    const json plans = server.post("/v1/scenes/plan", read_scene_document(scene)).at("plans");
+    if (console.style == Style::json) {
+        show_json(plans, console);
+        return ExitCode::done;
+    }
+    for (const auto& [phase, text] : plans.items())
+        console.out << phase << "\n" << text.get<std::string>() << "\n";
+    return ExitCode::done;
+}
+
+}  // namespace breach::cli

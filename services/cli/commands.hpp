@@ -1,0 +1,58 @@
+// What each word of the command line does: asks the server, shows the answer. Watching, logs and
+// export have files of their own. Every command returns the exit code for when nothing was thrown.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "services/cli/http/server.hpp"
+
+namespace breach::cli {
+
+enum class Style { people, json, csv };
+enum class Screen { terminal, plain };
+
+/// Where the answer goes (out: only what was asked for) and what is said on the side (notes).
+struct Console {
+    std::ostream& out;
+    std::ostream& notes;
+    Style style;
+    Screen screen;
+};
+
+struct SubmitWish {
+    std::filesystem::path study;
+    std::vector<std::string> overrides;
+    std::string idempotency_key;  ///< empty: none
+};
+
+/// Prints the new run's id, and returns it.
+std::string submit(Server& server, const SubmitWish& wish, const Console& console);
+
+fault::ExitCode list_runs(Server& server, std::size_t most, const Console& console);
+/// `id`: of a run or of a task
+fault::ExitCode show(Server& server, const std::string& id, const Console& console);
+fault::ExitCode cancel(Server& server, const std::string& run, const Console& console);
+/// breakdown (70) when the run failed or was cancelled
+fault::ExitCode results(Server& server, const std::string& run, const Console& console);
+
+struct TelemetryWish {
+    std::string run;
+    std::string phase;
+    std::string transfer_time;  ///< empty: the phase has none
+    std::string fields;         ///< "a,b"; empty: all
+    std::int64_t from = 0;
+    std::int64_t stride = 1;
+};
+
+fault::ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console);
+fault::ExitCode plan(Server& server, const std::filesystem::path& scene, const Console& console);
+
+/// A run's id; "latest" means the newest run. Throws Refused when there is none.
+std::string run_named(Server& server, const std::string& name);
+
+}  // namespace breach::cli

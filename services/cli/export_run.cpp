@@ -1,0 +1,160 @@
+#include "services/cli/export_run.hpp"
+
+#include <fstream>
+
+#include "core/exchange/provenance.hpp"
+#include "core/exchange/publish.hpp"
+#include "services/cli/crate.hpp"
+#include "services/cli/logs.hpp"
+#include "services/cli/table.hpp"
+#include "services/cli/views.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using fault::IoError;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw IoError(folder.string() + ": cannot be made: " + error.message());
+}
+
+/// The folder is new, empty, or holds an earlier export of the same run.
+void claim(const fs::path& folder, const std::string& run) {
+    make_folder(folder);
+    if (fs::is_empty(folder)) return;
+    std::ifstream stream(folder / "run.json");
+    const json earlier = json::parse(stream, nullptr, false);
+    if (!earlier.is_object() || earlier.value("id", json()) != run)
+        throw IoError(folder.string() + ": holds something else; give a new or an empty folder");
+}
+
+void write_json(const fs::path& file, const json& content) {
+    exchange::publish_text(file,
+                           content.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+/// True when the file had to be fetched.
+bool fetch(Server& server, const json& artifact, const fs::path& file) {
+    const std::string promised = artifact.at("sha256");
+    if (fs::is_regular_file(file) && exchange::sha256_of_file(file) == promised) return false;
+    make_folder(file.parent_path());
+    exchange::publish(file, [&](const fs::path& temporary) {
+        server.download(path_of({"artifacts", promised}), temporary);
+        const std::string found = exchange::sha256_of_file(temporary);
+        if (found != promised)
+            throw IoError(file.string() + ": its SHA-256 is " + found + " instead of " + promised +
+                          "; the copy was dropped");
+    });
+    return true;
+}
+
+class Export {
+  public:
+    Export(Server& server, fs::path folder, const Console& console)
+        : server_(server), folder_(std::move(folder)), console_(console) {}
+
+    void run(const std::string& id) {
+        json run = server_.get(path_of({"runs", id}));
+        claim(folder_, id);
+        const json tasks = run.at("tasks");
+        const json study = run.at("study");
+        run.erase("tasks");
+        run.erase("study");
+        keep_json("run.json", run, "the run");
+        keep_json("study.json", study, "the study as it was submitted, completed");
+        const std::string results = path_of({"runs", id, "results"});
+        keep_json("results.json", server_.get(results), "one row per transfer time");
+        keep_text("results.csv", server_.get_text(results + "?format=csv").body,
+                  "one row per transfer time");
+        for (const json& each : tasks) task(each.at("id"));
+        write_json(folder_ / "ro-crate-metadata.json", crate_.metadata(run));
+        console_.notes << bar(1.0) << "  " << kept_ << " artifacts, " << fetched_
+                       << " of them fetched, all verified\n";
+        console_.out << folder_.string() << "\n";
+    }
+
+  private:
+    void task(const std::string& id) {
+        const json task = server_.get(path_of({"tasks", id}));
+        const std::string name = "tasks/" + task.at("label").get<std::string>() + "/";
+        make_folder(path_below(folder_, name + "task.json").parent_path());
+        keep_json(name + "task.json", task, name_of_task(task));
+        for (const json& attempt : task.at("attempts")) {
+            const std::int64_t number = attempt.at("number");
+            keep_text(name + "log." + std::to_string(number) + ".txt",
+                      read_log(server_, id, number), "log of " + name_of_task(task));
+        }
+        std::vector<std::string> outputs;
+        for (const json& artifact : task.at("artifacts")) {
+            const std::string file = name + artifact.at("name").get<std::string>();
+            if (fetch(server_, artifact, path_below(folder_, file))) ++fetched_;
+            ++kept_;
+            crate_.add_file({.path = file,
+                             .description = "",
+                             .bytes = artifact.at("bytes"),
+                             .sha256 = artifact.at("sha256")});
+            outputs.push_back(file);
+        }
+        console_.notes << name_of_task(task) << "  " << outputs.size() << " artifacts\n";
+        crate_.add_action(task, provenance_in(path_below(folder_, name + "result.json")), outputs);
+    }
+
+    /// Null when the task left no result.
+    static json provenance_in(const fs::path& result) {
+        std::ifstream stream(result);
+        const json content = json::parse(stream, nullptr, false);
+        return content.is_object() ? content.value("provenance", json()) : json();
+    }
+
+    void keep_json(const std::string& name, const json& content, const std::string& description) {
+        write_json(path_below(folder_, name), content);
+        note(name, description);
+    }
+
+    void keep_text(const std::string& name, const std::string& text,
+                   const std::string& description) {
+        exchange::publish_text(path_below(folder_, name), text);
+        note(name, description);
+    }
+
+    void note(const std::string& name, const std::string& description) {
+        const fs::path file = path_below(folder_, name);
+        crate_.add_file({.path = name,
+                         .description = description,
+                         .bytes = static_cast<std::int64_t>(fs::file_size(file)),
+                         .sha256 = exchange::sha256_of_file(file)});
+    }
+
+    Server& server_;
+    fs::path folder_;
+    const Console& console_;
+    Crate crate_;
+    std::size_t kept_ = 0;
+    std::size_t fetched_ = 0;
+};
+
+}  // namespace
+
+fs::path path_below(const fs::path& folder, const std::string& name) {
+    const fs::path relative(name);
+    bool leads_out = relative.is_absolute() || name.find('\0') != std::string::npos;
+    for (const fs::path& part : relative) leads_out = leads_out || part == ".." || part.empty();
+    if (leads_out || name.empty())
+        throw IoError("the server names a file \"" + harmless(name) + "\", which leads out of " +
+                      folder.string());
+    return folder / relative;
+}
+
+ExitCode export_run(Server& server, const std::string& run, const fs::path& folder,
+                    const Console& console) {
+    Export(server, folder, console).run(run_named(server, run));
+    return ExitCode::done;
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,126 @@
+#include "services/cli/http/server.hpp"
+
+#include <httplib.h>
+
+#include <fstream>
+
+namespace breach::cli {
+
+using nlohmann::json;
+
+struct Server::Connection {
+    std::string origin;
+    std::string prefix;
+    httplib::Client client;
+};
+
+namespace {
+
+constexpr std::chrono::seconds patience_to_connect{5};
+constexpr std::chrono::seconds patience_for_an_answer = longest_poll + std::chrono::seconds(40);
+
+std::string text_or(const json& object, const char* key, const std::string& otherwise) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+std::vector<fault::Fault> faults_of(const json& problem) {
+    std::vector<fault::Fault> faults;
+    const auto found = problem.find("faults");
+    if (found == problem.end() || !found->is_array()) return faults;
+    for (const json& each : *found) {
+        if (!each.is_object()) continue;
+        faults.push_back({text_or(each, "pointer", ""), text_or(each, "cause", ""),
+                          text_or(each, "remedy", "")});
+    }
+    return faults;
+}
+
+[[noreturn]] void refuse(int status, const std::string& body) {
+    json problem = json::parse(body, nullptr, false);
+    if (!problem.is_object()) problem = json::object();
+    const std::string title =
+        text_or(problem, "title", "the server answered " + std::to_string(status));
+    const std::string detail = text_or(problem, "detail", "");
+    const std::string summary = detail.empty() ? title : title + ": " + detail;
+    if (status == 429 || status >= 500) throw Unreachable(summary);
+    throw Refused(status, summary, faults_of(problem));
+}
+
+json parsed(const std::string& body) {
+    json answer = json::parse(body, nullptr, false);
+    if (answer.is_discarded()) throw fault::IoError("the server's answer is not JSON");
+    return answer;
+}
+
+}  // namespace
+
+Server::Server(const Address& address, const std::optional<std::string>& token)
+    : connection_(new Connection{address.origin, address.prefix, httplib::Client(address.origin)}) {
+    httplib::Client& client = connection_->client;
+    client.set_keep_alive(true);
+    client.set_tcp_nodelay(true);  // a small request must not wait for the answer to the last one
+    client.set_connection_timeout(patience_to_connect);
+    client.set_read_timeout(patience_for_an_answer);
+    if (token) client.set_bearer_token_auth(*token);
+}
+
+Server::~Server() = default;
+
+namespace {
+
+/// The body of a good answer; everything else is thrown.
+const httplib::Response& good(const httplib::Result& result, const std::string& origin) {
+    if (!result) {
+        throw Unreachable("no answer from " + origin + " (" + httplib::to_string(result.error()) +
+                          "): is `breachline serve` running there?");
+    }
+    if (result->status < 200 || result->status > 299) refuse(result->status, result->body);
+    return *result;
+}
+
+}  // namespace
+
+json Server::get(const std::string& path) { return parsed(get_text(path).body); }
+
+TextAnswer Server::get_text(const std::string& path) {
+    const auto result = connection_->client.Get(connection_->prefix + path);
+    const httplib::Response& response = good(result, connection_->origin);
+    TextAnswer answer{response.body, std::nullopt};
+    if (response.has_header("X-Next-Offset"))
+        answer.next_offset = response.get_header_value("X-Next-Offset");
+    return answer;
+}
+
+json Server::post(const std::string& path, const json& body, const Headers& headers) {
+    const httplib::Headers sent(headers.begin(), headers.end());
+    const auto result =
+        connection_->client.Post(connection_->prefix + path, sent, body.dump(), "application/json");
+    return parsed(good(result, connection_->origin).body);
+}
+
+void Server::download(const std::string& path, const std::filesystem::path& file) {
+    std::ofstream out(file, std::ios::binary | std::ios::trunc);
+    int status = 0;
+    std::string refusal;
+    const auto result = connection_->client.Get(
+        connection_->prefix + path,
+        [&](const httplib::Response& response) {
+            status = response.status;
+            return true;
+        },
+        [&](const char* data, std::size_t size) {
+            if (status == 200) {
+                out.write(data, static_cast<std::streamsize>(size));
+                return out.good();
+            }
+            refusal.append(data, size);
+            return true;
+        });
+    out.close();
+    if (!out) throw fault::IoError(file.string() + ": cannot be written (disk full?)");
+    good(result, connection_->origin);
+    if (status != 200) refuse(status, refusal);
+}
+
+}  // namespace breach::cli

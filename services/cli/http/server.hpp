@@ -1,0 +1,68 @@
+// The server as this program sees it: requests and answers. The only part that knows HTTP.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "services/cli/address.hpp"
+
+namespace breach::cli {
+
+/// The server did not answer, or said that it cannot for now (429 and 5xx).
+class Unreachable : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The server answered no (4xx): problem+json, RFC 9457.
+class Refused : public std::runtime_error {
+  public:
+    Refused(int status, const std::string& summary, std::vector<fault::Fault> faults)
+        : std::runtime_error(summary), status_(status), faults_(std::move(faults)) {}
+    int status() const { return status_; }
+    const std::vector<fault::Fault>& faults() const { return faults_; }
+
+  private:
+    int status_;
+    std::vector<fault::Fault> faults_;
+};
+
+struct TextAnswer {
+    std::string body;
+    std::optional<std::string> next_offset;  ///< header X-Next-Offset
+};
+
+using Headers = std::map<std::string, std::string>;
+
+/// Every call throws Unreachable, Refused, or IoError when the answer is not what the API promises.
+class Server {
+  public:
+    Server(const Address& address, const std::optional<std::string>& token);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    nlohmann::json get(const std::string& path);
+    TextAnswer get_text(const std::string& path);
+    nlohmann::json post(const std::string& path, const nlohmann::json& body,
+                        const Headers& headers = {});
+    /// Streams the answer into a file, as it may be larger than memory.
+    void download(const std::string& path, const std::filesystem::path& file);
+
+  private:
+    struct Connection;
+    std::unique_ptr<Connection> connection_;
+};
+
+/// How long one long-poll may be held open by the server; answers are waited for longer than that.
+inline constexpr std::chrono::seconds longest_poll{20};
+
+}  // namespace breach::cli

@@ -1,0 +1,52 @@
+#include "services/cli/study_file.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "core/fault/fault.hpp"
+#include "core/scene/schema.hpp"
+
+namespace breach::cli {
+
+using nlohmann::json;
+
+namespace {
+
+json read_json(const std::filesystem::path& file) {
+    std::ostringstream text;
+    std::ifstream stream(file, std::ios::binary);
+    if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf()))
+        throw fault::IoError(file.string() + ": cannot be read");
+    return scene::parse_json(text.str(), file.string());
+}
+
+void make_absolute(json& object, const char* key, const std::filesystem::path& folder) {
+    if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return;
+    object[key] =
+        std::filesystem::absolute(folder / object[key].get<std::string>()).lexically_normal();
+}
+
+}  // namespace
+
+json read_scene_document(const std::filesystem::path& file) {
+    json scene = read_json(file);
+    if (scene.is_object() && scene.contains("fem"))
+        make_absolute(scene["fem"], "msh_file", file.parent_path());
+    return scene;
+}
+
+json read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    json study = read_json(file);
+    if (!study.is_object()) return study;
+    if (study.contains("scene") && study["scene"].is_string())
+        study["scene"] =
+            read_scene_document(file.parent_path() / study["scene"].get<std::string>());
+    if (!overrides.empty()) {
+        if (!study.contains("overrides")) study["overrides"] = json::array();
+        if (!study["overrides"].is_array()) return study;  // the server says what is wrong with it
+        for (const std::string& each : overrides) study["overrides"].push_back(each);
+    }
+    return study;
+}
+
+}  // namespace breach::cli

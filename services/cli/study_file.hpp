@@ -1,0 +1,21 @@
+// A study file made ready to be sent: the scene that it names by path is put into it.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace breach::cli {
+
+/// The study with its scene inline; paths of a scene (relative to the study) and of a mesh
+/// (relative to the scene) are resolved here, because what is sent has no folder. `overrides` are
+/// added to the study's own. What the study says is not judged: that is the server's work. Throws
+/// IoError, BadInput (not JSON).
+nlohmann::json read_study(const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides);
+
+/// A scene with its mesh's path resolved.
+nlohmann::json read_scene_document(const std::filesystem::path& file);
+
+}  // namespace breach::cli

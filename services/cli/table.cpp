@@ -1,0 +1,96 @@
+#include "services/cli/table.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+
+namespace breach::cli {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int bar_width = 20;
+
+bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
+
+std::size_t width_of(std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
+}
+
+std::string line_of(const std::vector<Column>& columns, const std::vector<std::size_t>& widths,
+                    const Cells& cells) {
+    std::string line;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const std::string space(widths[i] - width_of(cells[i]), ' ');
+        if (i > 0) line += "  ";
+        line += columns[i].align == Align::left ? cells[i] + space : space + cells[i];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + '\n';
+}
+
+}  // namespace
+
+std::string as_table(const std::vector<Column>& columns, const std::vector<Cells>& rows) {
+    std::vector<std::size_t> widths;
+    Cells titles;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        titles.push_back(columns[i].title);
+        widths.push_back(width_of(columns[i].title));
+        for (const Cells& row : rows) {
+            assert(row.size() == columns.size());
+            widths[i] = std::max(widths[i], width_of(row[i]));
+        }
+    }
+    std::string text = line_of(columns, widths, titles);
+    for (const Cells& row : rows) text += line_of(columns, widths, row);
+    return text;
+}
+
+std::string cell(const json& value) {
+    if (value.is_null()) return "-";
+    if (value.is_string()) return harmless(value.get_ref<const std::string&>());
+    if (value.is_number_float()) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+        return text;
+    }
+    return harmless(value.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+std::string cell(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found == object.end() ? "-" : cell(*found);
+}
+
+std::string harmless(std::string_view text) {
+    std::string safe(text);
+    for (char& each : safe) {
+        const auto byte = static_cast<unsigned char>(each);
+        if (byte < 0x20 || byte == 0x7F) each = ' ';
+    }
+    return safe;
+}
+
+std::string bar(double fraction) {
+    if (!(fraction > 0.0)) fraction = 0.0;
+    fraction = std::min(fraction, 1.0);
+    const int filled = static_cast<int>(fraction * bar_width);
+    char percent[16];
+    std::snprintf(percent, sizeof percent, "] %3.0f %%", std::floor(100.0 * fraction));
+    std::string text = "[";
+    text.append(filled, '#').append(bar_width - filled, '.').append(percent);
+    return text;
+}
+
+std::string shortened(const std::string& text, std::size_t width) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (begins_character(text[i]) && count++ == width) return text.substr(0, i);
+    }
+    return text;
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,38 @@
+// Tables and numbers for people's eyes: aligned columns of text, nothing else.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace breach::cli {
+
+enum class Align { left, right };
+
+struct Column {
+    std::string title;
+    Align align;
+};
+
+using Cells = std::vector<std::string>;
+
+/// Columns as wide as their widest cell, two blanks between them, no blanks at line ends.
+/// Every row has as many cells as there are columns.
+std::string as_table(const std::vector<Column>& columns, const std::vector<Cells>& rows);
+
+/// Numbers with four significant digits, "-" for null, text without control characters.
+std::string cell(const nlohmann::json& value);
+/// The member's cell; "-" when there is none.
+std::string cell(const nlohmann::json& object, const char* key);
+
+/// Without control characters, so that a text from the server cannot move the cursor.
+std::string harmless(std::string_view text);
+
+/// "[#####...............]  25 %"; fraction in [0, 1], anything else is taken to the nearer end.
+std::string bar(double fraction);
+
+/// The first `width` characters (UTF-8 is not cut in the middle).
+std::string shortened(const std::string& text, std::size_t width);
+
+}  // namespace breach::cli

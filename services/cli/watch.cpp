@@ -1,0 +1,183 @@
+#include "services/cli/watch.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <thread>
+
+#include "services/cli/table.hpp"
+#include "services/cli/views.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using nlohmann::json;
+using std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::size_t most_lines = 8;  // tasks shown at once
+constexpr auto least_time_between_looks = std::chrono::milliseconds(250);
+constexpr auto patience_for_the_server = std::chrono::seconds(60);
+
+/// The events of one run, in order, each once.
+class EventTail {
+  public:
+    EventTail(Server& server, std::string run) : server_(server), run_(std::move(run)) {}
+
+    /// What happened since the last call; waits up to a second for something to happen. Progress is
+    /// no event, so waiting longer would show it late.
+    std::vector<json> next() {
+        std::vector<json> found;
+        for (;;) {
+            json answer = server_.get("/v1/events" + query_of({{"after", std::to_string(next_)},
+                                                               {"wait", caught_up_ ? "1" : "0"}}));
+            const std::int64_t next = answer.at("next");
+            caught_up_ = answer.at("events").empty() || next <= next_;
+            next_ = std::max(next, next_);
+            for (json& event : answer["events"])
+                if (event.at("run") == run_) found.push_back(std::move(event));
+            if (caught_up_ || !found.empty()) return found;
+        }
+    }
+
+  private:
+    Server& server_;
+    std::string run_;
+    std::int64_t next_ = 0;
+    bool caught_up_ = false;  // history is taken without waiting
+};
+
+std::size_t terminal_width() {
+    winsize size{};
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+bool is_busy(const json& task) {
+    const std::string state = task.at("state");
+    return state == "starting" || state == "running" || state == "finalizing" ||
+           state == "cancelling" || state == "retry_wait";
+}
+
+/// Draws over what it drew before.
+class Picture {
+  public:
+    explicit Picture(std::ostream& out) : out_(out) {}
+
+    void draw(const json& run) {
+        std::vector<std::string> lines{as_progress_line(run)};
+        std::size_t hidden = 0;
+        for (const json& task : run.at("tasks")) {
+            if (!is_busy(task)) continue;
+            if (lines.size() > most_lines) {
+                ++hidden;
+                continue;
+            }
+            lines.push_back("  " + bar(task.value("progress", 0.0)) + "  " + name_of_task(task) +
+                            "  " + cell(task, "message"));
+        }
+        if (hidden > 0) lines.push_back("  and " + std::to_string(hidden) + " more");
+        if (height_ > 0) out_ << "\033[" << height_ << "A";
+        const std::size_t width = terminal_width();
+        for (const std::string& line : lines) out_ << "\r" << shortened(line, width) << "\033[K\n";
+        out_ << "\033[J" << std::flush;
+        height_ = lines.size();
+    }
+
+  private:
+    std::ostream& out_;
+    std::size_t height_ = 0;
+};
+
+/// One line per task whose state is new.
+class Diary {
+  public:
+    explicit Diary(std::ostream& out) : out_(out) {}
+
+    void write(const json& run) {
+        for (const json& task : run.at("tasks")) {
+            std::string& known = states_[task.at("id")];
+            if (known == task.at("state").get<std::string>()) continue;
+            known = task["state"];
+            if (known == "blocked" || known == "ready") continue;
+            out_ << bar(run.value("progress", 0.0)) << "  " << name_of_task(task) << "  "
+                 << fate_of_task(task) << std::endl;
+        }
+    }
+
+  private:
+    std::ostream& out_;
+    std::map<std::string, std::string> states_;
+};
+
+class Onlooker {
+  public:
+    Onlooker(Server& server, const std::string& run, const Console& console)
+        : server_(server),
+          path_(path_of({"runs", run})),
+          events_(server, run),
+          console_(console),
+          picture_(console.out),
+          diary_(console.out) {}
+
+    /// Waits for news and shows them; the run as it is then.
+    json look() {
+        const auto news = events_.next();
+        json run = server_.get(path_);
+        if (console_.style == Style::json) {
+            for (const json& event : news) console_.out << event.dump() << std::endl;
+        } else if (console_.screen == Screen::terminal) {
+            picture_.draw(run);
+        } else {
+            diary_.write(run);
+        }
+        return run;
+    }
+
+  private:
+    Server& server_;
+    std::string path_;
+    EventTail events_;
+    const Console& console_;
+    Picture picture_;
+    Diary diary_;
+};
+
+}  // namespace
+
+ExitCode watch(Server& server, const std::string& name, const Console& console) {
+    Onlooker onlooker(server, run_named(server, name), console);
+    auto answered = steady_clock::now();
+    bool ever_answered = false;
+    for (;;) {
+        const auto began = steady_clock::now();
+        try {
+            json run = onlooker.look();
+            if (!console.out) throw fault::IoError("nobody reads the output any more");
+            answered = steady_clock::now();
+            ever_answered = true;
+            if (end_of(run) != RunEnd::not_yet) {
+                if (console.style == Style::json) {
+                    run.erase("tasks");
+                    run.erase("study");
+                    console.out << json{{"run", run}}.dump() << std::endl;
+                } else {
+                    if (console.screen == Screen::plain)
+                        console.out << as_progress_line(run) << "\n";
+                    for (const json& task : run.at("tasks"))
+                        if (console.screen == Screen::terminal && task.at("state") == "failed")
+                            console.out << name_of_task(task) << "  " << fate_of_task(task) << "\n";
+                }
+                return end_of(run) == RunEnd::good ? ExitCode::done : ExitCode::breakdown;
+            }
+        } catch (const Unreachable&) {
+            if (!ever_answered || steady_clock::now() - answered > patience_for_the_server) throw;
+            std::this_thread::sleep_for(std::chrono::seconds(1));
+        }
+        std::this_thread::sleep_until(began + least_time_between_looks);
+    }
+}
+
+}  // namespace breach::cli

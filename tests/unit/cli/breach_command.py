@@ -1,0 +1,187 @@
+"""The breach command against a service from memory: what it sends, what it prints, and its exit codes."""
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import fake_service
+from fake_service import Service, run_id
+
+breach = os.path.join(os.environ["BREACH_BIN"], "breach")
+
+
+def call(service, *arguments, **environment):
+    address = service if isinstance(service, str) else service.url
+    return subprocess.run([breach, *map(str, arguments)], text=True, capture_output=True, timeout=30,
+                          env={"BREACH_SERVER": address, **environment})
+
+
+class Breach(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.here = pathlib.Path(self.folder.name)
+
+    def serve(self, **how):
+        service = Service(**how)
+        self.addCleanup(service.server_close)
+        self.addCleanup(service.shutdown)
+        return service
+
+    def study(self, name="fake"):
+        (self.here / "scene.json").write_text('{"name": "a scene"}')
+        file = self.here / "study.json"
+        file.write_text(json.dumps({"name": name, "scene": "scene.json"}))
+        return file
+
+    def test_submit_puts_the_scene_in_and_prints_the_id(self):
+        service = self.serve()
+        done = call(service, "submit", self.study(), "--set", "/mpm/cell_size=2", "--key", "k1")
+        self.assertEqual((done.returncode, done.stdout), (0, run_id + "\n"), done.stderr)
+        _, body, headers = service.posted[0]
+        self.assertEqual(body, {"name": "fake", "scene": {"name": "a scene"}, "overrides": ["/mpm/cell_size=2"]})
+        self.assertEqual(headers["Idempotency-Key"], "k1")
+
+    def test_faults_found_by_the_server_are_listed(self):
+        done = call(self.serve(), "submit", self.study("faulty"))
+        self.assertEqual(done.returncode, 65)
+        self.assertIn("/scene/mpm/cell_size: is negative", done.stderr)
+        self.assertIn("remedy: give a positive size", done.stderr)
+
+    def test_a_server_that_cannot_now_is_75(self):
+        done = call(self.serve(), "submit", self.study("busy"))
+        self.assertEqual(done.returncode, 75)
+        self.assertIn("the disk is full", done.stderr)
+
+    def test_no_server_is_75(self):
+        service = Service()
+        service.shutdown()
+        service.server_close()
+        for command in (["list"], ["submit", self.study()], ["watch", run_id], ["export", run_id, self.here / "out"]):
+            done = call(service, *command)
+            self.assertEqual(done.returncode, 75, command)
+            self.assertIn("no answer from http://127.0.0.1:", done.stderr)
+
+    def test_wrong_usage_is_2(self):
+        for arguments in ([], ["submit"], ["list", "--nonsense"], ["nonsense"], ["watch"],
+                          ["--server", "localhost:1", "list"]):
+            self.assertEqual(call("http://127.0.0.1:1", *arguments).returncode, 2, arguments)
+
+    def test_files_that_cannot_be_read_are_74_and_no_json_is_65(self):
+        service = self.serve()
+        self.assertEqual(call(service, "submit", self.here / "absent.json").returncode, 74)
+        self.assertEqual(call(service, "list", BREACH_TOKEN_FILE=str(self.here / "absent")).returncode, 74)
+        (self.here / "broken.json").write_text('{"a": 1, "a"')
+        self.assertEqual(call(service, "submit", self.here / "broken.json").returncode, 65)
+        self.assertEqual(service.posted, [])
+
+    def test_the_token_is_sent(self):
+        service = self.serve(token="secret")
+        (self.here / "token").write_text("secret\n")
+        refused = call(service, "list")
+        self.assertEqual((refused.returncode, "a token is needed" in refused.stderr), (65, True))
+        self.assertEqual(call(service, "--token-file", self.here / "token", "list").returncode, 0)
+
+    def test_list_and_show(self):
+        service = self.serve()
+        self.assertIn(f"{run_id}  fake  running", call(service, "list").stdout)
+        self.assertEqual(json.loads(call(service, "list", "--json").stdout)[0]["id"], run_id)
+        page = call(service, "show", "latest").stdout
+        self.assertIn("A run that is none", page)
+        self.assertIn("mpm_solver      0.5  running", page)
+        self.assertIn("fem_solver", call(service, "show", f"{run_id}-00000").stdout)
+        self.assertEqual(call(service, "show", "nobody").returncode, 65)
+
+    def test_watch_ends_with_the_run_and_says_how(self):
+        for end, code in (("succeeded", 0), ("failed", 70), ("cancelled", 70)):
+            done = call(self.serve(end=end), "watch", run_id)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn("mpm_solver  t_T 0.5 s  running\n", done.stdout)
+            self.assertIn(f"mpm_solver  t_T 0.5 s  {end}", done.stdout)
+            self.assertNotIn("\033", done.stdout)
+
+    def test_watch_as_json_gives_this_runs_events_and_the_run(self):
+        lines = [json.loads(each) for each in call(self.serve(), "watch", run_id, "--json").stdout.splitlines()]
+        self.assertEqual([each["run"] for each in lines[:-1]], [run_id])
+        self.assertEqual(lines[-1]["run"]["state"], "succeeded")
+
+    def test_submit_can_watch(self):
+        done = call(self.serve(end="failed"), "submit", self.study(), "--watch")
+        self.assertEqual(done.returncode, 70)
+        self.assertTrue(done.stdout.startswith(run_id + "\n"))
+
+    def test_results(self):
+        service = self.serve(looks=0)
+        self.assertIn("0.5  succeeded        12.5", call(service, "results", run_id).stdout)
+        self.assertEqual(call(service, "results", run_id, "--csv").stdout, "transfer_time,runout\n0.5,12.5\n")
+        self.assertEqual(json.loads(call(service, "results", run_id, "--json").stdout)["rows"][0]["runout"], 12.5)
+        self.assertEqual(call(self.serve(end="failed", looks=0), "results", run_id).returncode, 70)
+
+    def test_telemetry_comes_whole_though_the_server_gives_parts(self):
+        service = self.serve()
+        done = call(service, "telemetry", run_id, "mpm_solver", "--transfer-time", "0.5", "--json")
+        self.assertEqual([json.loads(each)["kinetic_energy"] for each in done.stdout.splitlines()], [0, 2, 4, 6, 8])
+        self.assertIn("transfer_time=0.5", service.asked[-1])
+        csv = call(service, "telemetry", run_id, "mpm_solver", "--csv").stdout.splitlines()
+        self.assertEqual((csv[0], csv[2]), ("kinetic_energy,time", "2.0,0.1"))
+
+    def test_logs(self):
+        service = self.serve()
+        whole = fake_service.log.decode()
+        self.assertEqual(call(service, "logs", f"{run_id}-00001").stdout, whole)
+        self.assertEqual(call(service, "logs", "-n", "2", f"{run_id}-00001").stdout, "line 4\nline 5\n")
+        self.assertEqual(call(service, "logs", f"{run_id}-00002").returncode, 65)
+        service.looks_left = 0
+        self.assertEqual(call(service, "logs", "-f", f"{run_id}-00001").stdout, whole)
+
+    def test_cancel(self):
+        done = call(self.serve(), "cancel", run_id)
+        self.assertEqual((done.returncode, "cancelled" in done.stdout), (0, True))
+
+    def test_plan(self):
+        self.study()
+        self.assertIn("the scene is dry", call(self.serve(), "plan", self.here / "scene.json").stdout)
+
+    def test_export_holds_everything_verified(self):
+        service, out = self.serve(looks=0), self.here / "out"
+        done = call(service, "export", run_id, out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((out / "tasks/fem_solver/snapshots/snapshot_0.500000.vtkhdf").read_bytes(), fake_service.artifact)
+        self.assertEqual((out / "tasks/mpm_0.500000/log.1.txt").read_bytes(), fake_service.log)
+        crate = json.loads((out / "ro-crate-metadata.json").read_text())
+        entities = {each["@id"]: each for each in crate["@graph"]}
+        files = {str(each.relative_to(out)) for each in out.rglob("*") if each.is_file()}
+        self.assertEqual({each["@id"] for each in entities["./"]["hasPart"]}, files - {"ro-crate-metadata.json"})
+        for name in files - {"ro-crate-metadata.json"}:
+            content = (out / name).read_bytes()
+            self.assertEqual(entities[name]["sha256"], hashlib.sha256(content).hexdigest())
+            self.assertEqual(entities[name]["contentSize"], str(len(content)))
+        action = entities[f"#{run_id}-00001"]
+        self.assertIn({"@id": "tasks/fem_solver/snapshots/snapshot_0.500000.vtkhdf"}, action["object"])
+        self.assertEqual(entities["#mpm_solver-0.1.0"]["softwareVersion"], "0.1.0")
+        # Again: what is there and whole is not fetched again.
+        service.asked.clear()
+        (out / "tasks/mpm_0.500000/result.json").write_text("damaged")
+        self.assertEqual(call(service, "export", run_id, out).returncode, 0)
+        self.assertEqual(sum("artifacts" in each for each in service.asked), 1)
+        self.assertEqual((out / "tasks/mpm_0.500000/result.json").read_bytes(), fake_service.result)
+
+    def test_export_keeps_no_file_that_is_not_what_was_promised(self):
+        out = self.here / "out"
+        done = call(self.serve(looks=0, lies=True), "export", run_id, out)
+        self.assertEqual(done.returncode, 74)
+        self.assertIn("its SHA-256 is", done.stderr)
+        self.assertFalse(list(out.rglob("*.vtkhdf*")) or (out / "ro-crate-metadata.json").exists())
+
+    def test_export_does_not_mix_with_other_files(self):
+        (self.here / "mine").write_text("x")
+        done = call(self.serve(), "export", run_id, self.here)
+        self.assertEqual((done.returncode, "holds something else" in done.stderr), (74, True))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])

@@ -1,0 +1,151 @@
+"""A service that speaks the API's shapes from memory: one run of three tasks, which moves on each time it is asked."""
+import hashlib
+import http.server
+import json
+import threading
+import urllib.parse
+
+run_id = "01JD0000000000000000000000"
+log = "".join(f"line {i}\n" for i in range(1, 6)).encode()
+artifact = b"\x89HDF pretend " * 1000
+result = json.dumps({"runout": 12.5, "provenance": {"version": "0.1.0", "inputs": [
+    {"path": "/somewhere/particles.vtkhdf", "sha256": hashlib.sha256(artifact).hexdigest()}]}}).encode()
+blobs = {hashlib.sha256(each).hexdigest(): each for each in (artifact, result)}
+
+
+def artifacts_of(*pairs):
+    return [{"name": name, "sha256": hashlib.sha256(content).hexdigest(), "bytes": len(content)}
+            for name, content in pairs]
+
+
+class Service(http.server.ThreadingHTTPServer):
+    """end: the state in which the run ends. token: what must be sent, if anything. lies: artifacts come altered."""
+    daemon_threads = True
+
+    def __init__(self, end="succeeded", token=None, lies=False, looks=3):
+        super().__init__(("127.0.0.1", 0), Handler)
+        self.end, self.token, self.lies, self.looks_left = end, token, lies, looks
+        self.posted, self.asked = [], []
+        self.seq = 0
+        threading.Thread(target=lambda: self.serve_forever(0.05), daemon=True).start()
+
+    @property
+    def url(self):
+        return f"http://127.0.0.1:{self.server_address[1]}"
+
+    def tasks(self):
+        over = self.looks_left <= 0
+        mpm_state = {"succeeded": "succeeded", "failed": "failed", "cancelled": "cancelled"}[self.end] if over else "running"
+        fault = {"exit_code": 70, "summary": "the points\033[2J left the grid"} if mpm_state == "failed" else None
+        common = {"run": run_id, "started": "2026-11-21T02:00:01Z", "finished": "2026-11-21T02:00:03Z", "message": ""}
+        attempt = {"number": 1, "state": "exited" if over else "running", "started": "2026-11-21T02:00:01Z",
+                   "finished": None, "exit_code": 0, "wall_seconds": 2.0, "cpu_seconds": 1.5}
+        return [
+            {**common, "id": f"{run_id}-00000", "phase": "fem_solver", "label": "fem_solver", "transfer_time": None,
+             "state": "succeeded", "progress": 1, "result": {}, "fault": None, "attempts": [attempt],
+             "artifacts": artifacts_of(("snapshots/snapshot_0.500000.vtkhdf", artifact))},
+            {**common, "id": f"{run_id}-00001", "phase": "mpm_solver", "label": "mpm_0.500000", "transfer_time": 0.5,
+             "state": mpm_state, "progress": 1 if over else 0.4, "result": {"runout": 12.5}, "fault": fault,
+             "attempts": [attempt], "artifacts": artifacts_of(("result.json", result))},
+            {**common, "id": f"{run_id}-00002", "phase": "lem_tool", "label": "lem_tool", "transfer_time": None,
+             "state": "skipped", "progress": 1, "result": None, "fault": None, "attempts": [], "artifacts": []},
+        ]
+
+    def run(self):
+        over = self.looks_left <= 0
+        return {"id": run_id, "name": "fake", "title": "A run that is none", "state": self.end if over else "running",
+                "created": "2026-11-21T02:00:00Z", "started": "2026-11-21T02:00:01Z",
+                "finished": "2026-11-21T02:00:03Z" if over else None, "progress": 1.0 if over else 0.5,
+                "tasks_total": 3, "tasks_done": 3 if over else 1,
+                "tasks_failed": 1 if over and self.end == "failed" else 0, "message": ""}
+
+
+class Handler(http.server.BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+
+    def log_message(self, *_):
+        pass
+
+    def answer(self, status, content, kind="application/json", **headers):
+        body = content if isinstance(content, bytes) else json.dumps(content).encode()
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        for name, value in headers.items():
+            self.send_header(name.replace("_", "-"), value)
+        self.end_headers()
+        self.wfile.write(body)
+
+    def refuse(self, status, title, faults=()):
+        self.answer(status, {"type": "/problems/x", "title": title, "status": status, "detail": "",
+                             "faults": list(faults)}, "application/problem+json")
+
+    def allowed(self):
+        wanted = self.server.token
+        if wanted is None or self.headers.get("Authorization") == f"Bearer {wanted}":
+            return True
+        self.refuse(401, "a token is needed")
+        return False
+
+    def do_POST(self):
+        body = self.rfile.read(int(self.headers["Content-Length"]))
+        if not self.allowed():
+            return
+        posted = json.loads(body)
+        self.server.posted.append((self.path, posted, dict(self.headers)))
+        if self.path == "/v1/runs":
+            if posted.get("name") == "faulty":
+                self.refuse(422, "the study has faults", [
+                    {"pointer": "/scene/mpm/cell_size", "cause": "is negative", "remedy": "give a positive size"}])
+            elif posted.get("name") == "busy":
+                self.refuse(503, "the disk is full")
+            else:
+                self.answer(202, self.server.run(), Location=f"/v1/runs/{run_id}")
+        elif self.path == f"/v1/runs/{run_id}/cancel":
+            self.server.end, self.server.looks_left = "cancelled", 0
+            self.answer(202, self.server.run())
+        elif self.path == "/v1/scenes/plan":
+            self.answer(200, {"plans": {"mpm_solver": "pore pressure  left out: the scene is dry\n"}})
+        else:
+            self.refuse(404, "no such thing")
+
+    def do_GET(self):
+        if not self.allowed():
+            return
+        url = urllib.parse.urlsplit(self.path)
+        query = dict(urllib.parse.parse_qsl(url.query))
+        self.server.asked.append(self.path)
+        parts = url.path.strip("/").split("/")[1:]
+        server = self.server
+        if parts == ["runs"]:
+            self.answer(200, {"runs": [server.run()]})
+        elif parts == ["runs", run_id]:
+            server.looks_left -= 1
+            self.answer(200, {**server.run(), "study": {"name": "fake"}, "tasks": server.tasks()})
+        elif parts == ["runs", run_id, "results"]:
+            if query.get("format") == "csv":
+                self.answer(200, b"transfer_time,runout\r\n0.5,12.5\r\n", "text/csv")
+            else:
+                self.answer(200, {"run": run_id, "rows": [{"transfer_time": 0.5, "state": "succeeded", "runout": 12.5}]})
+        elif parts == ["runs", run_id, "telemetry"]:
+            begin = int(query["from"])
+            lines = [{"time": 0.1 * i, "kinetic_energy": 2.0 * i} for i in range(begin, min(begin + 2, 5))]
+            self.answer(200, {"lines": lines, "next": begin + len(lines)})
+        elif parts == ["events"]:
+            after, event = int(query["after"]), []
+            if after < 2:  # another run's event first, which is nobody's business
+                event = [{"seq": after + 1, "time": "", "run": run_id if after else "other", "task": None,
+                          "kind": "task", "detail": {}}]
+            self.answer(200, {"events": event, "next": after + len(event)})
+        elif parts[:1] == ["tasks"] and len(parts) == 2:
+            found = [each for each in server.tasks() if each["id"] == parts[1]]
+            self.answer(200, found[0]) if found else self.refuse(404, "no such task")
+        elif parts[:1] == ["tasks"] and parts[2:4] == ["attempts", "1"]:
+            offset = int(query.get("offset", 0))
+            piece = log[offset:offset + 10]  # a part at a time
+            self.answer(200, piece, "text/plain", X_Next_Offset=str(offset + len(piece)))
+        elif parts[:1] == ["artifacts"] and parts[1] in blobs:
+            content = blobs[parts[1]]
+            self.answer(200, content[:-1] + b"!" if server.lies else content, "application/octet-stream")
+        else:
+            self.refuse(404, "no such thing")

@@ -1,0 +1,60 @@
+#include "services/cli/study_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::cli {
+
+namespace fs = std::filesystem;
+
+class StudyFile : public testing::Test {
+  protected:
+    StudyFile() { fs::create_directories(folder_ / "scenes"); }
+    ~StudyFile() override { fs::remove_all(folder_); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return folder_ / name;
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / ("study_file_test_" + std::to_string(getpid()));
+};
+
+TEST_F(StudyFile, GetsTheSceneThatItNamesRelativeToItself) {
+    write("scenes/slope.json", R"({"name": "slope", "fem": {"msh_file": "../mesh/slope.msh"}})");
+    const auto study = read_study(write("study.json", R"({"scene": "scenes/slope.json"})"), {});
+    EXPECT_EQ(study["scene"]["name"], "slope");
+    EXPECT_EQ(study["scene"]["fem"]["msh_file"], (folder_ / "mesh/slope.msh").string());
+}
+
+TEST_F(StudyFile, KeepsASceneThatIsInline) {
+    const auto study = read_study(write("study.json", R"({"scene": {"name": "x"}})"), {"/a=1"});
+    EXPECT_EQ(study["scene"]["name"], "x");
+    EXPECT_EQ(study["overrides"], nlohmann::json({"/a=1"}));
+}
+
+TEST_F(StudyFile, AddsOverridesBehindItsOwn) {
+    const auto study = read_study(write("study.json", R"({"overrides": ["/a=1"]})"), {"/a=2"});
+    EXPECT_EQ(study["overrides"], nlohmann::json({"/a=1", "/a=2"}));
+}
+
+TEST_F(StudyFile, LeavesTheJudgementToTheServer) {
+    EXPECT_EQ(read_study(write("study.json", "[1]"), {}), nlohmann::json({1}));
+    EXPECT_EQ(
+        read_study(write("study.json", R"({"scene": 3, "overrides": 4})"), {"/a=1"})["overrides"],
+        4);
+}
+
+TEST_F(StudyFile, RefusesWhatIsNoFileOrNoJson) {
+    EXPECT_THROW(read_study(folder_ / "absent.json", {}), fault::IoError);
+    EXPECT_THROW(read_study(folder_, {}), fault::IoError);
+    EXPECT_THROW(read_study(write("study.json", R"({"scene": "absent.json"})"), {}),
+                 fault::IoError);
+    EXPECT_THROW(read_study(write("study.json", R"({"a": 1, "a": 2})"), {}), fault::BadInput);
+}
+
+}  // namespace breach::cli
