@@ -1,0 +1,204 @@
+#include "fem_solver/element_bench/programme.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace breach::element_bench {
+
+namespace {
+
+bool shears(Boundary boundary) {
+    return boundary == Boundary::undrained_shear || boundary == Boundary::drained_shear;
+}
+
+double driven_strain(const Specimen& specimen, Boundary boundary) {
+    return shears(boundary) ? specimen.gamma : specimen.epsilon_yy;
+}
+
+/// A running test: the specimen, its boundary and its record.
+class Test {
+  public:
+    Test(const Specimen& start, Boundary boundary, const Pace& pace)
+        : boundary_(boundary),
+          pace_(pace),
+          held_(held_stress(start, boundary)),
+          sigma_yy_0_(-stress(start)[1]) {
+        record_.last = start;
+        read(0.0);
+    }
+
+    const Specimen& specimen() const { return record_.last; }
+    double strain() const { return driven_strain(record_.last, boundary_); }
+    double answer() const { return response(record_.last, boundary_); }
+    double r_u() const {
+        return sigma_yy_0_ != 0.0 ? 1.0 + stress(record_.last)[1] / sigma_yy_0_ : 0.0;
+    }
+
+    Trial attempt(double d) {
+        Trial trial = driven(record_.last, boundary_, d, held_);
+        record_.counts += trial.counts;
+        ++record_.calls;
+        return trial;
+    }
+    /// False when the specimen could not follow.
+    bool accept(const Trial& trial) {
+        if (trial.outcome == Outcome::failed) {
+            record_.outcome = Outcome::failed;
+            return false;
+        }
+        record_.last = trial.specimen;
+        ++accepted_;
+        return true;
+    }
+    bool advance(double d) { return accept(attempt(d)); }
+
+    bool due() const { return pace_.every > 0 && accepted_ % pace_.every == 0; }
+    void read(double cycles) {
+        const Voigt sigma = stress(record_.last);
+        record_.readings.push_back({.strain = strain(),
+                                    .response = answer(),
+                                    .sigma_xx = -sigma[0],
+                                    .sigma_yy = -sigma[1],
+                                    .tau = sigma[3],
+                                    .epsilon_v = record_.last.epsilon_v,
+                                    .r_u = r_u(),
+                                    .cycles = cycles});
+    }
+    Record finish(double cycles) {
+        if (!due()) read(cycles);
+        return std::move(record_);
+    }
+
+  private:
+    Boundary boundary_;
+    Pace pace_;
+    double held_;
+    double sigma_yy_0_;
+    long accepted_ = 0;
+    Record record_;
+};
+
+}  // namespace
+
+Record monotonic(const Specimen& start, Boundary boundary, double target, const Pace& pace) {
+    Test test(start, boundary, pace);
+    const double way = target - driven_strain(start, boundary);
+    const long steps = std::max(1L, std::lround(std::abs(way) / pace.step));
+    const double d = way / static_cast<double>(steps);
+    for (long i = 0; i < steps; ++i) {
+        if (!test.advance(d)) break;
+        if (test.due()) test.read(0.0);
+    }
+    return test.finish(0.0);
+}
+
+namespace {
+
+/// The step in (0, d] whose response is `target`, by regula falsi (Illinois): the response passes
+/// it between 0 and d. Every trial starts from the same specimen.
+Trial step_onto(Test& test, Boundary boundary, double d, double target, double tolerance) {
+    double a = 0.0, fa = test.answer() - target;
+    double b = d;
+    Trial trial = test.attempt(b);
+    double fb = response(trial.specimen, boundary) - target;
+    for (int pass = 0; pass < 60; ++pass) {
+        if (std::abs(fb) <= tolerance || trial.outcome == Outcome::failed) break;
+        const double c = b - fb * (b - a) / (fb - fa);
+        trial = test.attempt(c);
+        const double fc = response(trial.specimen, boundary) - target;
+        if (fc * fb < 0.0) {
+            a = b;
+            fa = fb;
+        } else {
+            fa *= 0.5;
+        }
+        b = c;
+        fb = fc;
+    }
+    return trial;
+}
+
+}  // namespace
+
+CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const CyclicStress& load,
+                           const Limit& limit, const Pace& pace) {
+    CyclicResult result;
+    Test test(start, boundary, pace);
+    const double tolerance = 1e-9 * load.amplitude;
+    double direction = 1.0;
+    double N = 0.0;
+    int half_cycles = 0;
+    while (half_cycles <= 2 * limit.cycles) {
+        const double target = load.mean + direction * load.amplitude;
+        Trial trial = test.attempt(direction * pace.step);
+        bool turns = false;
+        if (trial.outcome == Outcome::done &&
+            direction * (response(trial.specimen, boundary) - target) >= -tolerance) {
+            trial = step_onto(test, boundary, direction * pace.step, target, tolerance);
+            turns = true;
+        }
+        if (!test.accept(trial)) break;
+
+        // Phase of the equivalent sine: a quarter up, then half cycles.
+        const double x = std::clamp((test.answer() - load.mean) / load.amplitude, -1.0, 1.0);
+        const double phase = std::asin(x) / (2.0 * std::numbers::pi);
+        N = std::max(N, 0.5 * half_cycles + direction * phase);
+        const double r_u = test.r_u();
+        result.largest_r_u = std::max(result.largest_r_u, r_u);
+        if (test.due() || turns) test.read(N);
+        const double strain = std::abs(test.strain());
+        if (result.N_1_percent < 0.0 && strain >= 0.01) result.N_1_percent = N;
+        if (result.N_r_u < 0.0 && r_u >= 0.95) result.N_r_u = N;
+        if (strain >= limit.strain) {
+            result.N_strain = N;
+            break;
+        }
+        if (r_u >= limit.r_u) break;
+        if (turns) {
+            direction = -direction;
+            ++half_cycles;
+        }
+    }
+    result.record = test.finish(N);
+    return result;
+}
+
+Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude, int cycles,
+                     const Pace& pace) {
+    Test test(start, boundary, pace);
+    double from = driven_strain(start, boundary);
+    double N = 0.0;
+    // Turning points: up by a quarter, down, up, ..., and back to the middle.
+    for (int leg = 0; leg <= 2 * cycles; ++leg) {
+        const double side = leg % 2 == 0 ? 1.0 : -1.0;
+        const double to = leg == 2 * cycles ? 0.0 : side * amplitude;
+        const long steps = std::max(1L, std::lround(std::abs(to - from) / pace.step));
+        const double part = std::abs(to - from) / amplitude / 4.0 / static_cast<double>(steps);
+        for (long i = 0; i < steps; ++i) {
+            if (!test.advance((to - from) / static_cast<double>(steps))) return test.finish(N);
+            N += part;
+            if (test.due()) test.read(N);
+        }
+        from = to;
+    }
+    return test.finish(N);
+}
+
+Loop hysteresis(const Specimen& start, Boundary boundary, double amplitude, int cycles, int steps) {
+    const Record record = cyclic_strain(start, boundary, amplitude, cycles + 1,
+                                        {.step = amplitude / steps, .every = 1});
+    const auto& all = record.readings;
+    // The last whole loop lies between its positive peak and the one before.
+    const std::size_t peak = static_cast<std::size_t>(steps) * (4 * (cycles - 1) + 1);
+    const std::size_t next = std::min(peak + 4 * static_cast<std::size_t>(steps), all.size() - 1);
+    double lost = 0.0, high = all[peak].response, low = high;
+    for (std::size_t i = peak; i < next; ++i) {
+        lost += 0.5 * (all[i].response + all[i + 1].response) * (all[i + 1].strain - all[i].strain);
+        low = std::min(low, all[i + 1].response);
+    }
+    const double G = (high - low) / (2.0 * amplitude);
+    return {amplitude, G, lost / (2.0 * std::numbers::pi * G * amplitude * amplitude)};
+}
+
+}  // namespace breach::element_bench

@@ -1,0 +1,79 @@
+// Test programmes on one specimen: monotonic shearing, cycles between stresses or strains, cyclic
+// strength (CRR curves), modulus reduction and damping. Pure functions from a specimen to a record.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/element_bench/specimen.hpp"
+
+namespace breach::element_bench {
+
+/// One recorded moment. Stresses [Pa], compression positive except tau.
+struct Reading {
+    double strain;    ///< the driven strain: gamma, or epsilon_yy
+    double response;  ///< tau, or half the stress difference
+    double sigma_xx, sigma_yy, tau;
+    double epsilon_v;  ///< compression positive
+    double r_u;        ///< 1 - sigma_yy / sigma_yy at the start; excess pore pressure ratio
+    double cycles;     ///< cycle count, 0 in monotonic tests
+};
+
+struct Record {
+    std::vector<Reading> readings;
+    Specimen last;
+    Outcome outcome = Outcome::done;
+    long calls = 0;
+    materials::pm4sand::Counts counts;
+};
+
+/// How strain goes on and how much of it is written down.
+struct Pace {
+    double step;    ///< strain per call
+    int every = 1;  ///< readings every so many calls; 0: only first and last
+};
+
+/// Drives the strain to `target` in equal steps.
+Record monotonic(const Specimen& start, Boundary boundary, double target, const Pace& pace);
+
+/// What ends a cyclic test.
+struct Limit {
+    double strain = 0.03;  ///< single amplitude of the driven strain
+    double r_u = 2.0;      ///< excess pore pressure ratio; above 1: never
+    int cycles = 200;
+};
+
+/// A cyclic test whose stress turns round at mean +- amplitude [Pa].
+struct CyclicStress {
+    double amplitude;
+    double mean = 0.0;
+};
+
+struct CyclicResult {
+    Record record;
+    double N_strain = -1.0;     ///< cycles to the limit of strain, -1: not reached
+    double N_1_percent = -1.0;  ///< cycles to 1 % strain
+    double N_r_u = -1.0;        ///< cycles to r_u = 0.95
+    double largest_r_u = 0.0;
+};
+
+/// Stress-reversed cycles. N counts as for a sine stress of unit period and never falls: when the
+/// specimen flows and cannot carry the amplitude, N stays at the phase of its last peak. The
+/// reversal lies on the target to 1e-9 of the amplitude.
+CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const CyclicStress& load,
+                           const Limit& limit, const Pace& pace);
+
+/// Strain-reversed cycles between +-amplitude.
+Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude, int cycles,
+                     const Pace& pace);
+
+struct Loop {
+    double amplitude;  ///< strain
+    double G_secant;   ///< [Pa]
+    double damping;    ///< energy lost / (4 pi energy stored) [-]
+};
+
+/// Secant modulus and damping of the last of `cycles` strain cycles, in `steps` calls a quarter.
+Loop hysteresis(const Specimen& start, Boundary boundary, double amplitude, int cycles, int steps);
+
+}  // namespace breach::element_bench

@@ -1,0 +1,121 @@
+#include "fem_solver/element_bench/specimen.hpp"
+
+#include <cmath>
+
+namespace breach::element_bench {
+
+namespace pm4sand = materials::pm4sand;
+
+Voigt stress(const Specimen& specimen) {
+    if (const auto* plain = std::get_if<PlainPoint>(&specimen.point)) return plain->state.sigma;
+    const auto& sand = std::get<SandPoint>(specimen.point);
+    return pm4sand::stress(sand.law, sand.state);
+}
+
+double shear_modulus(const Specimen& specimen) {
+    if (const auto* plain = std::get_if<PlainPoint>(&specimen.point)) {
+        return materials::elasticity(plain->law).shear_modulus();
+    }
+    return std::get<SandPoint>(specimen.point).state.G;
+}
+
+namespace {
+
+Outcome strain_point(PlainPoint& point, const Voigt& d, pm4sand::Counts&) {
+    if (!d.allFinite()) return Outcome::failed;
+    point.state =
+        std::visit([&](const auto& law) { return materials::integrate(law, point.state, d).state; },
+                   point.law);
+    return Outcome::done;
+}
+
+Outcome strain_point(SandPoint& point, const Voigt& d, pm4sand::Counts& counts) {
+    const auto update = pm4sand::integrate(point.law, point.state, d, point.options);
+    counts = update.counts;
+    point.state = update.state;
+    return update.outcome == pm4sand::Outcome::done ? Outcome::done : Outcome::failed;
+}
+
+/// Strain increment of a boundary: the driven part and the strain that is free.
+Voigt increment(Boundary boundary, double d, double free) {
+    switch (boundary) {
+        case Boundary::undrained_shear:
+            return {0.0, 0.0, 0.0, d};
+        case Boundary::drained_shear:
+            return {0.0, free, 0.0, d};
+        case Boundary::undrained_biaxial:
+            return {d, -d, 0.0, 0.0};
+        case Boundary::drained_biaxial:
+            return {free, -d, 0.0, 0.0};
+    }
+    return Voigt::Zero();
+}
+
+/// Index of the stress that the boundary holds and whose strain is free, or -1.
+int held_component(Boundary boundary) {
+    if (boundary == Boundary::drained_shear) return 1;
+    if (boundary == Boundary::drained_biaxial) return 0;
+    return -1;
+}
+
+}  // namespace
+
+Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
+    Trial trial{specimen, Outcome::done, {}};
+    trial.outcome =
+        std::visit([&](auto& point) { return strain_point(point, d_epsilon, trial.counts); },
+                   trial.specimen.point);
+    if (trial.outcome == Outcome::failed) {
+        trial.specimen = specimen;
+        return trial;
+    }
+    trial.specimen.epsilon_v -= d_epsilon[0] + d_epsilon[1];
+    trial.specimen.epsilon_yy -= d_epsilon[1];
+    trial.specimen.gamma += d_epsilon[3];
+    return trial;
+}
+
+double held_stress(const Specimen& specimen, Boundary boundary) {
+    const int component = held_component(boundary);
+    return component < 0 ? 0.0 : stress(specimen)[component];
+}
+
+double response(const Specimen& specimen, Boundary boundary) {
+    const Voigt sigma = stress(specimen);
+    const bool shears =
+        boundary == Boundary::undrained_shear || boundary == Boundary::drained_shear;
+    return shears ? sigma[3] : 0.5 * (sigma[0] - sigma[1]);
+}
+
+Trial driven(const Specimen& specimen, Boundary boundary, double d, double held) {
+    const int component = held_component(boundary);
+    if (component < 0) return strained(specimen, increment(boundary, d, 0.0));
+
+    // Secant for the free strain, started with the constrained modulus; every trial starts from the
+    // same specimen.
+    constexpr int most_passes = 40;
+    const double tolerance = 1e-8 * std::max(std::abs(held), 1.0);
+    const double stiffness = 4.0 * shear_modulus(specimen);
+    double x0 = 0.0;
+    Trial trial = strained(specimen, increment(boundary, d, x0));
+    if (trial.outcome == Outcome::failed) return trial;
+    double f0 = stress(trial.specimen)[component] - held;
+    double x1 = x0 - f0 / stiffness;
+    pm4sand::Counts counts = trial.counts;
+    for (int pass = 0; pass < most_passes; ++pass) {
+        if (std::abs(f0) <= tolerance) break;
+        trial = strained(specimen, increment(boundary, d, x1));
+        counts += trial.counts;
+        if (trial.outcome == Outcome::failed) return trial;
+        const double f1 = stress(trial.specimen)[component] - held;
+        const double slope = (f1 - f0) / (x1 - x0);
+        x0 = x1;
+        f0 = f1;
+        x1 -= f1 / (std::isfinite(slope) && slope > 1e-4 * stiffness ? slope : stiffness);
+    }
+    trial.counts = counts;
+    if (std::abs(f0) > 1e3 * tolerance) return {specimen, Outcome::failed, counts};
+    return trial;
+}
+
+}  // namespace breach::element_bench

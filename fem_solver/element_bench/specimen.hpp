@@ -1,0 +1,72 @@
+// One material point in the laboratory: any law behind one pure door, and the few kinds of boundary
+// that a plane-strain element test has. No test programme in here.
+#pragma once
+
+#include <variant>
+
+#include "core/materials/law.hpp"
+#include "core/materials/pm4sand.hpp"
+
+namespace breach::element_bench {
+
+using mechanics::Voigt;
+
+/// A point of an elastic or Mohr-Coulomb zone.
+struct PlainPoint {
+    materials::Law law;
+    materials::State state;
+};
+
+/// A point of PM4Sand.
+struct SandPoint {
+    materials::pm4sand::Ready law;
+    materials::pm4sand::Options options;
+    materials::pm4sand::State state;
+};
+
+/// Laws with their state; copied for a trial, assigned on acceptance.
+struct Specimen {
+    std::variant<PlainPoint, SandPoint> point;
+    double epsilon_v =
+        0.0;             ///< volumetric strain since the start of the test, compression positive
+    double gamma = 0.0;  ///< engineering shear strain since the start
+    double epsilon_yy = 0.0;  ///< vertical strain since the start, compression positive
+};
+
+/// Effective stress [Pa, tension positive].
+Voigt stress(const Specimen& specimen);
+
+/// Initial tangent shear modulus [Pa].
+double shear_modulus(const Specimen& specimen);
+
+enum class Outcome { done, failed };
+
+/// A specimen after a trial; `failed` leaves it as it was.
+struct Trial {
+    Specimen specimen;
+    Outcome outcome = Outcome::done;
+    materials::pm4sand::Counts counts;
+};
+
+/// Strains the specimen by d_epsilon [-, tension positive, engineering shear].
+Trial strained(const Specimen& specimen, const Voigt& d_epsilon);
+
+/// What is held while the driven strain goes on.
+enum class Boundary {
+    undrained_shear,    ///< gamma driven, epsilon_xx = epsilon_yy = 0
+    drained_shear,      ///< gamma driven, epsilon_xx = 0, sigma_yy held
+    undrained_biaxial,  ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
+    drained_biaxial,    ///< epsilon_yy driven, sigma_xx held, no shear
+};
+
+/// Advances the driven strain by `d`; `held` is the stress component that the boundary holds [Pa,
+/// tension positive], if it holds one. Fails when no strain meets it.
+Trial driven(const Specimen& specimen, Boundary boundary, double d, double held);
+
+/// The stress component that the boundary holds, at the start of a test.
+double held_stress(const Specimen& specimen, Boundary boundary);
+
+/// The stress that answers the driven strain: tau, or half the stress difference yy - xx [Pa].
+double response(const Specimen& specimen, Boundary boundary);
+
+}  // namespace breach::element_bench
