@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
     app.set_version_flag("--version", "breachline " BREACH_VERSION);
     app.require_subcommand(1);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     CLI::App* serving = app.add_subcommand("serve", "answer requests and run what is submitted");
     serving->add_option("--data", settings.data, "folder of the database and all results")
         ->capture_default_str();

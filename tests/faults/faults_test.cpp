@@ -102,8 +102,15 @@ TEST(Faults, KilledServiceFindsItsPhasesAgainAndTheTableIsTheSame) {
     EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
     expect_whole_table(third.table(run), four_times);
     expect_no_task_succeeded_twice(sandbox, end);
-    for (const json& task : end.at("tasks"))
-        EXPECT_EQ(task.at("attempts").size(), 1u) << task.at("label");
+    // No phase was disturbed. What may be repeated is an attempt that was stored but not yet
+    // started.
+    for (const json& task : end.at("tasks")) {
+        for (const json& attempt : task.at("attempts")) {
+            const bool came_through = attempt.at("exit_code") == 0;
+            EXPECT_TRUE(came_through || attempt.at("state") == "lost") << task;
+            EXPECT_TRUE(came_through || attempt.at("started").is_null()) << task;
+        }
+    }
 }
 
 TEST(Faults, KillingServiceAndPhasesTogetherLosesNothing) {

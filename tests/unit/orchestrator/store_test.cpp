@@ -60,7 +60,9 @@ class StoreTest : public ::testing::Test {
             const auto number = t.add_attempt(task);
             t.move_attempt(task, number, AttemptEvent::submit);
             t.move_task(task, TaskEvent::start);
-            t.move_attempt(task, number, AttemptEvent::exit, {.exit_code = 0, .cpu_seconds = 2.0});
+            AttemptEnd end;
+            end.exit_code = 0;
+            t.move_attempt(task, number, AttemptEvent::exit, end);
             t.move_task(task, TaskEvent::exit_well);
             t.finish_task(task, result, {{task, "result.json", std::string(64, 'a'), 10}});
         });
