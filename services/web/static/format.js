@@ -1,10 +1,10 @@
 // Numbers, times and states as people read them.
 
-/// Four significant digits, thin exponent for the very large and small; "–" for what is not there.
+/// Four significant digits, 2.5e6 for the very large and small; "–" for what is not there.
 export function number(value, digits = 4) {
     if (value === null || value === undefined || !Number.isFinite(value)) return "–";
     const size = Math.abs(value);
-    if (size !== 0 && (size >= 1e6 || size < 1e-3)) return value.toExponential(Math.max(digits - 2, 1));
+    if (size !== 0 && (size >= 1e6 || size < 1e-3)) return value.toExponential(Math.max(digits - 2, 1)).replace(/\.?0*e\+?/, "e");
     return String(Number(value.toPrecision(digits)));
 }
 

@@ -114,7 +114,7 @@ export class Particles {
     /// Looks for new snapshots; stays with the newest one when it was shown.
     async extend() {
         const task = this.task;
-        const frames = await api.list_frames(task);
+        const frames = last_state_last(await api.list_frames(task));
         if (task !== this.task) return;
         const at_end = this.at === this.frames.length - 1;
         const grew = frames.length !== this.frames.length;
@@ -211,6 +211,8 @@ export class Particles {
         }
         if (!snapshot || this.at !== index) return;
         this.snapshot = snapshot;
+        frame.time = snapshot.time; // the list has it from the file's name, if at all
+        this.update_controls();
         if (!this.view.box) await this.find_box();
         this.paint();
     }
@@ -311,6 +313,12 @@ export class Particles {
         play.disabled = last === 0;
         set_text(play, this.playing ? "❚❚ Pause" : "▶ Play");
     }
+}
+
+/// "final.vtkhdf" has no time in its name, so it is listed with 0.
+function last_state_last(frames) {
+    const timed = (frame) => /\d/.test(frame.name);
+    return [...frames.filter(timed), ...frames.filter((frame) => !timed(frame))];
 }
 
 function source_name(task) {
