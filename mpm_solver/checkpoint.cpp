@@ -10,7 +10,7 @@ using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
 constexpr int version = 1;
-constexpr const char* history_prefix = "history/";
+constexpr const char* history_prefix = "history.";
 
 /// The numbers of the run that are not per point. Calls visit(name, value).
 template <class AnyClock, class AnyStart, class AnyTally, class Visit>
@@ -68,13 +68,13 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
     });
     for_each_number(simulation.clock(), simulation.start(), body.tally,
                     [&](const char* name, double value) {
-                        archive.reals[std::string("run/") + name] = {value};
+                        archive.reals[std::string("run.") + name] = {value};
                     });
     const Clock& clock = simulation.clock();
-    archive.integers["run/step"] = {clock.step};
-    archive.integers["run/frames"] = {clock.frames};
-    archive.integers["run/looks"] = {clock.looks};
-    archive.integers["run/telemetry_lines"] = {telemetry_lines};
+    archive.integers["run.step"] = {clock.step};
+    archive.integers["run.frames"] = {clock.frames};
+    archive.integers["run.looks"] = {clock.looks};
+    archive.integers["run.telemetry_lines"] = {telemetry_lines};
     store(simulation.history(), history_prefix, archive);
     archive.texts["scene"] = provenance.scene;
     archive.texts["inputs"] = digests(provenance);
@@ -93,13 +93,13 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         Clock clock;
         Start start;
         for_each_number(clock, start, body.tally, [&](const char* name, double& value) {
-            value = archive.reals.at(std::string("run/") + name).at(0);
+            value = archive.reals.at(std::string("run.") + name).at(0);
         });
-        clock.step = archive.integers.at("run/step").at(0);
-        clock.frames = archive.integers.at("run/frames").at(0);
-        clock.looks = archive.integers.at("run/looks").at(0);
+        clock.step = archive.integers.at("run.step").at(0);
+        clock.frames = archive.integers.at("run.frames").at(0);
+        clock.looks = archive.integers.at("run.looks").at(0);
         return {Simulation(scene, std::move(body), clock, start, load(archive, history_prefix)),
-                archive.integers.at("run/telemetry_lines").at(0)};
+                archive.integers.at("run.telemetry_lines").at(0)};
     } catch (const std::out_of_range&) {
         throw fault::BadInput(file.string(), {{"/", "lacks an array of a checkpoint",
                                                "start afresh without --resume"}});

@@ -92,7 +92,10 @@ inline void advance(Body& body, const scene::Scene& scene, double end,
     for (double time = 0.0; time < end * (1.0 - 1e-12);) {
         const double dt = std::min(courant_step(body, scene.mpm->cfl), end - time);
         step(body, dt);
-        if (body.tally.lost != Tally::none) throw std::runtime_error("point " + std::to_string(body.tally.lost) + " lost at (" + std::to_string(body.points.x[body.tally.lost]) + ", " + std::to_string(body.points.y[body.tally.lost]) + ")");
+        if (body.tally.lost != Tally::none)
+            throw std::runtime_error("point " + std::to_string(body.tally.lost) + " lost at (" +
+                                     std::to_string(body.points.x[body.tally.lost]) + ", " +
+                                     std::to_string(body.points.y[body.tally.lost]) + ")");
         time += dt;
         if (each) each(time);
     }

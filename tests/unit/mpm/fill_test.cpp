@@ -1,0 +1,55 @@
+#include "mpm_solver/fill.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/mpm/bodies.hpp"
+
+namespace breach::mpm::test {
+namespace {
+
+TEST(Fill, AreaAndCentroidAreThePolygons) {
+    // A slope whose edges cut cells at every angle, and a re-entrant corner.
+    const scene::Polygon slope{{0.3, 0.0}, {9.7, 0.0}, {6.1, 3.3}, {4.0, 1.7}, {1.9, 4.4}};
+    const double area = scene::area(slope);
+    for (const int points : {1, 2, 3, 4}) {
+        scene::Scene scene = one_soil(elastic(1e6, 0.3), 2000.0, slope, 1.0, 10.0, 6.0);
+        scene.mpm->fill_points = points;
+        const FilledSection filled = fill_section(scene);
+        ASSERT_EQ(filled.regions.size(), 1U);
+        EXPECT_NEAR(filled.regions[0].sampled_area, area, 1e-12 * area);
+        EXPECT_DOUBLE_EQ(filled.regions[0].polygon_area, area);
+        double mass = 0.0;
+        for (std::size_t p = 0; p < filled.state.size(); ++p) {
+            mass += filled.state.mass[p];
+            EXPECT_TRUE(scene::contains(slope, filled.state.position[p], 0.3));
+        }
+        EXPECT_NEAR(mass, 2000.0 * area, 1e-9 * mass);
+    }
+}
+
+TEST(Fill, CellsOfARectangleGetTheirGaussLikeLattice) {
+    const scene::Scene scene =
+        one_soil(elastic(1e6, 0.3), 2000.0, rectangle(1, 0, 3, 1), 1.0, 4.0, 2.0);
+    const exchange::ParticleState state = fill_section(scene).state;
+    ASSERT_EQ(state.size(), 8U);
+    EXPECT_NEAR(state.position[0].x(), 1.25, 1e-14);
+    EXPECT_NEAR(state.position[0].y(), 0.25, 1e-14);
+    for (const double volume : state.volume) EXPECT_NEAR(volume, 0.25, 1e-14);
+}
+
+TEST(Fill, LevelsBetweenGridLinesKeepTheirHeight) {
+    const scene::Scene scene =
+        one_soil(elastic(1e6, 0.3), 2000.0, rectangle(0, 0, 4, 2.94), 1.0, 4.0, 4.0);
+    const exchange::ParticleState state = fill_section(scene).state;
+    double moment = 0.0;
+    double volume = 0.0;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        moment += state.volume[p] * state.position[p].y();
+        volume += state.volume[p];
+    }
+    EXPECT_NEAR(volume, 4.0 * 2.94, 1e-12);
+    EXPECT_NEAR(moment / volume, 1.47, 1e-12);
+}
+
+}  // namespace
+}  // namespace breach::mpm::test

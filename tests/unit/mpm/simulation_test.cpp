@@ -1,0 +1,134 @@
+#include "mpm_solver/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mpm_solver/checkpoint.hpp"
+#include "tests/unit/mpm/bodies.hpp"
+
+namespace breach::mpm::test {
+namespace {
+
+scene::Scene heap() {
+    scene::Scene scene =
+        one_soil(sand(5e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 20.0, 6.0);
+    scene.gravity = 9.81;
+    scene.mpm->left = scene::Wall::roller;
+    scene.mpm->floor.friction = {{0.0, 20.0, 0.5}};
+    scene.mpm->snapshot_interval = 0.25;
+    scene.mpm->duration = 10.0;
+    scene.mpm->runout.toe = {4.0, 0.0};
+    return scene;
+}
+
+Simulation fresh(const scene::Scene& scene) { return {scene, filled_body(scene), 0.0}; }
+
+void advance_looking(Simulation& simulation, std::int64_t steps) {
+    for (std::int64_t k = 0; k < steps; ++k) {
+        simulation.advance();
+        if (simulation.look_due()) simulation.look();
+        if (simulation.frame_due()) simulation.frame_taken();
+    }
+}
+
+void expect_same_bits(const Simulation& a, const Simulation& b) {
+    EXPECT_EQ(a.clock().time, b.clock().time);
+    EXPECT_EQ(a.clock().dt_min, b.clock().dt_min);
+    EXPECT_EQ(a.body().tally.plastic, b.body().tally.plastic);
+    EXPECT_EQ(a.body().tally.friction, b.body().tally.friction);
+    std::vector<const std::vector<double>*> arrays;
+    for_each_real(a.body().points,
+                  [&](const char*, const auto& values) { arrays.push_back(&values); });
+    std::size_t k = 0;
+    for_each_real(b.body().points, [&](const char* name, const auto& values) {
+        EXPECT_TRUE(*arrays[k++] == values) << name;
+    });
+    ASSERT_EQ(a.history().size(), b.history().size());
+    EXPECT_EQ(a.history().back().energy_numerical, b.history().back().energy_numerical);
+}
+
+class Resume : public testing::TestWithParam<scene::UpdateOrder> {};
+
+TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
+    scene::Scene scene = heap();
+    scene.mpm->order = GetParam();
+    const exchange::Provenance provenance{
+        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("breach_mpm_resume_" + std::to_string(static_cast<int>(GetParam())) + ".h5");
+    Simulation whole = fresh(scene);
+    Simulation stopped = fresh(scene);
+    advance_looking(whole, 137);
+    advance_looking(stopped, 137);
+    save_checkpoint(file, stopped, 42, provenance);
+    Resumed resumed = load_checkpoint(file, scene, provenance);
+    EXPECT_EQ(resumed.telemetry_lines, 42);
+    advance_looking(whole, 200);
+    advance_looking(resumed.simulation, 200);
+    expect_same_bits(whole, resumed.simulation);
+
+    exchange::Provenance other = provenance;
+    other.scene = "{\"name\":\"other\"}";
+    EXPECT_THROW(load_checkpoint(file, scene, other), fault::BadInput);
+    std::filesystem::remove(file);
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, Resume,
+                         testing::Values(scene::UpdateOrder::usl, scene::UpdateOrder::musl));
+
+TEST(Simulation, HitsSnapshotTimesExactly) {
+    const scene::Scene scene = heap();
+    Simulation simulation = fresh(scene);
+    std::vector<double> times;
+    while (simulation.clock().time < 1.0) {
+        if (simulation.frame_due()) {
+            times.push_back(simulation.clock().time);
+            simulation.frame_taken();
+        }
+        simulation.advance();
+    }
+    EXPECT_EQ(times, (std::vector<double>{0.0, 0.25, 0.5, 0.75}));
+}
+
+TEST(Simulation, AGridTooSmallIsABreakdownThatSaysWhere) {
+    scene::Scene scene = heap();
+    scene.mpm->domain_x = {0.0, 5.0};
+    Simulation simulation = fresh(scene);
+    try {
+        advance_looking(simulation, 100000);
+        FAIL() << "nothing stopped it";
+    } catch (const fault::Breakdown& breakdown) {
+        const std::string text = breakdown.what();
+        EXPECT_NE(text.find("right end of the grid"), std::string::npos) << text;
+        EXPECT_NE(text.find("t = "), std::string::npos) << text;
+    }
+    const exchange::ParticleState good = simulation.last_good_state();
+    for (const auto& x : good.position) EXPECT_LE(x.x(), 5.0);
+    EXPECT_GT(good.time, 0.0);
+}
+
+TEST(Simulation, AStepFarTooLargeIsABreakdownNotAResult) {
+    scene::Scene scene = heap();
+    scene.mpm->time_step = 0.02;  // CFL 2.3
+    Simulation simulation = fresh(scene);
+    EXPECT_THROW(advance_looking(simulation, 2000), fault::Breakdown);
+}
+
+TEST(Simulation, StopsAtRestAndSaysSo) {
+    const scene::Scene scene = heap();
+    Simulation simulation = fresh(scene);
+    while (simulation.verdict() == Verdict::goes_on) advance_looking(simulation, 1);
+    EXPECT_EQ(simulation.verdict(), Verdict::rests);
+    EXPECT_LT(simulation.clock().time, 10.0);
+}
+
+TEST(Simulation, EndsAtDurationWhenItDoesNotRest) {
+    scene::Scene scene = heap();
+    scene.mpm->duration = 0.3;
+    Simulation simulation = fresh(scene);
+    while (simulation.verdict() == Verdict::goes_on) advance_looking(simulation, 1);
+    EXPECT_EQ(simulation.verdict(), Verdict::time_is_up);
+    EXPECT_NEAR(simulation.clock().time, 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace breach::mpm::test
