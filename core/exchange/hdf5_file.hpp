@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -116,6 +117,9 @@ class Hdf5Reader {
     /// A number of rows: not negative, and not more than a file of this size can hold.
     std::size_t count_attribute(const std::string& object, const std::string& name);
 
+    /// Reads every dataset that was not asked for, so that its checksums are compared too.
+    void check_rest();
+
     void fault(const std::string& path, const std::string& cause);
     void refuse_if_faulty() const;
 
@@ -137,6 +141,7 @@ class Hdf5Reader {
     std::string remedy_;
     std::uintmax_t bytes_;
     Handle file_;
+    std::set<std::string> opened_;
     std::vector<fault::Fault> faults_;
 };
 

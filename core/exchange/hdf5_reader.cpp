@@ -111,6 +111,7 @@ std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
 
 std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
                                                     H5T_class_t type_class) {
+    opened_.insert(path);
     if (!exists(path)) {
         fault(path, "missing");
         return std::nullopt;
@@ -269,6 +270,32 @@ std::size_t Hdf5Reader::count_attribute(const std::string& object, const std::st
         return 0;
     }
     return static_cast<std::size_t>(value);
+}
+
+void Hdf5Reader::check_rest() {
+    std::vector<std::string> paths;
+    const auto collect = [](hid_t, const char* name, const H5O_info_t* info, void* out) -> herr_t {
+        if (info->type == H5O_TYPE_DATASET)
+            static_cast<std::vector<std::string>*>(out)->push_back(std::string("/").append(name));
+        return 0;
+    };
+    if (H5Ovisit2(file_.get(), H5_INDEX_NAME, H5_ITER_NATIVE, collect, &paths, H5O_INFO_BASIC) < 0)
+        fault("/", "damaged");
+    for (const std::string& path : paths) {
+        if (opened_.contains(path)) continue;
+        const Handle id(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+        const Handle type(id ? H5Dget_type(id.get()) : -1, H5Tclose);
+        const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
+        const double needed =
+            type && space ? static_cast<double>(H5Tget_size(type.get())) *
+                                static_cast<double>(H5Sget_simple_extent_npoints(space.get()))
+                          : 0.0;
+        const bool plausible = type && space && needed <= static_cast<double>(bytes_);
+        std::vector<char> values(plausible ? static_cast<std::size_t>(needed) : 0);
+        if (!plausible || (!values.empty() && H5Dread(id.get(), type.get(), H5S_ALL, H5S_ALL,
+                                                      H5P_DEFAULT, values.data()) < 0))
+            fault(path, "cannot be read: checksum mismatch or damaged storage");
+    }
 }
 
 void Hdf5Reader::fault(const std::string& path, const std::string& cause) {

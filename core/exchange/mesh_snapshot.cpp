@@ -180,6 +180,7 @@ MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
     read_nodes(reader, s, nodes, has_pore_pressure);
     read_elements(reader, s, elements, gauss);
     file.provenance = read_provenance(reader);
+    reader.check_rest();
     reader.refuse_if_faulty();
     check_meaning(reader, s);
     reader.refuse_if_faulty();

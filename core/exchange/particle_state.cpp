@@ -153,6 +153,7 @@ ParticleStateFile read_particle_state(const std::filesystem::path& path) {
     read_regions(reader, s.regions, s.materials_of_regions);
     file.ledger = read_ledger(reader);
     file.provenance = read_provenance(reader);
+    reader.check_rest();
     reader.refuse_if_faulty();
     check_meaning(reader, s);
     reader.refuse_if_faulty();

@@ -56,8 +56,8 @@ TEST(DamagedFile, AnyFlippedByteIsRefusedOrHarmless) {
             ++refused;
         }
     }
-    std::cout << "  refused " << refused << ", harmless (unused space, data for ParaView only) "
-              << harmless << " of " << whole.size() << " bytes\n";
+    std::cout << "  refused " << refused << ", harmless (space that nothing uses) " << harmless
+              << " of " << whole.size() << " bytes\n";
     EXPECT_GT(refused, harmless / 2);
 }
 
