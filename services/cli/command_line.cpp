@@ -114,7 +114,9 @@ class CommandLine {
         CLI::App* list_ = add("list", "the newest runs", [this](Server& s, const Console& c) {
             return list_runs(s, a_.most_runs, c);
         });
-        list_->add_option("-n,--most", a_.most_runs, "how many; 0: all")->capture_default_str();
+        list_->add_option("-n,--most", a_.most_runs, "how many")
+            ->check(CLI::Range(1, 500))
+            ->capture_default_str();
 
         CLI::App* show_ =
             add("show", "a run with its tasks, or a task with its attempts and artifacts",

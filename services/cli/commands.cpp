@@ -48,7 +48,7 @@ void show_as_csv(const json& lines, const Console& console) {
 
 std::string run_named(Server& server, const std::string& name) {
     if (name != "latest") return name;
-    const json runs = server.get("/v1/runs").at("runs");
+    const json runs = server.get("/v1/runs?limit=1").at("runs");
     if (runs.empty()) throw Refused(404, "there is no run yet", {});
     return runs.front().at("id");
 }
@@ -67,9 +67,8 @@ std::string submit(Server& server, const SubmitWish& wish, const Console& consol
 }
 
 ExitCode list_runs(Server& server, std::size_t most, const Console& console) {
-    json runs = server.get("/v1/runs").at("runs");
-    if (most > 0 && runs.size() > most)
-        runs.erase(runs.begin() + static_cast<long>(most), runs.end());
+    const json runs =
+        server.get("/v1/runs" + query_of({{"limit", std::to_string(most)}})).at("runs");
     if (console.style == Style::json) {
         show_json(runs, console);
     } else if (runs.empty()) {

@@ -30,8 +30,20 @@ class EventTail {
     /// What happened since the last call; waits up to a second for something to happen. Progress is
     /// no event, so waiting longer would show it late.
     std::vector<json> next() {
+        try {
+            return take();
+        } catch (const Unreachable&) {
+            // All places for listeners may be taken; the run itself can still be asked for.
+            if (!caught_up_) throw;
+            std::this_thread::sleep_for(std::chrono::seconds(1));
+            return {};
+        }
+    }
+
+  private:
+    std::vector<json> take() {
         std::vector<json> found;
-        for (;;) {
+        do {
             json answer = server_.get("/v1/events" + query_of({{"after", std::to_string(next_)},
                                                                {"wait", caught_up_ ? "1" : "0"}}));
             const std::int64_t next = answer.at("next");
@@ -39,11 +51,10 @@ class EventTail {
             next_ = std::max(next, next_);
             for (json& event : answer["events"])
                 if (event.at("run") == run_) found.push_back(std::move(event));
-            if (caught_up_ || !found.empty()) return found;
-        }
+        } while (!caught_up_ && found.empty());
+        return found;
     }
 
-  private:
     Server& server_;
     std::string run_;
     std::int64_t next_ = 0;

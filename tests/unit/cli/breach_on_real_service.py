@@ -1,0 +1,96 @@
+"""The breach command against `breachline serve` and the real phases: a small study from its submission to its export."""
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+programs = pathlib.Path(os.environ["BREACH_BIN"])
+scenes = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/scenes"
+small = ["/fem/stages/1/duration=0.25", "/mpm/duration=1", "/mpm/cell_size=2"]
+
+
+class RealService(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.here = pathlib.Path(cls.folder.name)
+        cls.service = subprocess.Popen([programs / "breachline", "serve", "--data", cls.here / "data", "--port", "0"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        cls.url = json.loads(cls.service.stdout.readline())["url"]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.service.terminate()
+        cls.service.wait(30)
+        cls.service.stdout.close()
+        cls.folder.cleanup()
+
+    def breach(self, *arguments, code=0):
+        done = subprocess.run([programs / "breach", "--server", self.url, *map(str, arguments)], text=True,
+                              capture_output=True, timeout=120)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def study(self, overrides, times):
+        (self.here / "column.json").write_text((scenes / "column.json").read_text())
+        file = self.here / "study.json"
+        file.write_text(json.dumps({"format": "breachline-study/1", "name": "column", "scene": "column.json",
+                                    "overrides": overrides, "transfer_times": times}))
+        return file
+
+    def test_a_study_from_submission_to_export(self):
+        run = self.breach("submit", self.study(small, [0.1, 0.2])).stdout.strip()
+        self.assertIn("100 %  succeeded  5 of 5 tasks", self.breach("watch", run).stdout)
+        rows = json.loads(self.breach("results", run, "--json").stdout)["rows"]
+        self.assertEqual([each["transfer_time"] for each in rows], [0.1, 0.2])
+        self.assertTrue(all(each["runout"] > 0 for each in rows))
+        self.assertEqual(len(self.breach("results", run, "--csv").stdout.splitlines()), 3)
+        lines = self.breach("telemetry", run, "mpm_solver", "--transfer-time", 0.1, "--json").stdout.splitlines()
+        self.assertGreater(len(lines), 1)
+        self.assertIn(run, self.breach("list").stdout)
+        tasks = json.loads(self.breach("show", run, "--json").stdout)["tasks"]
+        self.assertIn("fem_solver", self.breach("logs", tasks[0]["id"]).stdout)
+        self.export_explains_itself(run)
+
+    def export_explains_itself(self, run):
+        out = self.here / "exported"
+        self.breach("export", run, out)
+        entities = {each["@id"]: each for each in json.loads((out / "ro-crate-metadata.json").read_text())["@graph"]}
+        files = {str(each.relative_to(out)) for each in out.rglob("*") if each.is_file()} - {"ro-crate-metadata.json"}
+        self.assertEqual({each["@id"] for each in entities["./"]["hasPart"]}, files)
+        for name in files:
+            self.assertEqual(entities[name]["sha256"], hashlib.sha256((out / name).read_bytes()).hexdigest())
+        made_by = {result["@id"]: each for each in entities.values() if each["@type"] == "CreateAction"
+                   for result in each["result"]}
+        final = made_by["tasks/mpm_0.100000/final.vtkhdf"]
+        particles = next(each["@id"] for each in final["object"] if each["@id"] in made_by)
+        snapshot = next(each["@id"] for each in made_by[particles]["object"] if each["@id"] in made_by)
+        self.assertEqual(particles, "tasks/transfer_0.100000/particles.vtkhdf")
+        self.assertEqual(snapshot, "tasks/fem/snapshot_0.100000.vtkhdf")
+        self.assertIn("fem_solver", made_by[snapshot]["instrument"]["@id"])
+        # What was exported can be submitted again as it is.
+        self.breach("submit", out / "study.json", "--watch")
+
+    def test_faults_come_back_with_their_pointers(self):
+        refused = self.breach("submit", self.study(small + ["/mpm/cell_size=-1"], [0.1]), code=65)
+        self.assertIn("/scene/mpm/cell_size", refused.stderr)
+        self.assertIn("remedy:", refused.stderr)
+        self.breach("show", "nobody", code=65)
+
+    def test_a_cancelled_run_is_no_success(self):
+        study = self.study(["/fem/stages/1/duration=60", "/mpm/cell_size=2"], [59])
+        run = self.breach("submit", study).stdout.strip()
+        self.breach("cancel", run)
+        self.assertIn("cancelled", self.breach("watch", run, code=70).stdout)
+        self.breach("results", run, code=70)
+
+    def test_a_plan_says_what_is_left_out(self):
+        self.assertIn("left out", self.breach("plan", scenes / "column.json").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
