@@ -26,6 +26,7 @@ export class Particles {
         this.at = -1;
         this.kept = new Map(); // frame name -> {snapshot, bytes}, oldest first
         this.highs = {};       // field -> upper end of its scale so far
+        this.times = new Map(); // frame name -> time in the file
         by_id("view-source").addEventListener("change", (event) => this.choose(event.target.value));
         by_id("view-field").addEventListener("change", (event) => {
             this.field = event.target.value;
@@ -88,6 +89,7 @@ export class Particles {
         this.frames = [];
         this.at = -1;
         this.kept.clear();
+        this.times.clear();
         this.highs = {};
         this.box_frames = "";
         this.view.snapshot = null;
@@ -116,6 +118,7 @@ export class Particles {
         const task = this.task;
         const frames = last_state_last(await api.list_frames(task));
         if (task !== this.task) return;
+        for (const frame of frames) frame.time = this.times.get(frame.name) ?? frame.time;
         const at_end = this.at === this.frames.length - 1;
         const grew = frames.length !== this.frames.length;
         this.frames = frames;
@@ -211,7 +214,8 @@ export class Particles {
         }
         if (!snapshot || this.at !== index) return;
         this.snapshot = snapshot;
-        frame.time = snapshot.time; // the list has it from the file's name, if at all
+        this.times.set(frame.name, snapshot.time); // the list has it from the file's name, if at all
+        frame.time = snapshot.time;
         this.update_controls();
         if (!this.view.box) await this.find_box();
         this.paint();

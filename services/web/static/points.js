@@ -20,21 +20,25 @@ export function extents_of(snapshots) {
     return box.x[0] <= box.x[1] ? box : null;
 }
 
-/// Typical distance to the nearest other point, from a sample [m]; the size that a particle is drawn with.
+/// Distance to the fourth-nearest other point, upper quartile of a sample [m]: on a rectangular arrangement the longer of its
+/// two spacings, so squares of this size leave no gaps.
 export function spacing_of({ columns: { x, y }, count }) {
     const sample = Math.min(60, count);
-    const nearest = [];
+    const distances = [];
     for (let k = 0; k < sample; k += 1) {
         const i = Math.floor((k * count) / sample);
-        let least = Infinity;
+        const nearest = [Infinity, Infinity, Infinity, Infinity]; // squares, ascending
         for (let j = 0; j < count; j += 1) {
-            const distance = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2;
-            if (distance < least && j !== i) least = distance;
+            const square = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2;
+            if (j === i || square >= nearest[3]) continue;
+            let place = 3;
+            for (; place > 0 && nearest[place - 1] > square; place -= 1) nearest[place] = nearest[place - 1];
+            nearest[place] = square;
         }
-        if (Number.isFinite(least)) nearest.push(Math.sqrt(least));
+        if (Number.isFinite(nearest[3])) distances.push(Math.sqrt(nearest[3]));
     }
-    nearest.sort((a, b) => a - b);
-    return nearest.length ? nearest[Math.floor(nearest.length / 2)] : 1;
+    distances.sort((a, b) => a - b);
+    return distances.length ? distances[Math.floor(0.75 * distances.length)] : 1;
 }
 
 /// The value that only one in a hundred exceeds: a few wild points do not own the scale.
@@ -191,7 +195,7 @@ export class PointView {
         const palette = this.colour.field === "region"
             ? Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i))) : scale_packed;
         const unknown = packed(unknown_css);
-        const size = Math.max(Math.ceil(1.1 * this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
+        const size = Math.max(Math.ceil(this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
         const [origin_x, origin_y] = this.to_screen(0, 0);
         for (let i = 0; i < shades.length; i += 1) {
             const left = Math.round(origin_x + x[i] * this.scale - size / 2);

@@ -51,7 +51,7 @@ export class Tasks {
         const open = element("button", { type: "button", class: "link", onclick: () => this.open(task.id) });
         return element("tr", {}, element("th", { scope: "row" }, open), element("td", { class: "number" }),
                        element("td", {}, element("span")),
-                       element("td", {}, element("progress", { max: 1 }), " ", element("span", { class: "number" })),
+                       element("td", { class: "share" }, element("progress", { max: 1 }), " ", element("span", { class: "number" })),
                        element("td", { class: "number" }), element("td", { class: "number" }),
                        element("td", { class: "message" }));
     }
