@@ -180,8 +180,11 @@ double Analysis::next_stop(double stage_end) const {
 /// two steps are left.
 double Analysis::next_step_size(double stage_end) const {
     const double left = next_stop(stage_end) - position_.time;
-    if (left <= position_.dt * (1.0 + 1e-9)) return left;
-    return left < 2.0 * position_.dt ? 0.5 * left : position_.dt;
+    const double dt = position_.dt;
+    if (std::abs(left - dt) <= 1e-9 * dt)
+        return dt;  // rounding of the clock must not cost a matrix
+    if (left < dt) return left;
+    return left < 2.0 * dt * (1.0 - 1e-9) ? 0.5 * left : dt;
 }
 
 void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {

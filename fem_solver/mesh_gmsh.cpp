@@ -176,11 +176,22 @@ void divide_unstructured(Outline& outline, const scene::Section& section,
     }
 }
 
-std::string geo_text(const Outline& outline, const scene::Section& section, int algorithm) {
+/// gmsh's 2D algorithm and how it recombines triangles to quads.
+struct Recipe {
+    int algorithm;
+    int recombination;
+};
+
+/// Tried in this order until no triangle is left: frontal and Delaunay with blossom, then frontal
+/// with blossom full-quad. (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
+constexpr std::array<Recipe, 3> recipes{{{6, 1}, {5, 1}, {6, 3}}};
+
+std::string geo_text(const Outline& outline, const scene::Section& section, const Recipe& recipe) {
     std::ostringstream geo;
     geo << std::setprecision(17);
-    geo << "General.NumThreads = 1;\nMesh.Algorithm = " << algorithm
-        << ";\nMesh.RecombinationAlgorithm = 1;\nMesh.RecombineAll = 1;\nMesh.RandomFactor = "
+    geo << "General.NumThreads = 1;\nMesh.Algorithm = " << recipe.algorithm
+        << ";\nMesh.RecombinationAlgorithm = " << recipe.recombination
+        << ";\nMesh.RecombineAll = 1;\nMesh.RandomFactor = "
            "1e-9;\n"
            "Mesh.Smoothing = 5;\nMesh.MshFileVersion = 2.2;\nMesh.Binary = 0;\n";
     double largest = 0.0;
@@ -245,27 +256,29 @@ int run_program(std::vector<std::string> words, const std::filesystem::path& log
 }  // namespace
 
 Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& folder) {
-    constexpr std::array<int, 3> algorithms{8, 6, 5};  // frontal for quads, frontal, Delaunay
     Outline outline = outline_of(section);
     std::vector<fault::Fault> faults;
     for (std::size_t r = 0; r < section.regions.size(); ++r) {
-        if (section.regions[r].mesh == scene::RegionMesh::block)
+        if (section.regions[r].mesh == scene::RegionMesh::block) {
             divide_block(outline, section, r, faults);
+        }
     }
     divide_unstructured(outline, section, faults);
     if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
     const auto geo = folder / "mesh.geo", msh = folder / "mesh.msh", log = folder / "gmsh.log";
     for (std::size_t attempt = 0;; ++attempt) {
-        exchange::publish_text(geo, geo_text(outline, section, algorithms[attempt]));
+        exchange::publish_text(geo, geo_text(outline, section, recipes[attempt]));
         const int code = run_program({"gmsh", "-2", geo.string(), "-o", msh.string()}, log);
-        if (code != 0) {
+        const bool last = attempt + 1 == recipes.size();
+        if (code != 0 && last) {
             throw fault::IoError("gmsh failed with exit code " + std::to_string(code) + ": see " +
                                  log.string());
         }
+        if (code != 0) continue;
         try {
             return read_msh(msh, section);
         } catch (const fault::BadInput&) {
-            if (attempt + 1 == algorithms.size()) throw;  // another algorithm may leave no triangle
+            if (last) throw;  // another recipe may leave no triangle
         }
     }
 }

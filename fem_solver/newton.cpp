@@ -103,10 +103,14 @@ void Newton::set_residual(const Problem& problem, Motion& trial) {
 }
 
 /// What the residual is measured against: the weight, or the internal forces where they are larger
-/// (no gravity).
+/// (no gravity). Never so small that the tolerance asks for less than the round-off of M a = c_a M
+/// (u - u_predicted).
 double Newton::reference_force(const Problem& problem, const Motion& trial) const {
+    constexpr double round_off = 1e-15;
+    const double inertia =
+        problem.rule.c_a * (model_.mass.array() * trial.u.array()).matrix().norm();
     return std::max({problem.load * model_.external_force.norm(), trial.force.norm(),
-                     problem.old.force.norm()});
+                     problem.old.force.norm(), round_off * inertia / settings_.tolerance});
 }
 
 /// Combines the plain correction g = A^-1 R with the last ones so that the combination's own g is

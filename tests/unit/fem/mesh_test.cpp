@@ -1,0 +1,103 @@
+// Mapped blocks, their joints, and what is refused.
+#include "fem_solver/mesh.hpp"
+
+#include <gtest/gtest.h>
+
+namespace breach::fem {
+namespace {
+
+scene::Region block(const std::string& name, scene::Polygon polygon,
+                    std::array<std::size_t, 4> corners, std::array<int, 2> divisions) {
+    scene::Region region;
+    region.name = name;
+    region.material = 0;
+    region.polygon = std::move(polygon);
+    region.corners = corners;
+    region.divisions = divisions;
+    return region;
+}
+
+scene::Region square(const std::string& name, double left, double bottom,
+                     std::array<int, 2> divisions) {
+    return block(name,
+                 {{left, bottom}, {left + 1, bottom}, {left + 1, bottom + 1}, {left, bottom + 1}},
+                 {0, 1, 2, 3}, divisions);
+}
+
+std::vector<fault::Fault> faults_of_join(const scene::Section& section) {
+    std::vector<Mesh> parts;
+    for (std::size_t i = 0; i < section.regions.size(); ++i) {
+        parts.push_back(map_block(section.regions[i], static_cast<std::int32_t>(i)));
+    }
+    try {
+        join(parts, section);
+    } catch (const fault::BadInput& error) {
+        return error.faults();
+    }
+    return {};
+}
+
+TEST(Divisions, AreSharedByLengthWithAtLeastOneEach) {
+    EXPECT_EQ(share_divisions({30.0, 30.0}, 60), (std::vector<int>{30, 30}));
+    EXPECT_EQ(share_divisions({1.0, 3.0}, 4), (std::vector<int>{1, 3}));
+    EXPECT_EQ(share_divisions({0.01, 10.0}, 4), (std::vector<int>{1, 3}));
+    EXPECT_TRUE(share_divisions({1.0, 1.0, 1.0}, 2).empty());
+}
+
+TEST(Block, MapsASquareToAGrid) {
+    const Mesh mesh = map_block(square("a", 0, 0, {3, 2}), 0);
+    EXPECT_EQ(mesh.nodes.size(), 12u);
+    EXPECT_EQ(mesh.quads.size(), 6u);
+    EXPECT_NEAR((mesh.nodes[5] - Vec2(1.0 / 3.0, 0.5)).norm(), 0.0, 1e-15);
+    const Quality quality = quality_of(mesh);
+    EXPECT_NEAR(quality.least_jacobian, 1.0, 1e-14);
+    EXPECT_NEAR(quality.largest_aspect, 1.5, 1e-14);
+}
+
+TEST(Block, APolylineVertexBecomesANode) {
+    const auto region =
+        block("a", {{0, 0}, {4, 0}, {4, 1}, {1, 1.5}, {0, 1}}, {0, 1, 2, 4}, {8, 2});
+    const Mesh mesh = map_block(region, 0);
+    double nearest = 1.0;
+    for (const Vec2& x : mesh.nodes) nearest = std::min(nearest, (x - Vec2(1, 1.5)).norm());
+    EXPECT_EQ(nearest, 0.0);
+    EXPECT_GT(quality_of(mesh).least_jacobian, 0.3);
+}
+
+TEST(Block, FewerDivisionsThanSegmentsAreRefused) {
+    const auto region =
+        block("a", {{0, 0}, {4, 0}, {4, 1}, {1, 1.5}, {0, 1}}, {0, 1, 2, 4}, {1, 2});
+    EXPECT_THROW(map_block(region, 0), fault::BadInput);
+}
+
+TEST(Join, SharesTheNodesOfTheCommonSide) {
+    const scene::Section section{{square("a", 0, 0, {3, 2}), square("b", 1, 0, {2, 2})}};
+    const Mesh mesh =
+        join({map_block(section.regions[0], 0), map_block(section.regions[1], 1)}, section);
+    EXPECT_EQ(mesh.nodes.size(), 12u + 9u - 3u);
+    EXPECT_EQ(mesh.region_of_element.front(), 0);
+    EXPECT_EQ(mesh.region_of_element.back(), 1);
+}
+
+TEST(Join, NamesAHangingNode) {
+    const auto faults =
+        faults_of_join({{square("lower", 0, 0, {3, 3}), square("upper", 0, 1, {4, 3})}});
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_NE(faults[0].cause.find("hanging node"), std::string::npos);
+    EXPECT_NE(faults[0].cause.find("lower"), std::string::npos);
+    EXPECT_NE(faults[0].cause.find("upper"), std::string::npos);
+}
+
+TEST(Join, NamesAGap) {
+    const auto faults =
+        faults_of_join({{square("lower", 0, 0, {3, 3}), square("upper", 0, 1.001, {3, 3})}});
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_NE(faults[0].cause.find("gap"), std::string::npos);
+}
+
+TEST(Join, LetsRegionsThatDoNotTouchBe) {
+    EXPECT_TRUE(faults_of_join({{square("a", 0, 0, {3, 3}), square("b", 5, 0, {4, 2})}}).empty());
+}
+
+}  // namespace
+}  // namespace breach::fem

@@ -1,0 +1,107 @@
+// Small scenes for the FEM's tests: a block of soil on rollers, and ways to run it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "fem_solver/analysis.hpp"
+
+namespace breach::fem::bench {
+
+using nlohmann::json;
+
+struct Block {
+    double width = 1.0;   ///< [m]
+    double height = 1.0;  ///< [m]
+    int columns = 1;
+    int rows = 1;
+    json law = {{"type", "linear_elastic"}, {"E_MPa", 20}, {"nu", 0.3}};
+    double density = 2000.0;  ///< [kg/m3]
+    double gravity = 9.81;    ///< [m/s2]
+    json stages = json::array({{{"type", "static"}, {"name", "gravity"}}});
+};
+
+/// A rectangle on a fixed base between smooth walls.
+inline json scene_of(const Block& b) {
+    const double W = b.width, H = b.height;
+    return {{"format", "breachline-scene/1"},
+            {"name", "block"},
+            {"gravity", b.gravity},
+            {"materials", {{"soil", {{"density", b.density}, {"law", b.law}}}}},
+            {"section",
+             {{"regions",
+               {{{"name", "block"},
+                 {"material", "soil"},
+                 {"polygon", {{0, 0}, {W, 0}, {W, H}, {0, H}, {0, 0}}},
+                 {"mesh", {{"type", "block"}, {"divisions", {b.columns, b.rows}}}}}}}}},
+            {"fem",
+             {{"supports",
+               {{{"name", "left"}, {"from", {0, 0}}, {"to", {0, H}}, {"fixes", "x"}},
+                {{"name", "right"}, {"from", {W, 0}}, {"to", {W, H}}, {"fixes", "x"}},
+                {{"name", "base"}, {"from", {0, 0}}, {"to", {W, 0}}, {"fixes", "xy"}}}},
+              {"stages", b.stages},
+              {"crest", {W, H}}}}};
+}
+
+inline scene::Scene parse(const json& scene) { return scene::parse_scene(scene.dump(), "bench"); }
+
+inline Model model_of(const scene::Scene& scene) {
+    return build_model(scene, build_mesh(scene, std::filesystem::temp_directory_path()));
+}
+
+/// An empty folder that goes away with the test.
+class Folder {
+  public:
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "breach_fem_XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+inline process::SessionSettings settings_for(const std::filesystem::path& output,
+                                             process::Start start = process::Start::fresh) {
+    process::SessionSettings settings;
+    settings.phase = "fem_solver";
+    settings.output = output;
+    settings.start = start;
+    return settings;
+}
+
+/// Runs all stages of a scene in a folder of its own and keeps the analysis.
+class Run {
+  public:
+    explicit Run(const json& scene)
+        : session_(settings_for(folder_.path()), parse(scene)),
+          analysis_(session_, model_of(session_.scene())) {}
+    const Analysis& go() {
+        analysis_.run();
+        return analysis_;
+    }
+    const Analysis& analysis() const { return analysis_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
+    process::Session& session() { return session_; }
+
+  private:
+    Folder folder_;
+    process::Session session_;
+    Analysis analysis_;
+};
+
+/// Prints what was reached beside what is allowed, then checks it.
+inline void expect_error(const std::string& what, double reached, double allowed) {
+    std::printf("    %-58s reached %.3e, allowed %.1e\n", what.c_str(), reached, allowed);
+    EXPECT_LE(reached, allowed) << what;
+}
+
+}  // namespace breach::fem::bench

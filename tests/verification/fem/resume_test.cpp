@@ -1,0 +1,102 @@
+// A run that is stopped and resumed gives the same bits as one that is not.
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "fem_solver/run.hpp"
+#include "fem_solver/snapshot.hpp"
+#include "tests/verification/fem/bench.hpp"
+
+namespace breach::fem {
+namespace {
+
+using nlohmann::json;
+
+json failing_column(scene::Kinematics kinematics) {
+    bench::Block block{.width = 10.0, .height = 20.0, .columns = 10, .rows = 20};
+    block.law = {
+        {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 1}, {"phi_deg", 30}};
+    block.stages.push_back(
+        {{"type", "dynamic"}, {"name", "failure"}, {"duration", 0.4}, {"time_step", 0.005}});
+    json scene = bench::scene_of(block);
+    scene["fem"]["supports"].erase(1);
+    scene["fem"]["snapshot_times"] = {0.1, 0.2, 0.333};
+    if (kinematics == scene::Kinematics::updated_lagrangian) {
+        scene["fem"]["kinematics"] = "updated_lagrangian";
+    }
+    return scene;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void expect_same_snapshot(const std::filesystem::path& a, const std::filesystem::path& b) {
+    const auto one = exchange::read_mesh_snapshot(a).snapshot;
+    const auto two = exchange::read_mesh_snapshot(b).snapshot;
+    EXPECT_EQ(one.time, two.time);
+    EXPECT_EQ(one.displacement, two.displacement);
+    EXPECT_EQ(one.velocity, two.velocity);
+    EXPECT_EQ(one.acceleration, two.acceleration);
+    EXPECT_EQ(one.stress, two.stress);
+    EXPECT_EQ(one.strain, two.strain);
+    EXPECT_EQ(one.epsilon_q_plastic, two.epsilon_q_plastic);
+}
+
+/// fem_solver itself, stopped by SIGTERM once it has written its first snapshot.
+class Resume : public testing::TestWithParam<scene::Kinematics> {};
+
+TEST_P(Resume, GivesTheSameBitsAsAnUninterruptedRun) {
+    const bench::Folder folder;
+    const auto scene_file = folder.path() / "scene.json";
+    std::ofstream(scene_file) << failing_column(GetParam()).dump();
+    const std::string command = std::string(BREACH_BIN) + "/fem_solver " + scene_file.string() +
+                                " --progress none --output " + folder.path().string();
+    ASSERT_EQ(std::system((command + "/whole 2>/dev/null").c_str()), 0);
+    const std::string stopped = folder.path().string() + "/stopped";
+    // The shell waits for the first snapshot, then asks the solver it started to stop.
+    const std::string interrupt =
+        command + "/stopped 2>/dev/null & p=$!; while [ ! -e " + stopped +
+        "/snapshot_0.100000.vtkhdf ]; do sleep 0.005; done; kill -TERM $p; "
+        "wait $p";
+    const int code = WEXITSTATUS(std::system(interrupt.c_str()));
+    ASSERT_TRUE(code == 143 || code == 0) << code;
+    if (code == 143) {
+        EXPECT_FALSE(std::filesystem::exists(stopped + "/result.json"));
+        EXPECT_TRUE(std::filesystem::exists(stopped + "/checkpoint.h5"));
+    }
+    ASSERT_EQ(std::system((command + "/stopped --resume 2>/dev/null").c_str()), 0);
+    const std::filesystem::path one = folder.path() / "whole", two = stopped;
+    EXPECT_EQ(text_of(one / "telemetry.jsonl"), text_of(two / "telemetry.jsonl"));
+    const auto history_1 = exchange::read_archive(one / "history.h5", "fem_history", 1);
+    const auto history_2 = exchange::read_archive(two / "history.h5", "fem_history", 1);
+    EXPECT_EQ(history_1.reals, history_2.reals);
+    for (const double time : {0.1, 0.2, 0.333, 0.4}) {
+        expect_same_snapshot(one / snapshot_name(time), two / snapshot_name(time));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinematics, Resume,
+                         testing::Values(scene::Kinematics::small_strain,
+                                         scene::Kinematics::updated_lagrangian),
+                         [](const auto& parameter) {
+                             return parameter.param == scene::Kinematics::small_strain
+                                        ? "SmallStrain"
+                                        : "MovingMesh";
+                         });
+
+TEST(Checkpoint, OfAnotherSceneIsRefused) {
+    bench::Run run(failing_column(scene::Kinematics::small_strain));
+    const Analysis& a = run.go();
+    const Checkpoint checkpoint{a.position(), a.motion(), {}, {}, a.history()};
+    exchange::Archive archive = checkpoint_archive(checkpoint, run.session().scene());
+    json other = failing_column(scene::Kinematics::small_strain);
+    other["materials"]["soil"]["density"] = 1999;
+    EXPECT_THROW(checkpoint_from(archive, bench::parse(other), a.model(), "checkpoint.h5"),
+                 fault::BadInput);
+    EXPECT_NO_THROW(checkpoint_from(archive, run.session().scene(), a.model(), "checkpoint.h5"));
+}
+
+}  // namespace
+}  // namespace breach::fem
