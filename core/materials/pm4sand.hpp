@@ -160,6 +160,16 @@ struct Update {
 Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options);
 
+/// How many points the batch takes side by side, widest first.
+enum class Width { widest, avx512, avx2, portable };
+
+/// The same for many points of one zone: updates[i] = integrate(law, old[i], d_epsilon[i],
+/// options), to the last bit and in any order. Points go side by side through the CPU's vector
+/// unit; one that is finished makes room for the next. A width that this CPU lacks is replaced by
+/// the next one.
+void integrate(const Ready& law, std::span<const State> old, std::span<const Voigt> d_epsilon,
+               const Options& options, std::span<Update> updates, Width width = Width::widest);
+
 /// d sigma / d epsilon [Pa] of the elastic predictor at `state`: symmetric positive definite.
 Matrix4 elastic_tangent(const Ready& law, const State& state);
 

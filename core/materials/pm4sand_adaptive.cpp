@@ -18,11 +18,29 @@ Plane direction(const Ready& law, const Stress& sigma, const Plane& alpha,
     return shear > 0.0 ? (1.0 / shear) * d.e : Plane{0.0, 1.0};
 }
 
+void walk_through(const Ready& law, const Options& options, Errand& errand) {
+    Walk<double> walk(law, options);
+    load(errand, 0, walk);
+    for (;;) {
+        if (walk.begin(true)) {
+            const Next next = after_unloading(law, 0, walk, errand);
+            if (next == Next::again) continue;
+            if (next == Next::leave) return;
+        }
+        if (walk.advance(true) || walk.evaluations > options.most_evaluations) {
+            errand.update->outcome = Outcome::unresolved;
+        } else if (walk.time < 1.0) {
+            continue;
+        }
+        return store(law, 0, walk, errand);
+    }
+}
+
 }  // namespace
 
 bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand) {
-    errand.update = {old, Outcome::done, {}};
-    State& state = errand.update.state;
+    *errand.update = {old, Outcome::done, {}};
+    State& state = errand.update->state;
     detect_reversal(law, d, state);
     const Stress change = elastic_change(law, state.G, d);
     const double a = elastic_fraction(law, {state.p, state.s}, state.alpha, change);
@@ -55,7 +73,7 @@ Excursion unload(const Ready& law, const Stress& sigma, const Plane& alpha, doub
 }
 
 void finish_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand) {
-    Update& update = errand.update;
+    Update& update = *errand.update;
     State& state = update.state;
     if (update.outcome == Outcome::done) {
         state.epsilon_v = old.epsilon_v + d.v;
@@ -68,30 +86,13 @@ void finish_call(const Ready& law, const State& old, const Strain<double>& d, Er
     state = old;
 }
 
-[[gnu::flatten]] Update integrate_adaptive(const Ready& law, const State& old,
-                                           const Strain<double>& d, const Options& options) {
-    Errand errand;
-    if (open_call(law, old, d, errand)) {
-        Walk<double> walk(law, options);
-        load(errand, 0, walk);
-        for (;;) {
-            if (walk.begin(true)) {
-                const Next next = after_unloading(law, 0, walk, errand);
-                if (next == Next::again) continue;
-                if (next == Next::leave) break;
-            }
-            const bool lost = walk.advance(true);
-            if (lost || walk.evaluations > options.most_evaluations) {
-                errand.update.outcome = Outcome::unresolved;
-            } else if (walk.time < 1.0) {
-                continue;
-            }
-            store(law, 0, walk, errand);
-            break;
-        }
-    }
+Update integrate_adaptive(const Ready& law, const State& old, const Strain<double>& d,
+                          const Options& options) {
+    Update update;
+    Errand errand{&update, {}, 0.0, {}};
+    if (open_call(law, old, d, errand)) walk_through(law, options, errand);
     finish_call(law, old, d, errand);
-    return errand.update;
+    return update;
 }
 
 }  // namespace breach::materials::pm4sand

@@ -9,7 +9,7 @@ namespace breach::materials::pm4sand {
 
 /// One call in the making: what a lane of a walk does not carry.
 struct Errand {
-    Update update;           ///< the state being changed, and what is counted
+    Update* update;          ///< the state being changed, and what is counted
     Strain<double> plastic;  ///< strain that is left after the elastic part
     double epsilon_v;        ///< before the plastic part
     Plane n;                 ///< plastic direction where the plastic part begins
@@ -45,7 +45,7 @@ template <class R>
 template <class R>
 [[gnu::always_inline]] inline void load(const Errand& errand, int i, Walk<R>& walk) {
     using lanes::set_lane;
-    const State& s = errand.update.state;
+    const State& s = errand.update->state;
     const Strain<double>& d = errand.plastic;
     const double size = std::sqrt(0.5 * d.v * d.v + dot(d.e, d.e));
     set_lane(walk.p, i, s.p);
@@ -79,7 +79,7 @@ template <class R>
 [[gnu::always_inline]] inline void store(const Ready& law, int i, const Walk<R>& walk,
                                          Errand& errand) {
     using lanes::lane;
-    State& s = errand.update.state;
+    State& s = errand.update->state;
     s.p = lane(walk.p, i);
     s.alpha = pm4sand::lane(walk.alpha, i);
     const Plane n = pm4sand::lane(walk.n, i);
@@ -89,13 +89,13 @@ template <class R>
     s.z_peak = lane(walk.fixed.z_peak, i);
     s.sub_step = lane(walk.proposed, i) * lane(walk.size, i);
     const auto number = [i](const R& count) { return static_cast<int>(lane(count, i)); };
-    errand.update.counts += {.evaluations = number(walk.evaluations),
-                             .sub_steps = number(walk.sub_steps),
-                             .rejected = number(walk.rejected),
-                             .forced = number(walk.forced),
-                             .projected = number(walk.projected),
-                             .softened = number(walk.softened),
-                             .stalled = number(walk.stalled)};
+    errand.update->counts += {.evaluations = number(walk.evaluations),
+                              .sub_steps = number(walk.sub_steps),
+                              .rejected = number(walk.rejected),
+                              .forced = number(walk.forced),
+                              .projected = number(walk.projected),
+                              .softened = number(walk.softened),
+                              .stalled = number(walk.stalled)};
 }
 
 /// What an excursion did to a lane of a walk.
@@ -111,12 +111,12 @@ template <class R>
     const Strain<double> rest{left * errand.plastic.v, left * errand.plastic.e};
     const Stress sigma{p, p * (alpha + (law.parameters.m * inverse_sqrt2) * n)};
     const Excursion path =
-        unload(law, sigma, alpha, lane(walk.G, i), rest, 0.2 * errand.update.state.p_min);
+        unload(law, sigma, alpha, lane(walk.G, i), rest, 0.2 * errand.update->state.p_min);
     if (path.end == Excursion::End::nowhere) return path.end;
     set_lane(walk.p, i, path.sigma.p);
     if (path.end == Excursion::End::inside) {
         store(law, i, walk, errand);
-        errand.update.state.s = path.sigma.s;
+        errand.update->state.s = path.sigma.s;
         return path.end;
     }
     pm4sand::set_lane(walk.n, i, path.n);
