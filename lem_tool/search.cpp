@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "lem_tool/simplex.hpp"
 #include "lem_tool/slip_circle.hpp"
 
 namespace breach::lem {
@@ -12,8 +14,8 @@ namespace breach::lem {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
-constexpr std::size_t valleys_followed = 8;
-constexpr double finest_step = 1e-5;  // of the search ranges
+constexpr std::size_t valleys_followed = 12;
+constexpr double least_gain = 1e-5;  // relative: a tenth of what 50 slices resolve
 /// Flatter arcs are an infinite slope in all but name, and radii beyond 100 chords cost digits.
 constexpr double flattest = 1e-3;  // sagitta over chord
 
@@ -153,66 +155,33 @@ class Search {
         return best;
     }
 
-    /// The pairs that are better than their eight neighbours, best first.
+    /// The best pairs, each a twelfth of the ranges away from every better one.
     std::vector<Place> valleys(const std::vector<Place>& places) const {
-        const int rows = ranges_.entry_points;
-        const int columns = ranges_.exit_points;
-        const auto value = [&](int i, int j) {
-            return i < 0 || j < 0 || i >= rows || j >= columns ? none : values_[i * columns + j];
-        };
-        std::vector<int> lowest;
-        for (int i = 0; i < rows; ++i) {
-            for (int j = 0; j < columns; ++j) {
-                bool least = value(i, j) < none;
-                for (int di = -1; di <= 1; ++di) {
-                    for (int dj = -1; dj <= 1; ++dj)
-                        least = least && value(i, j) <= value(i + di, j + dj);
-                }
-                if (least) lowest.push_back(i * columns + j);
-            }
-        }
-        std::stable_sort(lowest.begin(), lowest.end(),
-                         [&](int a, int b) { return values_[a] < values_[b]; });
+        std::vector<std::size_t> order(places.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return values_[a] < values_[b]; });
         std::vector<Place> starts;
-        for (std::size_t n = 0; n < std::min(lowest.size(), valleys_followed); ++n) {
-            starts.push_back(places[lowest[n]]);
+        for (const std::size_t n : order) {
+            if (values_[n] == none || starts.size() == valleys_followed) break;
+            const auto near = [&](const Place& other) {
+                return std::abs(other.entry - places[n].entry) < 1.0 / 12.0 &&
+                       std::abs(other.exit - places[n].exit) < 1.0 / 12.0;
+            };
+            if (std::none_of(starts.begin(), starts.end(), near)) starts.push_back(places[n]);
         }
         return starts;
     }
 
-    /// Pattern search: all neighbours of the place at a step that halves when none is better.
-    void follow(Place place) {
-        double F = try_at(place);
-        double step = 1.0;  // of the coarse grid's spacing
-        const double entry_step = 1.0 / (ranges_.entry_points - 1);
-        const double exit_step = 1.0 / (ranges_.exit_points - 1);
-        const double depth_step = 1.0 / ranges_.depths;
-        while (step * std::max({entry_step, exit_step, depth_step}) > finest_step) {
-            Place best = place;
-            double least = F;
-            const int depths = place.touches < 0 ? 1 : 0;
-            for (int a = -1; a <= 1; ++a) {
-                for (int b = -1; b <= 1; ++b) {
-                    for (int c = -depths; c <= depths; ++c) {
-                        Place next = place;
-                        next.entry = std::clamp(place.entry + a * step * entry_step, 0.0, 1.0);
-                        next.exit = std::clamp(place.exit + b * step * exit_step, 0.0, 1.0);
-                        next.depth = std::clamp(place.depth + c * step * depth_step, 0.0, 1.0);
-                        const double value = try_at(next);
-                        if (value < least) {
-                            least = value;
-                            best = next;
-                        }
-                    }
-                }
-            }
-            if (least < F * (1.0 - 1e-12)) {
-                place = best;
-                F = least;
-            } else {
-                step *= 0.5;
-            }
-        }
+    void follow(const Place& start) {
+        const double depth_step = start.touches < 0 ? 1.0 / ranges_.depths : 0.0;
+        const auto value = [&](const std::array<double, 3>& at) {
+            return try_at({at[0], at[1], at[2], start.touches, start.which});
+        };
+        const std::array<double, 3> at{start.entry, start.exit, start.depth};
+        descend(value, {at, value(at)},
+                {1.0 / (ranges_.entry_points - 1), 1.0 / (ranges_.exit_points - 1), depth_step},
+                least_gain);
     }
 
     const Model& model_;

@@ -38,7 +38,7 @@ TEST(Slices, CircularSegmentHasItsAreaAndArcLength) {
     EXPECT_NEAR(total(slices.width, slices.count), 16.0, 1e-12);
     EXPECT_NEAR(slices.depth, 4.0, 1e-12);
     // level ground drives nothing
-    EXPECT_EQ(bishop(slices, slide_of(slices)).balance, Balance::no_driving_moment);
+    EXPECT_EQ(bishop(slices, slide_of(slices), 0.0).balance, Balance::no_driving_moment);
 }
 
 TEST(Slices, AreCutWhereTheArcLeavesALayer) {

@@ -72,7 +72,7 @@ inline Bishop circle_bishop(const scene::Scene& scene) {
     if (cut(model.strata, model.soils, masses[0], model.slices, slices) != Cut::done) {
         return {Balance::not_converged, -2.0, 0.0, 0};
     }
-    return bishop(slices, slide_of(slices));
+    return bishop(slices, slide_of(slices), model.k_h);
 }
 
 }  // namespace breach::lem::small

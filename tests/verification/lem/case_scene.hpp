@@ -19,23 +19,25 @@ inline json load(const std::string& id) {
 }
 
 /// "ymin", a limit for the search, is where the model ends: the lowest soil is cut there. Problems
-/// in feet and pounds stay so: F has no unit, and c / (gamma h) and phi are all it sees. g = 10
-/// makes densities round.
+/// in feet and pounds keep their feet; their stresses and unit weights are all divided by ten,
+/// which F does not see. g = 10 makes densities round.
 inline json scene_json(const json& problem) {
     json scene{{"format", "breachline-scene/1"}, {"gravity", 10.0}, {"lem", json::object()}};
+    const double stress = problem.at("units") == "m,kN" ? 1.0 : 0.1;
     std::string name = problem.at("id");
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     scene["name"] = name;
     for (const json& soil : problem.at("materials")) {
         const std::string& material = soil.at("name").get_ref<const std::string&>();
-        scene["materials"][material] = {{"density", soil.at("gamma").get<double>() * 100.0},
-                                        {"law",
-                                         {{"type", "mohr_coulomb"},
-                                          {"E_MPa", 10},
-                                          {"nu", 0.3},
-                                          {"c_kPa", soil.at("c")},
-                                          {"phi_deg", soil.at("phi")}}}};
+        scene["materials"][material] = {
+            {"density", soil.at("gamma").get<double>() * 100.0 * stress},
+            {"law",
+             {{"type", "mohr_coulomb"},
+              {"E_MPa", 10},
+              {"nu", 0.3},
+              {"c_kPa", soil.at("c").get<double>() * stress},
+              {"phi_deg", soil.at("phi")}}}};
         json ring = soil.at("polygon");
         if (!problem.at("ymin").is_null()) {
             for (json& vertex : ring) {
@@ -59,6 +61,14 @@ inline json scene_json(const json& problem) {
             }
         }
         scene["lem"]["search"] = search;
+    }
+    if (!problem.at("water_line").is_null()) {
+        scene["lem"]["water"] = {{"line", problem.at("water_line")},
+                                 {"density", problem.at("gamma_w").get<double>() * 100.0 * stress}};
+    }
+    for (const json& load : problem.at("surcharge")) {
+        scene["lem"]["surcharge"].push_back(
+            {{"from", load[0]}, {"to", load[1]}, {"pressure_kPa", load[2].get<double>() * stress}});
     }
     return scene;
 }

@@ -20,7 +20,7 @@ double factor_of(const json& scene_json, int slices) {
     const auto masses = masses_of(model.strata, *scene.lem->circle);
     EXPECT_EQ(masses.size(), 1u);
     EXPECT_EQ(cut(model.strata, model.soils, masses[0], model.slices, cut_up), Cut::done);
-    return bishop(cut_up, slide_of(cut_up)).factor_of_safety;
+    return bishop(cut_up, slide_of(cut_up), 0.0).factor_of_safety;
 }
 
 TEST(FrictionlessCircle, HasFelleniusFactorWithFewSlices) {
@@ -88,7 +88,7 @@ TEST(BishopFactor, SatisfiesItsOwnEquation) {
     const Model model = make_model(scene);
     Slices s = make_slices(model.strata, model.slices);
     cut(model.strata, model.soils, masses_of(model.strata, *scene.lem->circle)[0], model.slices, s);
-    const Bishop result = bishop(s, slide_of(s));
+    const Bishop result = bishop(s, slide_of(s), 0.0);
     double resisting = 0.0;
     double driving = 0.0;
     for (std::size_t i = 0; i < s.count; ++i) {

@@ -25,7 +25,7 @@ Answer answer(const scene::Scene& scene) {
     double least = 1e300;
     for (const Surface& surface : masses_of(model.strata, *scene.lem->circle)) {
         if (cut(model.strata, model.soils, surface, model.slices, slices) != Cut::done) continue;
-        const Bishop result = bishop(slices, slide_of(slices));
+        const Bishop result = bishop(slices, slide_of(slices), model.k_h);
         if (result.balance == Balance::found) least = std::min(least, result.factor_of_safety);
     }
     return {least, 1};
@@ -47,14 +47,14 @@ TEST_P(PublishedProblem, IsReproduced) {
     EXPECT_LE(std::abs(difference), allowed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dry, PublishedProblem,
-                         testing::Values("01_acads_1a", "03_acads_1c_circle", "04_acads_1c_search",
-                                         "06_acads_2b_talbingo", "09_arai_ex1", "11_arai_ex2_weak",
-                                         "12_fk1_case1", "16c_buoyant", "18_bishop_morgenstern_gl1",
-                                         "21_taylor_D2", "24_taylor_45deg_deep", "25_vertical_cut",
-                                         "26_infinite_slope_dry", "29a_pyslope_a_R3",
-                                         "29a_pyslope_a_R4", "29b_pyslope_b_R3"),
-                         [](const auto& problem) { return std::string(problem.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Bishop, PublishedProblem,
+    testing::Values("01_acads_1a", "03_acads_1c_circle", "04_acads_1c_search",
+                    "06_acads_2b_talbingo", "09_arai_ex1", "11_arai_ex2_weak", "12_fk1_case1",
+                    "16a_submerged_75", "16c_buoyant", "18_bishop_morgenstern_gl1", "21_taylor_D2",
+                    "24_taylor_45deg_deep", "25_vertical_cut", "26_infinite_slope_dry",
+                    "29a_pyslope_a_R3", "29a_pyslope_a_R4", "29b_pyslope_b_R3", "29d_pyslope_d_R5"),
+    [](const auto& problem) { return std::string(problem.param); });
 
 }  // namespace
 }  // namespace breach::lem
