@@ -20,7 +20,7 @@ export function extents_of(snapshots) {
     return box.x[0] <= box.x[1] ? box : null;
 }
 
-/// Distance to the fourth-nearest other point, upper quartile of a sample [m]: on a rectangular arrangement the longer of its
+/// Distance to the fourth-nearest other point, upper tenth of a sample [m]: on a rectangular arrangement the longer of its
 /// two spacings, so squares of this size leave no gaps.
 export function spacing_of({ columns: { x, y }, count }) {
     const sample = Math.min(60, count);
@@ -38,7 +38,7 @@ export function spacing_of({ columns: { x, y }, count }) {
         if (Number.isFinite(nearest[3])) distances.push(Math.sqrt(nearest[3]));
     }
     distances.sort((a, b) => a - b);
-    return distances.length ? distances[Math.floor(0.75 * distances.length)] : 1;
+    return distances.length ? distances[Math.floor(0.9 * (distances.length - 1))] : 1;
 }
 
 /// The value that only one in a hundred exceeds: a few wild points do not own the scale.
