@@ -1,6 +1,6 @@
 // Where the service keeps its files.
 //
-//     <data>/breachline.db             the store
+//     <data>/breachline.sqlite         the store
 //     <data>/instance.lock             held by the one service that owns the folder
 //     <data>/runs/<run>/scene.json     the completed scene
 //     <data>/runs/<run>/<label>/output            what the phase writes; all attempts share it
@@ -32,7 +32,7 @@ class DataFolder {
     /// has it.
     explicit DataFolder(const std::filesystem::path& root);
 
-    std::filesystem::path database() const { return root_ / "breachline.db"; }
+    std::filesystem::path database() const { return root_ / "breachline.sqlite"; }
     std::filesystem::path scene(const std::string& run) const;
     std::filesystem::path output(const Task& task) const;
     AttemptFolder attempt(const Task& task, std::int64_t number) const;

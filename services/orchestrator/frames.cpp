@@ -24,12 +24,17 @@ std::string kind_of(const std::string& phase) {
     return phase == "fem_solver" ? "mesh" : "particles";
 }
 
-/// The number at the end of "snapshot_0.500000.vtkhdf"; 0 when there is none.
-double time_in(const std::string& name) {
-    static const std::regex number(R"(([0-9]+(\.[0-9]+)?)\.vtkhdf$)");
+/// The number at the end of "snapshot_0.500000.vtkhdf". Files without one ("final.vtkhdf") repeat a
+/// numbered frame.
+std::optional<double> time_in(const std::string& name) {
+    static const std::regex number(R"(_([0-9]+(\.[0-9]+)?)\.vtkhdf$)");
     std::smatch found;
-    return std::regex_search(name, found, number) ? std::stod(found[1]) : 0.0;
+    if (!std::regex_search(name, found, number)) return std::nullopt;
+    return std::stod(found[1]);
 }
+
+/// The transfer's only frame: the material points at the beginning of their own clock.
+bool is_transferred(const std::string& name) { return name == "particles.vtkhdf"; }
 
 struct Cloud {
     double time = 0.0;
@@ -120,7 +125,8 @@ std::vector<Frame> frames_in(const std::filesystem::path& output, const std::str
     for (const auto& entry : std::filesystem::directory_iterator(output, error)) {
         const std::string name = entry.path().filename();
         if (entry.path().extension() != extension || !is_frame_name(name)) continue;
-        frames.push_back({time_in(name), name, kind_of(phase)});
+        const auto time = is_transferred(name) ? 0.0 : time_in(name);
+        if (time) frames.push_back({*time, name, kind_of(phase)});
     }
     std::ranges::sort(frames, {},
                       [](const Frame& frame) { return std::pair(frame.time, frame.name); });

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     settings.dispatch.bin = settings.self.parent_path();
     settings.dispatch.slots = std::max(1U, std::thread::hardware_concurrency());
     settings.web = web_folder(settings.self);
-    settings.http.port = 8350;
+    settings.http.port = 8470;
     std::filesystem::path token_file;
     std::filesystem::path attempt;
     double retry_seconds = 0.5;

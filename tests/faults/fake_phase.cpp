@@ -192,7 +192,7 @@ void mpm(const Order& order, const std::map<std::string, double>& wanted) {
                      {"runout_beyond_toe", time},
                      {"runout_largest", 12 + time},
                      {"volume_ratio", 1.0},
-                     {"energy", {{"numerical_share", 0.01}}},
+                     {"energy", {{"numerical", {{"share", 0.01}}}}},
                      {"cpu_seconds", 0.5}});
 }
 

@@ -87,7 +87,7 @@ TEST_F(StoreTest, RunsTasksAttemptsAndArtifactsComeBackAsTheyWereWritten) {
     for (const Task& task : tasks) {
         bring_to_success(
             store, task.id,
-            {{"runout", 12.5}, {"energy", {{"numerical_share", 0.01}}}, {"cpu_seconds", 2}});
+            {{"runout", 12.5}, {"energy", {{"numerical", {{"share", 0.01}}}}}, {"cpu_seconds", 2}});
     }
     EXPECT_EQ(store.run(run.id)->state, "succeeded");
     EXPECT_TRUE(store.run(run.id)->finished);
