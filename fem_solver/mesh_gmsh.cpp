@@ -182,9 +182,9 @@ struct Recipe {
     int recombination;
 };
 
-/// Tried in this order until no triangle is left: frontal and Delaunay with blossom, then frontal
-/// with blossom full-quad. (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
-constexpr std::array<Recipe, 3> recipes{{{6, 1}, {5, 1}, {6, 3}}};
+/// Tried in this order until no triangle is left: frontal, Delaunay and adaptive triangles, paired
+/// by blossom. (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
+constexpr std::array<Recipe, 3> recipes{{{6, 1}, {5, 1}, {1, 1}}};
 
 std::string geo_text(const Outline& outline, const scene::Section& section, const Recipe& recipe) {
     std::ostringstream geo;

@@ -1,0 +1,177 @@
+#include "fem_solver/element_bench/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fem_solver/element_bench/simplex.hpp"
+
+namespace breach::element_bench {
+
+namespace pm4sand = materials::pm4sand;
+
+namespace {
+
+struct Named {
+    const char* name;
+    double SandParameters::*member;
+};
+
+constexpr Named named[] = {
+    {"D_R", &SandParameters::D_R},     {"G_0", &SandParameters::G_0},
+    {"h_po", &SandParameters::h_po},   {"h_0", &SandParameters::h_0},
+    {"n_b", &SandParameters::n_b},     {"n_d", &SandParameters::n_d},
+    {"c_z", &SandParameters::c_z},     {"c_epsilon", &SandParameters::c_epsilon},
+    {"C_GD", &SandParameters::C_GD},   {"C_DR", &SandParameters::C_DR},
+    {"C_Kaf", &SandParameters::C_Kaf}, {"Q", &SandParameters::Q},
+    {"R", &SandParameters::R},         {"phi_cv", &SandParameters::phi_cv},
+};
+
+Specimen specimen(const SandParameters& parameters, const pm4sand::Options& options, double sigma_v,
+                  double K0) {
+    const pm4sand::Ready law = pm4sand::ready(parameters);
+    const Voigt sigma(-K0 * sigma_v, -sigma_v, 0.0, 0.0);
+    return {SandPoint{law, options, pm4sand::initialise(law, sigma)}};
+}
+
+std::string kPa(double stress) { return std::to_string(std::lround(stress / 1e3)) + " kPa"; }
+
+std::string two_digits(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", number);
+    return text;
+}
+
+}  // namespace
+
+std::vector<std::string> parameter_names() {
+    std::vector<std::string> names;
+    for (const Named& each : named) names.emplace_back(each.name);
+    return names;
+}
+
+double& parameter(SandParameters& parameters, const std::string& name) {
+    for (const Named& each : named) {
+        if (name == each.name) return parameters.*each.member;
+    }
+    throw std::invalid_argument("PM4Sand has no parameter " + name);
+}
+
+Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(problem)) {
+    for (const CyclicTarget& target : problem_.cyclic) {
+        N_reference_.push_back(cycles(problem_.reference, target));
+    }
+    // Slope of each confinement's reference curve, by least squares in the logarithms.
+    for (const CyclicTarget& target : problem_.cyclic) {
+        double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+        for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
+            const CyclicTarget& other = problem_.cyclic[k];
+            if (other.sigma_v != target.sigma_v || N_reference_[k] <= 0.0) continue;
+            const double ln_N = std::log(N_reference_[k]), ln_CSR = std::log(other.CSR);
+            n += 1, x += ln_N, y += ln_CSR, xx += ln_N * ln_N, xy += ln_N * ln_CSR;
+        }
+        const double spread = n * xx - x * x;
+        // A single point has no slope; sands lie near -0.2.
+        slope_.push_back(spread > 1e-12 ? (n * xy - x * y) / spread : -0.2);
+    }
+}
+
+double Calibration::cycles(const SandParameters& parameters, const CyclicTarget& target) const {
+    const CyclicResult result =
+        cyclic_stress(specimen(parameters, problem_.options, target.sigma_v, target.K0),
+                      Boundary::undrained_shear, {.amplitude = target.CSR * target.sigma_v},
+                      {.strain = target.strain, .cycles = problem_.most_cycles},
+                      {.step = problem_.cyclic_step, .every = 0});
+    return result.N_strain > 0.0 ? result.N_strain : problem_.most_cycles;
+}
+
+std::vector<Term> Calibration::strength_terms(const SandParameters& parameters) const {
+    std::vector<Term> terms;
+    for (const StrengthTarget& target : problem_.strength) {
+        const Record record =
+            monotonic(specimen(parameters, problem_.options, target.sigma_v, target.K0),
+                      Boundary::undrained_shear, target.strain,
+                      {.step = problem_.monotonic_step, .every = 0});
+        const double s_u = record.readings.back().response;
+        const double deviation = std::log(std::max(s_u, 1.0) / target.s_u);
+        terms.push_back({"s_u at " + kPa(target.sigma_v), target.s_u, s_u, deviation,
+                         std::pow(deviation / problem_.strength_spread, 2)});
+    }
+    return terms;
+}
+
+std::vector<Term> Calibration::cyclic_terms(const SandParameters& parameters) const {
+    std::vector<Term> terms;
+    for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
+        const CyclicTarget& target = problem_.cyclic[k];
+        const double N = cycles(parameters, target);
+        // More cycles at the same stress ratio is more resistance: minus the slope.
+        const double deviation = -slope_[k] * std::log(N / N_reference_[k]);
+        terms.push_back({"N at " + kPa(target.sigma_v) + ", CSR " + two_digits(target.CSR),
+                         N_reference_[k], N, deviation,
+                         std::pow(deviation / problem_.cyclic_spread, 2)});
+    }
+    return terms;
+}
+
+SandParameters Calibration::with(const std::vector<double>& values) const {
+    SandParameters parameters = problem_.start;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        parameter(parameters, problem_.free[i].name) = values[i];
+    }
+    return parameters;
+}
+
+std::vector<double> Calibration::start() const {
+    SandParameters parameters = problem_.start;
+    std::vector<double> values;
+    for (const FreeParameter& each : problem_.free) {
+        values.push_back(std::clamp(parameter(parameters, each.name), each.least, each.most));
+    }
+    return values;
+}
+
+Fit Calibration::evaluate(const std::vector<double>& values) const {
+    const SandParameters parameters = with(values);
+    Fit fit{values, 0.0, strength_terms(parameters)};
+    const std::vector<Term> cyclic = cyclic_terms(parameters);
+    fit.terms.insert(fit.terms.end(), cyclic.begin(), cyclic.end());
+    for (const Term& term : fit.terms) fit.misfit += term.share;
+    return fit;
+}
+
+CalibrationResult calibrate(const Calibration& calibration,
+                            const std::function<void(int, const Fit&)>& seen) {
+    const auto& free = calibration.problem().free;
+    CalibrationResult result{};
+    const auto values_at = [&](const std::vector<double>& x) {
+        std::vector<double> values(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            values[i] = std::clamp(std::exp(x[i]), free[i].least, free[i].most);
+        }
+        return values;
+    };
+    const auto misfit = [&](const std::vector<double>& x) {
+        Fit fit = calibration.evaluate(values_at(x));
+        ++result.evaluations;
+        if (result.evaluations == 1) result.first = fit;
+        if (result.evaluations == 1 || fit.misfit < result.best.misfit) {
+            result.best = fit;
+            result.path.push_back({fit.values, fit.misfit, {}});
+        }
+        if (seen) seen(result.evaluations, fit);
+        return fit.misfit;
+    };
+    std::vector<double> x;
+    for (const double value : calibration.start()) x.push_back(std::log(value));
+    const int most = calibration.problem().most_evaluations;
+    x = least_by_simplex(misfit, x,
+                         {.size = 0.3, .least_size = 2e-3, .most_evaluations = most / 2});
+    least_by_simplex(
+        misfit, x,
+        {.size = 0.1, .least_size = 2e-4, .most_evaluations = most - result.evaluations});
+    result.parameters = calibration.with(result.best.values);
+    return result;
+}
+
+}  // namespace breach::element_bench
