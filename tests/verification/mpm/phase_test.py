@@ -1,0 +1,81 @@
+"""mpm_solver as a program: outputs, resume after SIGTERM with the same bits, a grid too small, a too-short duration."""
+import glob, json, os, signal, subprocess, sys, tempfile, time
+
+import h5py
+import numpy as np
+
+ROOT, BIN = os.environ["BREACH_ROOT"], os.environ["BREACH_BIN"]
+SOLVER = os.path.join(BIN, "mpm_solver")
+COLUMN = os.path.join(ROOT, "workflows/scenes/column.json")
+SHORT = ["--set", "/mpm/duration=2", "--set", "/mpm/cell_size=0.5", "--set", "/mpm/snapshot_interval=0.5"]
+
+
+def run(folder, *more):
+    return subprocess.run([SOLVER, COLUMN, "--output", folder, "--progress", "none", *more], capture_output=True, text=True)
+
+
+def arrays(path):
+    found = {}
+    with h5py.File(path) as file:
+        def keep(name, item):
+            if isinstance(item, h5py.Dataset) and item.dtype.kind in "if" and "provenance" not in name.lower():
+                found[name] = item[()]
+        file.visititems(keep)
+    return found
+
+
+def same(a, b):
+    one, other = arrays(a), arrays(b)
+    assert one.keys() == other.keys(), (a, b)
+    for name in one:
+        assert np.array_equal(one[name], other[name]), f"{name} differs between {a} and {b}"
+
+
+def telemetry(folder):
+    with open(os.path.join(folder, "telemetry.jsonl")) as file:
+        return [json.loads(line) for line in file]
+
+
+def test_outputs_and_resume(scratch):
+    whole, stopped = os.path.join(scratch, "whole"), os.path.join(scratch, "stopped")
+    first = run(whole, *SHORT)
+    assert first.returncode == 0, first.stderr
+    names = {os.path.basename(f) for f in glob.glob(whole + "/*")}
+    for name in ("result.json", "telemetry.jsonl", "history.h5", "final.vtkhdf", "particles_0.000000.vtkhdf", "particles_1.500000.vtkhdf"):
+        assert name in names, names
+    result = json.load(open(os.path.join(whole, "result.json")))
+    for key in ("runout", "runout_beyond_toe", "runout_largest", "at_rest", "energy", "volume_ratio", "overlap", "steps",
+                "dt_min", "dt_max", "particle_steps_per_second", "particles"):
+        assert key in result, key
+    assert result["at_rest"] is False  # 2 s are too short, and it says so
+    child = subprocess.Popen([SOLVER, COLUMN, "--output", stopped, "--progress", "none", *SHORT], stderr=subprocess.DEVNULL)
+    while child.poll() is None and len(glob.glob(stopped + "/particles_*")) < 2:
+        time.sleep(0.01)
+    child.send_signal(signal.SIGTERM)
+    assert child.wait() == 143, child.returncode
+    assert os.path.exists(os.path.join(stopped, "checkpoint.h5"))
+    again = run(stopped, *SHORT, "--resume")
+    assert again.returncode == 0, again.stderr
+    same(os.path.join(whole, "final.vtkhdf"), os.path.join(stopped, "final.vtkhdf"))
+    same(os.path.join(whole, "history.h5"), os.path.join(stopped, "history.h5"))
+    assert telemetry(whole) == telemetry(stopped)
+    print("resume after SIGTERM: final.vtkhdf, history.h5 and telemetry have the same bits")
+
+
+def test_grid_too_small(scratch):
+    folder = os.path.join(scratch, "small")
+    ended = run(folder, "--set", "/mpm/domain_x=[0,15]", "--set", "/mpm/floor/friction=[]")
+    assert ended.returncode == 70, (ended.returncode, ended.stderr)
+    assert "right end of the grid" in ended.stderr and "t = " in ended.stderr, ended.stderr
+    assert os.path.exists(os.path.join(folder, "last_good.vtkhdf"))
+    assert not os.path.exists(os.path.join(folder, "result.json"))
+    print("grid too small: exit 70, says where and when, last good state saved")
+
+
+if __name__ == "__main__":
+    if not os.path.exists(SOLVER):
+        print("mpm_solver is not built")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory() as scratch:
+        test_outputs_and_resume(scratch)
+        test_grid_too_small(scratch)
