@@ -1,0 +1,158 @@
+"""The Debian package: made by cpack, it holds what it should; its service starts with the unit's own command line from
+an unpacked copy and runs a study with the phases beside it; a backup taken while it runs can be restored and served.
+Not tested here: the unit's sandbox and the maintainer scripts under a running systemd."""
+import json
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+import urllib.request
+
+build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+source = pathlib.Path(os.environ["BREACH_ROOT"])
+programs = {"breachline", "breach", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver",
+            "breachline-backup", "breachline-restore"}
+
+
+def call(*command, **options):
+    return subprocess.run(list(map(str, command)), text=True, capture_output=True, timeout=120, **options)
+
+
+def files_below(folder):
+    return {str(each.relative_to(folder)) for each in folder.rglob("*") if each.is_file()}
+
+
+class Unit:
+    """What matters here of a systemd unit and of the settings beside it."""
+
+    def __init__(self, text):
+        self.variables, self.command = {}, ""
+        for line in text.splitlines():
+            key, _, value = line.partition("=")
+            if key == "Environment":
+                self.variables.update(each.partition("=")[::2] for each in shlex.split(value))
+            if key == "ExecStart":
+                self.command = value
+
+    def command_line(self, **changed):
+        """As systemd expands it: ${X} is one word whatever it holds, $X as many words as it holds."""
+        words = []
+        variables = {**self.variables, **changed}
+        for word in self.command.split():
+            if match := re.fullmatch(r"\$(\w+)", word):
+                words += variables[match[1]].split()
+            else:
+                words.append(re.sub(r"\$\{(\w+)\}", lambda found: variables[found[1]], word))
+        return words
+
+
+class Service:
+    def __init__(self, command):
+        self.process = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                        text=True)
+        self.url = json.loads(self.process.stdout.readline())["url"]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(30)
+        self.process.stdout.close()
+
+
+class DebianPackage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.here = pathlib.Path(cls.folder.name)
+        made = call("cpack", "--config", build / "CPackConfig.cmake", "-B", cls.here / "package", cwd=build)
+        assert made.returncode == 0, made.stdout + made.stderr
+        cls.package = next((cls.here / "package").glob("*.deb"))
+        cls.root = cls.here / "root"
+        assert call("dpkg-deb", "-R", cls.package, cls.root).returncode == 0
+        cls.bin = cls.root / "usr/bin"
+        cls.unit = Unit((cls.root / "lib/systemd/system/breachline.service").read_text())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def breach(self, service, *arguments):
+        done = call(self.bin / "breach", "--server", service.url, *arguments)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def served(self, data):
+        command = self.unit.command_line(BREACHLINE_DATA=str(data), BREACHLINE_PORT="0",
+                                         BREACHLINE_OPTIONS="--slots 1 --tries 2")
+        self.assertEqual(command[0], "/usr/bin/breachline")
+        return Service([self.root / command[0].lstrip("/"), *command[1:]])
+
+    def test_it_holds_programs_workflows_dashboard_and_service(self):
+        self.assertEqual({each.name for each in self.bin.iterdir()}, programs)
+        for each in self.bin.iterdir():
+            self.assertEqual(stat.S_IMODE(each.stat().st_mode), 0o755, each)
+        share = self.root / "usr/share/breachline"
+        self.assertEqual(files_below(share / "web"), files_below(source / "services/web/static"))
+        for room in ("schema", "scenes", "studies"):
+            self.assertEqual(files_below(share / room), files_below(source / "workflows" / room))
+        control = (self.root / "DEBIAN/control").read_text()
+        for library in ("libhdf5", "libcpp-httplib", "libsqlite3", "libssl3", "sqlite3", "adduser"):
+            self.assertIn(library, control)
+        self.assertNotIn("\n(", control)
+
+    def test_its_scripts_are_sound_and_its_settings_are_kept_on_upgrade(self):
+        for name in ("postinst", "prerm", "postrm"):
+            script = self.root / "DEBIAN" / name
+            self.assertTrue(os.access(script, os.X_OK), name)
+            self.assertEqual(call("sh", "-n", script).returncode, 0, name)
+        self.assertEqual((self.root / "DEBIAN/conffiles").read_text(), "/etc/breachline/breachline.conf\n")
+        settings = (self.root / "etc/breachline/breachline.conf").read_text()
+        shown = dict(re.findall(r"^#(BREACHLINE_\w+)=(.*)$", settings, re.M))
+        self.assertEqual(shown, self.unit.variables, "the settings file shows the unit's defaults")
+        self.assertFalse([line for line in settings.splitlines() if line and not line.startswith("#")])
+
+    def test_an_install_stays_below_its_prefix(self):
+        prefix = self.here / "prefix"
+        self.assertEqual(call("cmake", "--install", build, "--prefix", prefix).returncode, 0)
+        self.assertEqual(files_below(prefix), files_below(self.root / "usr"))
+
+    def test_its_service_runs_a_study_and_survives_as_a_backup(self):
+        study = self.here / "study.json"
+        study.write_text(json.dumps({
+            "format": "breachline-study/1", "name": "column", "transfer_times": [0.1],
+            "scene": str(self.root / "usr/share/breachline/scenes/column.json"),
+            "overrides": ["/fem/stages/1/duration=0.2", "/mpm/duration=0.5", "/mpm/cell_size=2"]}))
+        data, backup, restored = self.here / "data", self.here / "backup", self.here / "restored"
+        with self.served(data) as service:
+            page = urllib.request.urlopen(service.url + "/", timeout=10).read()
+            self.assertEqual(page, (self.root / "usr/share/breachline/web/index.html").read_bytes())
+            run = self.breach(service, "submit", study, "--watch").splitlines()[0]
+            results = self.breach(service, "results", run, "--csv")
+            saved = call(self.bin / "breachline-backup", data, backup)
+            self.assertEqual((saved.returncode, saved.stdout), (0, f"{backup}: 1 runs\n"), saved.stderr)
+            self.assertEqual(call(self.bin / "breachline-backup", data, backup).returncode, 74)
+            self.breach(service, "submit", study)  # the backup knows nothing of what came later
+        self.assertEqual(call(self.bin / "breachline-restore", backup, data).returncode, 74)
+        brought = call(self.bin / "breachline-restore", backup, restored)
+        self.assertEqual(brought.returncode, 0, brought.stderr)
+        shutil.rmtree(data)  # nothing may lean on the old folder
+        with self.served(restored) as service:
+            self.assertEqual(len(json.loads(self.breach(service, "list", "--json"))), 1)
+            self.assertEqual(self.breach(service, "results", run, "--csv"), results)
+            self.breach(service, "export", run, self.here / "exported")
+
+
+if __name__ == "__main__":
+    for program in ("cpack", "dpkg-deb", "dpkg-shlibdeps", "sqlite3"):
+        if not shutil.which(program):
+            print(f"skipped: {program} is not installed")
+            sys.exit(77)
+    unittest.main(argv=sys.argv[:1])
