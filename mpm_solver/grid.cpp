@@ -38,6 +38,7 @@ Grid make_grid(const scene::Mpm& mpm) {
 
     Grid grid{};
     grid.h = h;
+    grid.per_h = 1.0 / h;
     grid.origin = {mpm.domain_x[0] - h, mpm.floor.level - h};
     grid.columns = cells_x + 3;
     grid.rows = cells_y + 3;

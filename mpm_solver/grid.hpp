@@ -23,8 +23,9 @@ constexpr std::uint8_t floor = 4;  ///< unilateral in y, Coulomb friction in x
 
 /// Nodes are stored column by column (y fastest), with one ghost row around the domain.
 struct Grid {
-    double h;     ///< edge of a cell [m]
-    Vec2 origin;  ///< of the first ghost node [m]
+    double h;      ///< edge of a cell [m]
+    double per_h;  ///< 1 / h [1/m]
+    Vec2 origin;   ///< of the first ghost node [m]
     std::int32_t columns;
     std::int32_t rows;
     Vec2 low;  ///< walls and floor; a point outside [low, high] has left the grid [m]
@@ -47,8 +48,8 @@ struct Grid {
     std::vector<std::uint8_t> is_active;
 
     std::int32_t nodes() const { return columns * rows; }
-    double xi(double x) const { return (x - origin.x()) / h; }
-    double eta(double y) const { return (y - origin.y()) / h; }
+    double xi(double x) const { return (x - origin.x()) * per_h; }
+    double eta(double y) const { return (y - origin.y()) * per_h; }
     /// Cell that holds (xi, eta), numbered as its lower left node.
     std::int32_t cell(double xi, double eta) const {
         return static_cast<std::int32_t>(xi) * rows + static_cast<std::int32_t>(eta);

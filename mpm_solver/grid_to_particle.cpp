@@ -30,11 +30,11 @@ Gathered gather(const Grid& grid, const Stencil& sx, const Stencil& sy) {
     return sum;
 }
 
-void set_gradient(Points& points, std::size_t p, const Gathered& at, double h) {
-    points.Lxx[p] = at.d_x[0] / h;
-    points.Lyx[p] = at.d_x[1] / h;
-    points.Lxy[p] = at.d_y[0] / h;
-    points.Lyy[p] = at.d_y[1] / h;
+void set_gradient(Points& points, std::size_t p, const Gathered& at, double per_h) {
+    points.Lxx[p] = at.d_x[0] * per_h;
+    points.Lyx[p] = at.d_x[1] * per_h;
+    points.Lxy[p] = at.d_y[0] * per_h;
+    points.Lyy[p] = at.d_y[1] * per_h;
 }
 
 void forget(CellAverages& averages) {
@@ -88,7 +88,7 @@ void grid_to_particle(Body& body, double dt) {
 
             points.vx[p] = (1.0 - blend) * (points.vx[p] + at.value[2]) + blend * at.value[0];
             points.vy[p] = (1.0 - blend) * (points.vy[p] + at.value[3]) + blend * at.value[1];
-            set_gradient(points, p, at, grid.h);
+            set_gradient(points, p, at, grid.per_h);
             const Vec2 v = velocity_at_place(grid, sx, sy, at, xi, eta);
             if constexpr (order == UpdateOrder::usl) {
                 points.x[p] += dt * v.x();
@@ -162,7 +162,7 @@ void map_again(Body& body, double dt) {
         for (std::size_t p = body.zones[z].begin; p < body.zones[z].end; ++p) {
             const Stencil sx = kernel(grid.xi(points.x[p]), grid.walls_x);
             const Stencil sy = kernel(grid.eta(points.y[p]), grid.walls_y);
-            set_gradient(points, p, gather(grid, sx, sy), grid.h);
+            set_gradient(points, p, gather(grid, sx, sy), grid.per_h);
             points.x[p] += dt * body.drift_x[p];
             points.y[p] += dt * body.drift_y[p];
             if (!grid.holds(points.x[p], points.y[p])) body.tally.lost = p;

@@ -31,7 +31,8 @@ struct WallRows {
 class GimpKernel {
   public:
     /// half_size: l [cells] in (0, 0.5].
-    explicit GimpKernel(double half_size) : l_(half_size) {}
+    explicit GimpKernel(double half_size)
+        : l_(half_size), half_over_l_(0.5 / half_size), quarter_over_l_(0.25 / half_size) {}
 
     /// xi [cells] > 0 from the first (ghost) node row.
     Stencil operator()(double xi, const WallRows& walls) const {
@@ -48,10 +49,10 @@ class GimpKernel {
         const double e = std::clamp(d, -l_, l_);
         const double to_right = l_ + e;
         const double to_left = l_ - e;
-        const double right = to_right * to_right * (0.25 / l_) + std::max(d - l_, 0.0);
-        const double left = to_left * to_left * (0.25 / l_) + std::max(-d - l_, 0.0);
-        const double d_right = to_right * (0.5 / l_);
-        const double d_left = -to_left * (0.5 / l_);
+        const double right = to_right * to_right * quarter_over_l_ + std::max(d - l_, 0.0);
+        const double left = to_left * to_left * quarter_over_l_ + std::max(-d - l_, 0.0);
+        const double d_right = to_right * half_over_l_;
+        const double d_left = -to_left * half_over_l_;
         return {nearest - 1,
                 {left, 1.0 - left - right, right},
                 {d_left, -d_left - d_right, d_right},
@@ -60,6 +61,8 @@ class GimpKernel {
 
   private:
     double l_;
+    double half_over_l_;
+    double quarter_over_l_;
 };
 
 /// Hat functions: for tests. Points on a node belong to the cell above it, except at the far wall.

@@ -14,9 +14,10 @@ struct Given {
     double fxx, fyy, fxy;  ///< -V sigma / h [N]
 };
 
-Given given(const Points& points, std::size_t p, double h) {
+Given given(const Points& points, std::size_t p, const Grid& grid) {
+    const double h = grid.h;
     const double m = points.m[p];
-    const double share = -points.V[p] / h;
+    const double share = -points.V[p] * grid.per_h;
     return {.m = m,
             .mvx = m * points.vx[p],
             .mvy = m * points.vy[p],
@@ -66,7 +67,7 @@ void particle_to_grid(Body& body) {
         const Stencil sx = kernel(grid.xi(points.x[p]), grid.walls_x);
         const Stencil sy = kernel(grid.eta(points.y[p]), grid.walls_y);
         grid.use_stencil(sx.first * grid.rows + sy.first);
-        scatter(grid, sx, sy, given(points, p, grid.h));
+        scatter(grid, sx, sy, given(points, p, grid));
     }
     find_active_nodes(grid);
 }

@@ -12,6 +12,8 @@ using materials::Return;
 using mechanics::Voigt;
 using scene::AntiLocking;
 
+constexpr double third = 1.0 / 3.0;
+
 /// Volume strain that the soil opened in tension closes first; returns what is left for the law.
 double close_gap(double& gap, double d_epsilon_v) {
     const double closing = std::clamp(-d_epsilon_v, 0.0, gap);
@@ -23,8 +25,17 @@ double close_gap(double& gap, double d_epsilon_v) {
 Voigt strain_increment(const Points& points, std::size_t p, double dt, double d_epsilon_v) {
     const double xx = points.Lxx[p] * dt;
     const double yy = points.Lyy[p] * dt;
-    const double shift = (d_epsilon_v - xx - yy) / 3.0;
+    const double shift = (d_epsilon_v - xx - yy) * third;
     return {xx + shift, yy + shift, shift, (points.Lxy[p] + points.Lyx[p]) * dt};
+}
+
+/// sqrt(2/3 e:e) of a strain whose volumetric part is known [-].
+double equivalent(const Voigt& d_epsilon, double d_epsilon_v) {
+    const double xx = d_epsilon[0] - d_epsilon_v * third;
+    const double yy = d_epsilon[1] - d_epsilon_v * third;
+    const double zz = d_epsilon[2] - d_epsilon_v * third;
+    const double e_e = xx * xx + yy * yy + zz * zz + 0.5 * d_epsilon[3] * d_epsilon[3];
+    return std::sqrt(2.0 * third * e_e);
 }
 
 void follow(Points& points, std::size_t p, const materials::Update& update) {
@@ -37,7 +48,7 @@ void follow(Points& points, std::size_t p, const materials::Update& update) {
 }
 
 double mean_stress(const Points& points, std::size_t p) {
-    return (points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0;
+    return (points.sxx[p] + points.syy[p] + points.szz[p]) * third;
 }
 
 void turn_rates_to_averages(CellAverages& averages) {
@@ -67,7 +78,7 @@ double integrate_zone(Points& points, const Zone& zone, CellAverages* averages, 
 
         const materials::Update update = materials::integrate(law, old, d_epsilon);
         follow(points, p, update);
-        points.epsilon_q[p] += mechanics::epsilon_q(d_epsilon);
+        points.epsilon_q[p] += equivalent(d_epsilon, d_epsilon_v);
         if constexpr (opens) {
             if (update.kind == Return::elastic) continue;
             const Voigt& plastic = update.d_epsilon_plastic;
@@ -96,11 +107,11 @@ void average_mean_stress(Points& points, const Zone& zone, CellAverages& average
 }
 
 void update_volumes(Points& points, Zone& zone) {
-    const double K = zone.elasticity.bulk_modulus();
+    const double per_K = 1.0 / zone.elasticity.bulk_modulus();
     double largest = 0.0;
     if (zone.volume_rule == VolumeRule::from_stress) {
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
-            points.V[p] = points.V_0[p] * (1.0 + mean_stress(points, p) / K);
+            points.V[p] = points.V_0[p] * (1.0 + mean_stress(points, p) * per_K);
             largest = std::max(largest, points.V[p] / points.m[p]);
         }
     } else {
