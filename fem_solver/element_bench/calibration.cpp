@@ -140,6 +140,32 @@ Fit Calibration::evaluate(const std::vector<double>& values) const {
     return fit;
 }
 
+namespace {
+
+struct Start {
+    std::vector<double> x;  ///< logarithms of the parameters
+    double misfit;
+};
+
+/// Point k of Halton's sequence in the box of the bounds, in logarithms.
+std::vector<double> spread_point(int k, const std::vector<FreeParameter>& free) {
+    constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43};
+    std::vector<double> x;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const int base = primes[i % std::size(primes)];
+        double share = 0.0, digit = 1.0;
+        for (int rest = k; rest > 0; rest /= base) {
+            digit /= base;
+            share += digit * (rest % base);
+        }
+        x.push_back(std::log(free[i].least) +
+                    share * (std::log(free[i].most) - std::log(free[i].least)));
+    }
+    return x;
+}
+
+}  // namespace
+
 CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen) {
     const auto& free = calibration.problem().free;
@@ -151,7 +177,7 @@ CalibrationResult calibrate(const Calibration& calibration,
         }
         return values;
     };
-    const auto misfit = [&](const std::vector<double>& x) {
+    const auto fit_at = [&](const std::vector<double>& x) {
         Fit fit = calibration.evaluate(values_at(x));
         ++result.evaluations;
         if (result.evaluations == 1) result.first = fit;
@@ -160,16 +186,36 @@ CalibrationResult calibrate(const Calibration& calibration,
             result.path.push_back({fit.values, fit.misfit, {}});
         }
         if (seen) seen(result.evaluations, fit);
-        return fit.misfit;
+        return fit;
     };
+    const auto misfit = [&](const std::vector<double>& x) { return fit_at(x).misfit; };
+    const int most = calibration.problem().most_evaluations;
+
+    // Q and R trade against each other along a bent valley: look around before going down.
     std::vector<double> x;
     for (const double value : calibration.start()) x.push_back(std::log(value));
-    const int most = calibration.problem().most_evaluations;
-    x = least_by_simplex(misfit, x,
-                         {.size = 0.3, .least_size = 2e-3, .most_evaluations = most / 2});
-    least_by_simplex(
-        misfit, x,
-        {.size = 0.1, .least_size = 2e-4, .most_evaluations = most - result.evaluations});
+    std::vector<Start> starts{{x, misfit(x)}};
+    for (int k = 1; k <= most / 8; ++k) {
+        const std::vector<double> at = spread_point(k, free);
+        starts.push_back({at, misfit(at)});
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
+    for (std::size_t k = 0; k < 3 && k < starts.size(); ++k) {
+        least_by_simplex(misfit, starts[k].x,
+                         {.size = 0.2, .least_size = 5e-3, .most_evaluations = most / 5});
+    }
+    // Fresh simplices around the best until one brings nothing.
+    double size = 0.1, before = 2.0 * result.best.misfit;
+    while (result.evaluations < most && result.best.misfit < before * (1.0 - 1e-4)) {
+        before = result.best.misfit;
+        std::vector<double> best;
+        for (const double value : result.best.values) best.push_back(std::log(value));
+        least_by_simplex(
+            misfit, best,
+            {.size = size, .least_size = 2e-4, .most_evaluations = most - result.evaluations});
+        size = -0.5 * size;
+    }
     result.parameters = calibration.with(result.best.values);
     return result;
 }

@@ -45,7 +45,7 @@ struct CalibrationProblem {
     materials::pm4sand::Options options;
     double monotonic_step = 2e-4;
     double cyclic_step = 1e-4;
-    int most_evaluations = 400;
+    int most_evaluations = 800;
     int most_cycles = 300;
 };
 
@@ -96,8 +96,8 @@ struct CalibrationResult {
     SandParameters parameters;
 };
 
-/// Nelder and Mead's simplex in the logarithms of the parameters, restarted once around its result.
-/// `seen` is told of each evaluation (for progress); it may be empty.
+/// Damped Gauss-Newton in the logarithms of the parameters, then Nelder and Mead's simplex around
+/// its result. `seen` is told of each evaluation (for progress); it may be empty.
 CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen = {});
 
