@@ -10,6 +10,7 @@ root = pathlib.Path(os.environ["BREACH_ROOT"])
 # room -> rooms it may include (besides itself)
 core = {
     "core/fault": set(),
+    "core/criteria": {"core/fault"},
     "core/mechanics": set(),
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
@@ -23,7 +24,7 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/fault", "core/scene", "core/exchange"},
+    "services/orchestrator": {"core/criteria", "core/fault", "core/scene", "core/exchange"},
     "services/cli": {"core/fault", "core/scene", "core/exchange"},
 }
 # outside header -> places (folder or file prefix) that may include it

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include "core/criteria/window.hpp"
+
+namespace breach::criteria {
+namespace {
+
+using State = Criterion::State;
+
+Criterion criterion(const std::string& text, double hold) {
+    return {parse(text, Kind::condition, ""), hold};
+}
+
+TEST(Criterion, WithoutHoldIsMetOnTheCrossingLine) {
+    Criterion c = criterion("x > 1", 0);
+    EXPECT_EQ(c.take({0.1, 1, {0.5}}), State::armed);
+    EXPECT_EQ(c.take({0.2, 2, {1.5}}), State::met);
+    EXPECT_DOUBLE_EQ(c.met_at(), 0.2);
+    EXPECT_EQ(c.crossing()->step, 2);
+    EXPECT_DOUBLE_EQ(c.crossing()->values[0], 1.5);
+    EXPECT_EQ(c.take({0.3, 3, {0.0}}), State::met);  // once met, always met
+}
+
+TEST(Criterion, CrossedAndUncrossedInsideTheHoldIsArmedAgain) {
+    Criterion c = criterion("x > 1", 0.05);
+    EXPECT_EQ(c.take({0.10, 1, {2}}), State::holding);
+    EXPECT_EQ(c.take({0.14, 2, {0}}), State::armed);
+    EXPECT_FALSE(c.crossing());
+    EXPECT_EQ(c.take({0.20, 3, {2}}), State::holding);  // the hold begins anew
+    EXPECT_EQ(c.take({0.24, 4, {2}}), State::holding);
+    EXPECT_EQ(c.take({0.25, 5, {2}}), State::met);  // 0.25 - 0.20 is a little less than 0.05
+    EXPECT_DOUBLE_EQ(c.crossing()->time, 0.20);
+    EXPECT_DOUBLE_EQ(c.met_at(), 0.25);
+}
+
+TEST(Window, UpperEdgeBeforeTheLowerOneDoesNotCount) {
+    Window w(parse("x > 1", Kind::condition, ""), parse("y < 1", Kind::condition, ""), 0);
+    const auto take = [&](double t, double x, double y) {
+        w.take_lower({t, 0, {x}});
+        w.take_upper({t, 0, {y}});
+    };
+    take(0.1, 0, 0);
+    EXPECT_EQ(w.upper().state(), State::armed);
+    take(0.2, 2, 2);
+    EXPECT_EQ(w.lower().state(), State::met);
+    EXPECT_EQ(w.upper().state(), State::armed);
+    take(0.3, 2, 0);
+    EXPECT_EQ(w.upper().state(), State::met);
+}
+
+TEST(Window, PicksAsAsked) {
+    const std::vector<double> times{0.5, 1.0, 1.5, 2.0, 2.5};
+    EXPECT_DOUBLE_EQ(*picked(Pick::first, 0.9, 2.0, times), 1.0);
+    EXPECT_DOUBLE_EQ(*picked(Pick::last_before, 0.9, 2.0, times), 1.5);
+    EXPECT_DOUBLE_EQ(*picked(Pick::last_before, 0.9, 2.1, times), 2.0);
+    EXPECT_DOUBLE_EQ(*picked(Pick::midpoint, 0.9, 2.2, times), 1.5);
+    EXPECT_DOUBLE_EQ(*picked(Pick::midpoint, 1.0, 1.5, times), 1.0);  // the earlier of two
+    EXPECT_FALSE(picked(Pick::midpoint, 1.1, 1.4, times));
+    EXPECT_FALSE(picked(Pick::last_before, 1.0, 1.0, times));
+}
+
+}  // namespace
+}  // namespace breach::criteria
