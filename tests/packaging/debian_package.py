@@ -151,7 +151,7 @@ class DebianPackage(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    for program in ("cpack", "dpkg-deb", "dpkg-shlibdeps", "sqlite3"):
+    for program in ("cpack", "dpkg-deb", "dpkg-shlibdeps", "file", "sqlite3"):
         if not shutil.which(program):
             print(f"skipped: {program} is not installed")
             sys.exit(77)
