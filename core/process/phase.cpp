@@ -148,7 +148,7 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene) 
 }
 
 ExitCode answer(const Phase& phase, Arguments& arguments) {
-    scene::Scene scene = scene::read_scene(arguments.scene, arguments.settings.overrides);
+    scene::Scene scene = phase.read(arguments.scene, arguments.settings.overrides);
     if (arguments.question == Question::none) return simulate(phase, arguments, std::move(scene));
     const Plan plan = phase.plan(scene);
     if (arguments.question == Question::plan) {

@@ -32,6 +32,9 @@ struct Phase {
     InputRule inputs;
     std::function<Plan(const scene::Scene&)> plan;
     std::function<Outcome(Session&)> run;
+    /// Reads the document that the phase works from; not every phase works from a scene.
+    std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
+        read = scene::read_scene;
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes

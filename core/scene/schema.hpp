@@ -14,6 +14,7 @@ namespace breach::scene {
 
 const nlohmann::json& scene_schema();
 const nlohmann::json& study_schema();
+const nlohmann::json& element_test_schema();
 
 /// Text -> JSON. Refuses duplicate keys, comments, numbers out of range, nesting deeper than 64.
 /// Throws BadInput.

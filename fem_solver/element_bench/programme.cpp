@@ -43,8 +43,8 @@ class Test {
     }
     /// False when the specimen could not follow.
     bool accept(const Trial& trial) {
-        if (trial.outcome == Outcome::failed) {
-            record_.outcome = Outcome::failed;
+        if (trial.outcome == Ending::failed) {
+            record_.outcome = Ending::failed;
             return false;
         }
         record_.last = trial.specimen;
@@ -103,7 +103,7 @@ Trial step_onto(Test& test, Boundary boundary, double d, double target, double t
     Trial trial = test.attempt(b);
     double fb = response(trial.specimen, boundary) - target;
     for (int pass = 0; pass < 60; ++pass) {
-        if (std::abs(fb) <= tolerance || trial.outcome == Outcome::failed) break;
+        if (std::abs(fb) <= tolerance || trial.outcome == Ending::failed) break;
         const double c = b - fb * (b - a) / (fb - fa);
         trial = test.attempt(c);
         const double fc = response(trial.specimen, boundary) - target;
@@ -133,7 +133,7 @@ CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const Cycli
         const double target = load.mean + direction * load.amplitude;
         Trial trial = test.attempt(direction * pace.step);
         bool turns = false;
-        if (trial.outcome == Outcome::done &&
+        if (trial.outcome == Ending::done &&
             direction * (response(trial.specimen, boundary) - target) >= -tolerance) {
             trial = step_onto(test, boundary, direction * pace.step, target, tolerance);
             turns = true;

@@ -22,7 +22,7 @@ struct Reading {
 struct Record {
     std::vector<Reading> readings;
     Specimen last;
-    Outcome outcome = Outcome::done;
+    Ending outcome = Ending::done;
     long calls = 0;
     materials::pm4sand::Counts counts;
 };

@@ -21,19 +21,19 @@ double shear_modulus(const Specimen& specimen) {
 
 namespace {
 
-Outcome strain_point(PlainPoint& point, const Voigt& d, pm4sand::Counts&) {
-    if (!d.allFinite()) return Outcome::failed;
+Ending strain_point(PlainPoint& point, const Voigt& d, pm4sand::Counts&) {
+    if (!d.allFinite()) return Ending::failed;
     point.state =
         std::visit([&](const auto& law) { return materials::integrate(law, point.state, d).state; },
                    point.law);
-    return Outcome::done;
+    return Ending::done;
 }
 
-Outcome strain_point(SandPoint& point, const Voigt& d, pm4sand::Counts& counts) {
+Ending strain_point(SandPoint& point, const Voigt& d, pm4sand::Counts& counts) {
     const auto update = pm4sand::integrate(point.law, point.state, d, point.options);
     counts = update.counts;
     point.state = update.state;
-    return update.outcome == pm4sand::Outcome::done ? Outcome::done : Outcome::failed;
+    return update.outcome == pm4sand::Outcome::done ? Ending::done : Ending::failed;
 }
 
 /// Strain increment of a boundary: the driven part and the strain that is free.
@@ -61,11 +61,11 @@ int held_component(Boundary boundary) {
 }  // namespace
 
 Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
-    Trial trial{specimen, Outcome::done, {}};
+    Trial trial{specimen, Ending::done, {}};
     trial.outcome =
         std::visit([&](auto& point) { return strain_point(point, d_epsilon, trial.counts); },
                    trial.specimen.point);
-    if (trial.outcome == Outcome::failed) {
+    if (trial.outcome == Ending::failed) {
         trial.specimen = specimen;
         return trial;
     }
@@ -98,7 +98,7 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
     const double stiffness = 4.0 * shear_modulus(specimen);
     double x0 = 0.0;
     Trial trial = strained(specimen, increment(boundary, d, x0));
-    if (trial.outcome == Outcome::failed) return trial;
+    if (trial.outcome == Ending::failed) return trial;
     double f0 = stress(trial.specimen)[component] - held;
     double x1 = x0 - f0 / stiffness;
     pm4sand::Counts counts = trial.counts;
@@ -106,7 +106,7 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
         if (std::abs(f0) <= tolerance) break;
         trial = strained(specimen, increment(boundary, d, x1));
         counts += trial.counts;
-        if (trial.outcome == Outcome::failed) return trial;
+        if (trial.outcome == Ending::failed) return trial;
         const double f1 = stress(trial.specimen)[component] - held;
         const double slope = (f1 - f0) / (x1 - x0);
         x0 = x1;
@@ -114,7 +114,7 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
         x1 -= f1 / (std::isfinite(slope) && slope > 1e-4 * stiffness ? slope : stiffness);
     }
     trial.counts = counts;
-    if (std::abs(f0) > 1e3 * tolerance) return {specimen, Outcome::failed, counts};
+    if (std::abs(f0) > 1e3 * tolerance) return {specimen, Ending::failed, counts};
     return trial;
 }
 

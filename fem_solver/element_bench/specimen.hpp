@@ -39,12 +39,12 @@ Voigt stress(const Specimen& specimen);
 /// Initial tangent shear modulus [Pa].
 double shear_modulus(const Specimen& specimen);
 
-enum class Outcome { done, failed };
+enum class Ending { done, failed };
 
 /// A specimen after a trial; `failed` leaves it as it was.
 struct Trial {
     Specimen specimen;
-    Outcome outcome = Outcome::done;
+    Ending outcome = Ending::done;
     materials::pm4sand::Counts counts;
 };
 

@@ -1,0 +1,247 @@
+#include "fem_solver/element_bench/document.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "core/scene/schema.hpp"
+
+namespace breach::element_bench {
+
+namespace pm4sand = materials::pm4sand;
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+struct SandKey {
+    const char* key;
+    double SandParameters::*member;
+    double unit = 1.0;  ///< SI value of one unit of the key
+};
+
+constexpr SandKey sand_keys[] = {
+    {"D_R", &SandParameters::D_R},
+    {"G_0", &SandParameters::G_0},
+    {"h_po", &SandParameters::h_po},
+    {"p_atm_kPa", &SandParameters::p_atm, 1e3},
+    {"h_0", &SandParameters::h_0},
+    {"e_max", &SandParameters::e_max},
+    {"e_min", &SandParameters::e_min},
+    {"n_b", &SandParameters::n_b},
+    {"n_d", &SandParameters::n_d},
+    {"c_z", &SandParameters::c_z},
+    {"c_epsilon", &SandParameters::c_epsilon},
+    {"phi_cv_deg", &SandParameters::phi_cv, degree},
+    {"nu", &SandParameters::nu},
+    {"C_GD", &SandParameters::C_GD},
+    {"C_DR", &SandParameters::C_DR},
+    {"C_Kaf", &SandParameters::C_Kaf},
+    {"Q", &SandParameters::Q},
+    {"R", &SandParameters::R},
+    {"m", &SandParameters::m},
+    {"F_sed_min", &SandParameters::F_sed_min},
+    {"p_sedo_kPa", &SandParameters::p_sedo, 1e3},
+};
+
+SandLaw sand_of(const json& law) {
+    const double D_R = law.at("D_R");
+    SandLaw out{pm4sand::defaults(D_R, law.at("G_0"), pm4sand::default_h_po(D_R)), {}};
+    if (law.contains("p_atm_kPa")) {
+        out.parameters.p_sedo = 1e3 * law.at("p_atm_kPa").get<double>() / 5.0;
+    }
+    for (const SandKey& each : sand_keys) {
+        if (law.contains(each.key)) {
+            out.parameters.*each.member = each.unit * law.at(each.key).get<double>();
+        }
+    }
+    if (law.contains("A_do")) out.parameters.A_do = law.at("A_do");
+    if (law.contains("z_max")) out.parameters.z_max = law.at("z_max");
+    out.parameters.reconsolidation = law.at("reconsolidation").get<bool>()
+                                         ? pm4sand::Reconsolidation::on
+                                         : pm4sand::Reconsolidation::off;
+    out.options.scheme =
+        law.at("compat") == "opensees" ? pm4sand::Scheme::reference : pm4sand::Scheme::adaptive;
+    out.options.tolerance = law.at("tolerance");
+    return out;
+}
+
+/// Writes what follows from D_R into a PM4Sand entry, and says what contradicts.
+void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& faults) {
+    if (!law.is_object() || law.value("type", "") != "pm4sand") return;
+    const SandParameters parameters = sand_of(law).parameters;
+    const json whole = as_json(parameters);
+    for (const auto& [key, value] : whole.items()) {
+        if (!law.contains(key)) law[key] = value;
+    }
+    if (parameters.e_max <= parameters.e_min) {
+        faults.push_back({pointer + "/e_max", "is not above e_min", "give e_max > e_min"});
+    }
+}
+
+TestLaw law_of(const json& law) {
+    const std::string type = law.at("type");
+    if (type == "pm4sand") return sand_of(law);
+    const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
+    if (type == "linear_elastic") return materials::Law{materials::LinearElastic{elasticity}};
+    return materials::Law{
+        materials::MohrCoulomb{.elasticity = elasticity,
+                               .c = 1e3 * law.at("c_kPa").get<double>(),
+                               .phi = degree * law.at("phi_deg").get<double>(),
+                               .psi = degree * law.at("psi_deg").get<double>(),
+                               .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>(),
+                               .softening = std::nullopt}};
+}
+
+Boundary boundary_of(const std::string& name) {
+    if (name == "undrained_shear") return Boundary::undrained_shear;
+    if (name == "drained_shear") return Boundary::drained_shear;
+    if (name == "undrained_biaxial") return Boundary::undrained_biaxial;
+    return Boundary::drained_biaxial;
+}
+
+std::vector<double> scaled(const json& numbers, double unit) {
+    std::vector<double> out;
+    for (const json& each : numbers) out.push_back(unit * each.get<double>());
+    return out;
+}
+
+Pace pace_of(const json& test) { return {.step = test.at("step"), .every = test.at("every")}; }
+
+TestPlan plan_of(const std::string& name, const json& test) {
+    TestPlan plan{name,
+                  {.boundary = boundary_of(test.at("boundary")),
+                   .sigma_v = scaled(test.at("sigma_v_kPa"), 1e3),
+                   .K0 = test.at("K0"),
+                   .static_shear = test.value("static_shear", 0.0)},
+                  {}};
+    const std::string type = test.at("type");
+    if (type == "monotonic") {
+        plan.kind = MonotonicTest{test.at("strain"), pace_of(test)};
+    } else if (type == "cyclic_strength") {
+        plan.kind = CyclicStrengthTest{scaled(test.at("CSR"), 1.0),
+                                       {.strain = test.at("strain_limit"),
+                                        .r_u = test.at("r_u_limit"),
+                                        .cycles = test.at("most_cycles")},
+                                       pace_of(test)};
+    } else if (type == "cyclic_strain") {
+        plan.kind = CyclicStrainTest{test.at("amplitude"), test.at("cycles"), pace_of(test)};
+    } else {
+        plan.kind = ModulusReductionTest{scaled(test.at("amplitudes"), 1.0), test.at("cycles"),
+                                         test.at("steps")};
+    }
+    return plan;
+}
+
+CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
+    CalibrationProblem problem{.start = start.parameters,
+                               .reference = sand_of(entry.at("reference")).parameters,
+                               .free = {},
+                               .strength = {},
+                               .cyclic = {},
+                               .strength_spread = entry.at("strength_spread"),
+                               .cyclic_spread = entry.at("cyclic_spread"),
+                               .options = start.options,
+                               .most_evaluations = entry.at("most_evaluations")};
+    for (const auto& [name, bound] : entry.at("free").items()) {
+        problem.free.push_back({name, bound.at("least"), bound.at("most")});
+    }
+    for (const json& each : entry.at("strength")) {
+        problem.strength.push_back({1e3 * each.at("sigma_v_kPa").get<double>(), each.at("K0"),
+                                    each.at("strain"), 1e3 * each.at("s_u_kPa").get<double>()});
+    }
+    const json& cyclic = entry.at("cyclic");
+    for (const double sigma_v : scaled(cyclic.at("sigma_v_kPa"), 1e3)) {
+        for (const double CSR : scaled(cyclic.at("CSR"), 1.0)) {
+            problem.cyclic.push_back({sigma_v, cyclic.at("K0"), CSR, cyclic.at("strain_limit")});
+        }
+    }
+    return problem;
+}
+
+void check_calibration(const json& document, std::vector<Fault>& faults) {
+    if (!document.contains("calibration")) return;
+    if (document.at("law").at("type") != "pm4sand") {
+        faults.push_back({"/calibration", "needs PM4Sand", "set /law/type to \"pm4sand\""});
+    }
+    const auto names = parameter_names();
+    for (const auto& [name, bound] : document.at("calibration").at("free").items()) {
+        const std::string pointer = "/calibration/free/" + name;
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            std::string known;
+            for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+            faults.push_back({pointer, "is not a parameter that can be free", "use " + known});
+        }
+        if (bound.at("least") >= bound.at("most")) {
+            faults.push_back({pointer, "has least >= most", "give least < most"});
+        }
+    }
+}
+
+}  // namespace
+
+json as_json(const SandParameters& parameters) {
+    json out{{"type", "pm4sand"}};
+    for (const SandKey& each : sand_keys) out[each.key] = parameters.*each.member / each.unit;
+    if (parameters.A_do) out["A_do"] = *parameters.A_do;
+    if (parameters.z_max) out["z_max"] = *parameters.z_max;
+    return out;
+}
+
+scene::Scene read_document(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream || std::filesystem::is_directory(file)) {
+        throw fault::IoError(file.string() + ": cannot be read; check the path");
+    }
+    json document = scene::parse_json(text.str(), file.string());
+    std::vector<Fault> faults;
+    for (const std::string& each : overrides) {
+        for (Fault& found : scene::apply_override(document, each)) faults.push_back(found);
+    }
+    for (Fault& found : scene::complete_and_check(document, scene::element_test_schema())) {
+        faults.push_back(found);
+    }
+    if (!faults.empty()) throw fault::BadInput(file.string(), faults);
+    complete_sand(document.at("law"), "/law", faults);
+    if (document.contains("calibration")) {
+        complete_sand(document.at("calibration").at("reference"), "/calibration/reference", faults);
+    }
+    check_calibration(document, faults);
+    if (!faults.empty()) throw fault::BadInput(file.string(), faults);
+    scene::Scene scene{};
+    scene.name = document.at("name");
+    scene.title = document.at("title");
+    scene.completed = document.dump();
+    return scene;
+}
+
+Bench bench_of(const scene::Scene& scene) {
+    const json document = json::parse(scene.completed);
+    Bench bench{law_of(document.at("law")), {}, std::nullopt};
+    if (document.contains("tests")) {
+        for (const auto& [name, test] : document.at("tests").items()) {
+            bench.tests.push_back(plan_of(name, test));
+        }
+    }
+    if (document.contains("calibration")) {
+        bench.calibration = problem_of(document.at("calibration"), std::get<SandLaw>(bench.law));
+    }
+    return bench;
+}
+
+Specimen consolidated(const TestLaw& law, const Voigt& sigma) {
+    if (const auto* plain = std::get_if<materials::Law>(&law)) {
+        return {PlainPoint{*plain, {sigma, 0.0}}};
+    }
+    const auto& sand = std::get<SandLaw>(law);
+    const pm4sand::Ready ready = pm4sand::ready(sand.parameters);
+    return {SandPoint{ready, sand.options, pm4sand::initialise(ready, sigma)}};
+}
+
+}  // namespace breach::element_bench

@@ -1,0 +1,78 @@
+// An element-test document (workflows/schema/element_test.schema.json) read into plain structs, SI
+// and radians. The only file here that knows its keys.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "fem_solver/element_bench/calibration.hpp"
+
+namespace breach::element_bench {
+
+/// A law that has not seen a stress yet.
+struct SandLaw {
+    SandParameters parameters;
+    materials::pm4sand::Options options;
+};
+using TestLaw = std::variant<materials::Law, SandLaw>;
+
+/// Consolidation before a test.
+struct Consolidation {
+    Boundary boundary;
+    std::vector<double> sigma_v;  ///< [Pa]
+    double K0;
+    double static_shear = 0.0;  ///< tau over sigma_v
+};
+
+struct MonotonicTest {
+    double strain;
+    Pace pace;
+};
+struct CyclicStrengthTest {
+    std::vector<double> CSR;
+    Limit limit;
+    Pace pace;
+};
+struct CyclicStrainTest {
+    double amplitude;
+    int cycles;
+    Pace pace;
+};
+struct ModulusReductionTest {
+    std::vector<double> amplitudes;
+    int cycles;
+    int steps;
+};
+
+struct TestPlan {
+    std::string name;
+    Consolidation consolidation;
+    std::variant<MonotonicTest, CyclicStrengthTest, CyclicStrainTest, ModulusReductionTest> kind;
+};
+
+struct Bench {
+    TestLaw law;
+    std::vector<TestPlan> tests;
+    std::optional<CalibrationProblem> calibration;
+};
+
+/// Reads, completes and checks the document; PM4Sand's defaults are written into it. The scene that
+/// comes back carries the name and the completed text only. Throws BadInput with every fault.
+scene::Scene read_document(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides);
+
+/// The structs of a completed document. Throws BadInput where entries contradict each other.
+Bench bench_of(const scene::Scene& scene);
+
+/// PM4Sand parameters as the document writes them.
+nlohmann::json as_json(const SandParameters& parameters);
+
+/// A specimen of the law at an effective stress sigma [Pa, tension positive].
+Specimen consolidated(const TestLaw& law, const Voigt& sigma);
+
+}  // namespace breach::element_bench

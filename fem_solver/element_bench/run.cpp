@@ -1,0 +1,274 @@
+#include "fem_solver/element_bench/run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+
+#include "core/exchange/archive.hpp"
+#include "fem_solver/element_bench/document.hpp"
+
+namespace breach::element_bench {
+
+using nlohmann::json;
+using process::Outcome;
+using process::PlanLine;
+using process::Session;
+using process::Use;
+
+namespace {
+
+constexpr int archive_version = 1;
+
+/// Stress at the end of consolidation; the static shear acts before the test. zz as elastic.
+Voigt initial_stress(const Consolidation& at, double sigma_v) {
+    const double sigma_h = at.K0 * sigma_v;
+    return {-sigma_h, -sigma_v, -sigma_h, at.static_shear * sigma_v};
+}
+
+json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
+    return {{"calls", calls},
+            {"evaluations", counts.evaluations},
+            {"sub_steps", counts.sub_steps},
+            {"rejected", counts.rejected},
+            {"forced", counts.forced},
+            {"projected", counts.projected},
+            {"softened", counts.softened},
+            {"stalled", counts.stalled}};
+}
+
+exchange::Archive empty_archive() {
+    exchange::Archive archive;
+    archive.kind = "element_tests";
+    archive.version = archive_version;
+    return archive;
+}
+
+/// Collects numbers and curves of all tests.
+struct Results {
+    json numbers = json::object();
+    exchange::Archive curves = empty_archive();
+};
+
+std::string label(const std::string& test, double sigma_v, const char* what = "",
+                  double value = 0.0) {
+    char text[64];
+    if (*what) {
+        std::snprintf(text, sizeof text, "_sv%gkPa_%s%g", sigma_v / 1e3, what, value);
+    } else {
+        std::snprintf(text, sizeof text, "_sv%gkPa", sigma_v / 1e3);
+    }
+    return test + text;
+}
+
+void store(Results& results, const std::string& curve, const Record& record) {
+    const struct {
+        const char* name;
+        double Reading::*member;
+        const char* unit;
+    } columns[] = {{"strain", &Reading::strain, "1"},
+                   {"response", &Reading::response, "Pa"},
+                   {"sigma_xx", &Reading::sigma_xx, "Pa"},
+                   {"sigma_yy", &Reading::sigma_yy, "Pa"},
+                   {"tau", &Reading::tau, "Pa"},
+                   {"epsilon_v", &Reading::epsilon_v, "1"},
+                   {"r_u", &Reading::r_u, "1"},
+                   {"cycles", &Reading::cycles, "1"}};
+    for (const auto& column : columns) {
+        std::vector<double> values;
+        for (const Reading& each : record.readings) values.push_back(each.*column.member);
+        const std::string name = curve + "." + column.name;
+        results.curves.reals[name] = std::move(values);
+        results.curves.units[name] = column.unit;
+    }
+}
+
+/// Number or null: a limit that was not reached has no number of cycles.
+json reached(double N) { return N >= 0.0 ? json(N) : json(nullptr); }
+
+void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
+              const MonotonicTest& test, Results& results) {
+    const Record record = monotonic(specimen, plan.consolidation.boundary, test.strain, test.pace);
+    const Reading& last = record.readings.back();
+    results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
+                                          {"strain", last.strain},
+                                          {"response_kPa", last.response / 1e3},
+                                          {"r_u", last.r_u},
+                                          {"epsilon_v", last.epsilon_v},
+                                          {"complete", record.outcome == Ending::done},
+                                          {"cost", numbers_of(record.counts, record.calls)}});
+    store(results, label(plan.name, sigma_v), record);
+}
+
+void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
+              const CyclicStrengthTest& test, Results& results) {
+    for (const double CSR : test.CSR) {
+        const CyclicResult result = cyclic_stress(
+            specimen, plan.consolidation.boundary,
+            {.amplitude = CSR * sigma_v, .mean = plan.consolidation.static_shear * sigma_v},
+            test.limit, test.pace);
+        results.numbers[plan.name].push_back(
+            {{"sigma_v_kPa", sigma_v / 1e3},
+             {"CSR", CSR},
+             {"N_strain_limit", reached(result.N_strain)},
+             {"N_1_percent", reached(result.N_1_percent)},
+             {"N_r_u_0.95", reached(result.N_r_u)},
+             {"largest_r_u", result.largest_r_u},
+             {"complete", result.record.outcome == Ending::done},
+             {"cost", numbers_of(result.record.counts, result.record.calls)}});
+        store(results, label(plan.name, sigma_v, "csr", CSR), result.record);
+    }
+}
+
+void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
+              const CyclicStrainTest& test, Results& results) {
+    const Record record = cyclic_strain(specimen, plan.consolidation.boundary, test.amplitude,
+                                        test.cycles, test.pace);
+    const Reading& last = record.readings.back();
+    results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
+                                          {"cycles", last.cycles},
+                                          {"r_u", last.r_u},
+                                          {"epsilon_v", last.epsilon_v},
+                                          {"complete", record.outcome == Ending::done},
+                                          {"cost", numbers_of(record.counts, record.calls)}});
+    store(results, label(plan.name, sigma_v), record);
+}
+
+void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
+              const ModulusReductionTest& test, Results& results) {
+    const std::string curve = label(plan.name, sigma_v);
+    std::vector<double> amplitude, G, damping;
+    for (const double each : test.amplitudes) {
+        const Loop loop =
+            hysteresis(specimen, plan.consolidation.boundary, each, test.cycles, test.steps);
+        results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
+                                              {"amplitude", each},
+                                              {"G_secant_kPa", loop.G_secant / 1e3},
+                                              {"damping", loop.damping}});
+        amplitude.push_back(each);
+        G.push_back(loop.G_secant);
+        damping.push_back(loop.damping);
+    }
+    results.curves.reals[curve + ".amplitude"] = amplitude;
+    results.curves.reals[curve + ".G_secant"] = G;
+    results.curves.units[curve + ".G_secant"] = "Pa";
+    results.curves.reals[curve + ".damping"] = damping;
+}
+
+Outcome run_tests(Session& session) {
+    const Bench bench = bench_of(session.scene());
+    Results results;
+    double done = 0.0;
+    for (const TestPlan& plan : bench.tests) {
+        session.progress(done / static_cast<double>(bench.tests.size()), plan.name);
+        results.numbers[plan.name] = json::array();
+        for (const double sigma_v : plan.consolidation.sigma_v) {
+            if (session.stop_requested()) return Outcome::stopped;
+            const Specimen specimen =
+                consolidated(bench.law, initial_stress(plan.consolidation, sigma_v));
+            std::visit([&](const auto& test) { run_test(specimen, plan, sigma_v, test, results); },
+                       plan.kind);
+        }
+        done += 1.0;
+    }
+    exchange::write_archive(session.output("element_tests.h5"), results.curves,
+                            session.provenance());
+    session.announce(session.output("element_tests.h5"), {{"kind", "element_tests"}});
+    session.result()["tests"] = results.numbers;
+    session.progress(1.0, "done");
+    return Outcome::done;
+}
+
+process::Plan tests_plan(const scene::Scene& scene) {
+    const Bench bench = bench_of(scene);
+    process::Plan plan;
+    for (const TestPlan& each : bench.tests) {
+        plan.push_back({each.name, Use::on,
+                        std::to_string(each.consolidation.sigma_v.size()) + " confinements",
+                        "/tests/" + each.name});
+    }
+    if (bench.tests.empty()) {
+        plan.push_back({"tests", Use::left_out, "the document has none", "/tests"});
+    }
+    return plan;
+}
+
+json as_json(const Fit& fit, const CalibrationProblem& problem) {
+    json parameters = json::object();
+    for (std::size_t i = 0; i < fit.values.size(); ++i) {
+        parameters[problem.free[i].name] = fit.values[i];
+    }
+    json terms = json::array();
+    for (const Term& term : fit.terms) {
+        terms.push_back({{"name", term.name},
+                         {"wanted", term.wanted},
+                         {"computed", term.computed},
+                         {"deviation", term.deviation},
+                         {"share", term.share}});
+    }
+    return {{"parameters", parameters}, {"misfit", fit.misfit}, {"terms", terms}};
+}
+
+Outcome run_calibration(Session& session) {
+    const Bench bench = bench_of(session.scene());
+    if (!bench.calibration) {
+        throw fault::BadInput(session.scene().name, {{"/calibration", "is missing", "add it"}});
+    }
+    const Calibration calibration(*bench.calibration);
+    const CalibrationProblem& problem = calibration.problem();
+    const CalibrationResult result = calibrate(calibration, [&](int evaluation, const Fit& fit) {
+        session.progress(static_cast<double>(evaluation) / problem.most_evaluations,
+                         "misfit " + std::to_string(fit.misfit));
+    });
+    json path = json::array();
+    for (const Fit& fit : result.path) {
+        json line = as_json(fit, problem);
+        line.erase("terms");
+        path.push_back(line);
+    }
+    session.result()["calibration"] = {{"first", as_json(result.first, problem)},
+                                       {"best", as_json(result.best, problem)},
+                                       {"evaluations", result.evaluations},
+                                       {"path", path},
+                                       {"law", element_bench::as_json(result.parameters)}};
+    for (const Term& term : result.best.terms) {
+        spdlog::info("{}: wanted {:.4g}, computed {:.4g}, share of the misfit {:.4g}", term.name,
+                     term.wanted, term.computed, term.share);
+    }
+    spdlog::info("misfit {:.4g} after {} evaluations, {:.4g} at the start", result.best.misfit,
+                 result.evaluations, result.first.misfit);
+    return Outcome::done;
+}
+
+process::Plan calibration_plan(const scene::Scene& scene) {
+    const Bench bench = bench_of(scene);
+    if (!bench.calibration) {
+        return {{"calibration", Use::left_out, "the document has none", "/calibration"}};
+    }
+    process::Plan plan;
+    for (const FreeParameter& each : bench.calibration->free) {
+        plan.push_back({each.name, Use::on, "free", "/calibration/free/" + each.name});
+    }
+    return plan;
+}
+
+}  // namespace
+
+process::Phase element_test_phase() {
+    return {.name = "fem_solver element-test",
+            .purpose = "Laboratory tests on one point of a soil",
+            .inputs = {0, 0, "takes no input beside the document"},
+            .plan = tests_plan,
+            .run = run_tests,
+            .read = read_document};
+}
+
+process::Phase calibrate_phase() {
+    return {.name = "fem_solver calibrate",
+            .purpose = "Parameters of PM4Sand from strengths and a reference soil",
+            .inputs = {0, 0, "takes no input beside the document"},
+            .plan = calibration_plan,
+            .run = run_calibration,
+            .read = read_document};
+}
+
+}  // namespace breach::element_bench
