@@ -1,11 +1,24 @@
+#include <string_view>
+
 #include "core/process/phase.hpp"
+#include "fem_solver/element_bench/run.hpp"
 #include "fem_solver/run.hpp"
 
 int main(int argc, char** argv) {
+    const std::string_view command = argc > 1 ? argv[1] : "";
+    if (command == "element-test") {
+        return breach::process::run_phase(argc - 1, argv + 1,
+                                          breach::element_bench::element_test_phase());
+    }
+    if (command == "calibrate") {
+        return breach::process::run_phase(argc - 1, argv + 1,
+                                          breach::element_bench::calibrate_phase());
+    }
     return breach::process::run_phase(
         argc, argv,
         {.name = "fem_solver",
-         .purpose = "Dynamic finite elements: from geostatic stress to the failing slope",
+         .purpose = "Dynamic finite elements: from geostatic stress to the failing slope. "
+                    "Also: fem_solver element-test, fem_solver calibrate",
          .inputs = {0, 0, "takes no input beside the scene"},
          .plan = breach::fem::plan,
          .run = breach::fem::run});
