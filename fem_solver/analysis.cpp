@@ -79,7 +79,7 @@ Outcome Analysis::run() {
         position_.dt = 0.0;
     }
     position_.stage = stages - 1;  // the last one, for the checkpoint and the facts
-    if (last_snapshot_ != position_.time) write_snapshot();
+    write_last_snapshot();
     write_history();
     report_facts("all stages were run");
     session_.progress(1.0, "done");

@@ -34,7 +34,9 @@ class Analysis {
     void accept(double dt, double stop, const NewtonOutcome& outcome);
     void cut_step(const scene::Stage& stage, const NewtonOutcome& outcome);
     void write_due_outputs(double dt, const NewtonOutcome& outcome);
+    bool snapshot_is_due(double dt);
     void write_snapshot();
+    void write_last_snapshot();
     void write_checkpoint();
     void write_history();
     void resume();

@@ -6,6 +6,7 @@
 
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/snapshot.hpp"
+#include "fem_solver/snapshot_request.hpp"
 
 namespace breach::fem {
 
@@ -34,12 +35,23 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
             interval > 0.0 ? interval * (std::floor((position_.time + slack) / interval) + 1.0)
                            : position_.time;
     }
+    if (!snapshot_is_due(dt)) return;
+    write_snapshot();
+    answer_request(session_.settings().output);
+}
+
+/// A wanted time was met, a multiple of the interval lies in this step, or somebody outside asks.
+/// The last two take the step as it comes: whoever asks must not change what is computed.
+bool Analysis::snapshot_is_due(double dt) {
     const auto& times = fem_.snapshot_times;
     const auto next = static_cast<std::size_t>(position_.next_snapshot);
-    if (next < times.size() && position_.time >= times[next]) {
-        ++position_.next_snapshot;
-        write_snapshot();
-    }
+    const bool wanted = next < times.size() && position_.time >= times[next];
+    if (wanted) ++position_.next_snapshot;
+    const double interval = fem_.snapshot_interval;
+    const auto count = [&](double time) { return std::floor(time / interval + 1e-9); };
+    const bool regular = interval > 0.0 && count(position_.time) > count(position_.time - dt);
+    const bool asked = dt > 0.0 && request_is_taken(session_.settings().output);
+    return wanted || regular || asked;
 }
 
 void Analysis::write_snapshot() {
@@ -50,6 +62,13 @@ void Analysis::write_snapshot() {
         session_.provenance());
     session_.announce(file, {{"time", position_.time}});
     last_snapshot_ = position_.time;
+}
+
+/// The end answers every request that is still open.
+void Analysis::write_last_snapshot() {
+    if (last_snapshot_ != position_.time) write_snapshot();
+    const auto& output = session_.settings().output;
+    if (request_is_taken(output)) answer_request(output);
 }
 
 bool Analysis::checkpoint_is_due() const {
@@ -88,7 +107,7 @@ void Analysis::write_history() {
 
 /// Saves the last good state (the accepted one: `trial_` is dropped) and ends the run.
 void Analysis::give_up(const std::string& cause) {
-    if (last_snapshot_ != position_.time) write_snapshot();
+    write_last_snapshot();
     write_checkpoint();
     write_history();
     throw fault::Breakdown(cause + "; the last good state is at " + std::to_string(position_.time) +

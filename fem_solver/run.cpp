@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <sstream>
 
 #include "fem_solver/analysis.hpp"
 
@@ -36,6 +37,12 @@ std::string regions_where(const scene::Scene& scene, Predicate predicate) {
         names += (names.empty() ? "" : ", ") + region.name;
     }
     return names;
+}
+
+std::string scene_number(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
 }
 
 PlanLine on_if(bool on, const std::string& feature, const std::string& why_on,
@@ -79,8 +86,11 @@ process::Plan plan(const scene::Scene& scene) {
         on_if(meshes, "gmsh", "meshes " + unstructured, "regions are mapped blocks or a .msh file",
               "/section/regions"),
         on_if(!fem.snapshot_times.empty(), "snapshots on the way",
-              std::to_string(fem.snapshot_times.size()) + " times", "only the end is kept",
-              "/fem/snapshot_times"),
+              std::to_string(fem.snapshot_times.size()) + " times",
+              "only the end is kept, and what is asked for on the way", "/fem/snapshot_times"),
+        on_if(fem.snapshot_interval > 0.0, "regular snapshots",
+              "one per " + scene_number(fem.snapshot_interval) + " s", "no interval is given",
+              "/fem/snapshot_interval"),
         {"pore pressure", Use::left_out, "scenes of this format are dry or drained", "/fem"},
         {"absorbing base (dashpots)", Use::left_out, "no motion comes from below", "/fem"},
         {"free-field columns", Use::left_out, "no motion comes from below", "/fem"},

@@ -309,3 +309,4 @@ void read_mpm(Reader& reader, Scene& scene) {
 }
 
 }  // namespace breach::scene
+    result.snapshot_interval = fem.at("snapshot_interval");

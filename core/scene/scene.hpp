@@ -132,7 +132,8 @@ struct Fem {
     double least_jacobian_ratio;  ///< entangled below this: stop with the last good state [-]
     Vec2 crest;                   ///< monitored point; nearest node is used [m]
     double strain_threshold;      ///< averages are over elements with epsilon_q above this [-]
-    std::vector<double> snapshot_times;  ///< ascending [s]
+    std::vector<double> snapshot_times;  ///< ascending; steps are cut to meet them [s]
+    double snapshot_interval;            ///< no step is cut for these; 0: none [s]
     double telemetry_interval;           ///< [s]
 };
 

@@ -1,0 +1,25 @@
+#include "fem_solver/snapshot_request.hpp"
+
+#include <cstdio>
+#include <string>
+
+namespace breach::fem {
+
+namespace {
+
+std::filesystem::path taken_file(const std::filesystem::path& output) {
+    return output / (std::string(request_file) + ".taken");
+}
+
+}  // namespace
+
+/// Taken by renaming: a request that arrives while the snapshot is being written is another one.
+bool request_is_taken(const std::filesystem::path& output) {
+    return std::rename((output / request_file).c_str(), taken_file(output).c_str()) == 0;
+}
+
+void answer_request(const std::filesystem::path& output) {
+    std::remove(taken_file(output).c_str());
+}
+
+}  // namespace breach::fem
