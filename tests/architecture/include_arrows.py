@@ -15,6 +15,7 @@ core = {
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
+    "core/motion": {"core/fault"},
     "core/process": {"core/fault", "core/scene", "core/exchange"},
 }
 every_core_room = set(core)

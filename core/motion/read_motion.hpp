@@ -1,0 +1,41 @@
+// Motions from files: PEER records (.AT2, .VT2, .DT2), two columns of text, and CSV with a header.
+// Every fault names its line.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "core/motion/series.hpp"
+
+namespace breach::motion {
+
+enum class Quantity { acceleration, velocity, displacement };
+
+struct Recording {
+    Quantity quantity = Quantity::acceleration;
+    Series series;      ///< SI
+    std::string title;  ///< PEER: its second line; otherwise the file's name
+};
+
+/// By the file's ending: .at2/.vt2/.dt2 (any case) PEER, .csv CSV, anything else two columns.
+/// Throws IoError when the file cannot be opened, BadInput ("line N") for what is in it.
+Recording read_motion(const std::filesystem::path& file);
+
+/// Four header lines (the third names the unit, the fourth NPTS and DT in either order), then
+/// values, any number per line.
+Recording read_peer(std::istream& in, const std::string& name);
+
+/// Time [s] and acceleration [g] per line, blanks, tabs or a comma between; lines starting with #
+/// are skipped.
+Recording read_two_columns(std::istream& in, const std::string& name);
+
+/// A header `time_s,acceleration_g` (or acceleration_m_s2, velocity_m_s, velocity_cm_s), then rows;
+/// lines starting with # are skipped.
+Recording read_csv(std::istream& in, const std::string& name);
+
+/// The CSV form with acceleration in g; `remarks` become # lines. Read again, it gives the same
+/// acceleration to 1e-8 g.
+void write_csv(std::ostream& out, const Series& acceleration, const std::string& remarks);
+
+}  // namespace breach::motion

@@ -1,0 +1,62 @@
+// Earthquake motions as equally spaced samples in SI, and what is measured on them. Nothing here
+// knows a file format (read_motion.hpp) or a mesh.
+#pragma once
+
+#include <vector>
+
+namespace breach::motion {
+
+/// Standard gravity, the unit in which records are given [m/s2].
+inline constexpr double standard_gravity = 9.80665;
+
+/// Samples at 0, dt, 2 dt, ...; straight lines between them, zero outside.
+struct Series {
+    double dt = 0.0;             ///< [s], > 0
+    std::vector<double> values;  ///< [m/s2], [m/s] or [m]
+
+    double duration() const;  ///< of the samples [s]
+};
+
+/// Value at time t [s] by linear interpolation: what an analysis with any time step of its own asks
+/// for.
+double value_at(const Series& series, double t);
+
+/// Largest absolute value.
+double peak(const Series& series);
+
+/// All values times the factor that brings the peak to `wanted`. A motion that is zero throughout
+/// stays zero.
+Series scaled_to_peak(Series series, double wanted);
+
+/// Integral over time by the trapezoidal rule, zero at the first sample: velocity of an
+/// acceleration.
+Series integral(const Series& series);
+
+/// The same motion with another time step: linear interpolation; the last sample lies at or just
+/// before the old end.
+Series resampled(const Series& series, double dt);
+
+/// pi / (2 g) times the integral of a^2 (Arias 1970) [m/s]; acceleration in m/s2, trapezoidal rule.
+double arias_intensity(const Series& acceleration);
+
+/// Times at which 5 % and 95 % of the Arias intensity have arrived [s].
+struct StrongPart {
+    double begin;
+    double end;
+    double duration() const { return end - begin; }
+};
+StrongPart strong_part(const Series& acceleration);
+
+/// What is left when the ground should be at rest again: zero for a base-corrected motion.
+struct Baseline {
+    double last_velocity;      ///< [m/s]
+    double last_displacement;  ///< [m]
+    double velocity_share;     ///< |last velocity| over the peak velocity [-]
+};
+Baseline baseline(const Series& acceleration);
+
+/// The acceleration less the straight line c_0 + c_1 t with which velocity and displacement end at
+/// zero.
+Series base_corrected(Series acceleration);
+
+}  // namespace breach::motion
