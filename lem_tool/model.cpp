@@ -18,6 +18,17 @@ struct AsSoil {
 
 }  // namespace
 
+namespace {
+
+/// phi = 0; r_u still says what sigma'_v0 was.
+void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soils) {
+    Soil& soil = soils[entry.region];
+    soil = {entry.strength.constant, 0.0, soil.r_u, Soil::Passage::open, entry.strength.coefficient,
+            entry.strength.exponent};
+}
+
+}  // namespace
+
 Model make_model(const scene::Scene& scene) {
     const scene::Lem& lem = scene::lem_of(scene);
     Model model{make_strata(scene), {}, lem.slices, lem.seismic_coefficient};
@@ -27,15 +38,14 @@ Model make_model(const scene::Scene& scene) {
     for (const scene::PorePressureRatio& each : lem.pore_pressure_ratios) {
         model.soils[each.region].r_u = each.r_u;
     }
+    for (const scene::UndrainedRegion& each : lem.undrained) make_undrained(each, model.soils);
     return model;
 }
 
-std::vector<Soil> liquefied(const Model& model, const std::vector<scene::LiquefiedLayer>& layers,
+std::vector<Soil> liquefied(const Model& model, const std::vector<scene::UndrainedRegion>& layers,
                             std::size_t count) {
     std::vector<Soil> soils = model.soils;
-    for (std::size_t i = 0; i < count; ++i) {
-        soils[layers[i].region] = {layers[i].residual_strength, 0.0, 0.0, Soil::Passage::open};
-    }
+    for (std::size_t i = 0; i < count; ++i) make_undrained(layers[i], soils);
     return soils;
 }
 

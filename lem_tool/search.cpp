@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "lem_tool/blocks.hpp"
 #include "lem_tool/simplex.hpp"
 #include "lem_tool/slip_circle.hpp"
 
@@ -43,45 +44,36 @@ std::vector<Line> boundaries_of(const Strata& strata) {
         if (std::none_of(lines.begin(), lines.end(), same)) lines.push_back(line);
     };
     for (const Strip& strip : strata.strips) {
-        for (std::size_t k = strip.first + 1; k < strip.last; ++k) add(strata.layers[k].top);
-        add(strip.bottom);
+        const double x = 0.5 * (strip.from + strip.to);
+        const double limit = std::max(strip.bottom.at(x), strip.floor.at(x));
+        for (std::size_t k = strip.first + 1; k < strip.last; ++k) {
+            if (strata.layers[k].top.at(x) > limit) add(strata.layers[k].top);
+        }
+        add(strip.floor.at(x) >= strip.bottom.at(x) ? strip.floor : strip.bottom);
     }
     return lines;
 }
 
-class Search {
+/// Analyses one place after the other; remembers the best and counts.
+class Probe {
   public:
-    Search(const Model& model, const scene::SlipSearch& ranges)
+    Probe(const Model& model, const scene::SlipSearch& ranges, const std::vector<Line>& boundaries,
+          int slices)
         : model_(model),
           ranges_(ranges),
-          boundaries_(boundaries_of(model.strata)),
-          slices_(make_slices(model.strata, model.slices)) {}
+          boundaries_(boundaries),
+          wanted_(slices),
+          slices_(make_slices(model.strata, slices)) {}
 
-    SearchResult run() {
-        std::vector<Place> best_of_pair = coarse();
-        for (const Place& start : valleys(best_of_pair)) follow(start);
-        return std::move(result_);
-    }
+    const Tally& tally() const { return tally_; }
+    const std::optional<Critical>& best() const { return best_; }
+    /// The surface of the last finite answer.
+    const Critical& last() const { return last_; }
 
-  private:
-    double at(const std::array<double, 2>& range, double share) const {
-        return range[0] + share * (range[1] - range[0]);
-    }
+    double entry_of(const Place& place) const { return at(ranges_.entry, place.entry); }
+    double exit_of(const Place& place) const { return at(ranges_.exit, place.exit); }
 
-    std::optional<Ends> ends_of(const Place& place) const {
-        const double entry = at(ranges_.entry, place.entry);
-        const double exit = at(ranges_.exit, place.exit);
-        // on a vertical face the surface starts at its head and ends at its foot
-        const scene::Vec2 top(entry, std::max(ground_level(model_.strata, entry, From::left),
-                                              ground_level(model_.strata, entry, From::right)));
-        const scene::Vec2 toe(exit, std::min(ground_level(model_.strata, exit, From::left),
-                                             ground_level(model_.strata, exit, From::right)));
-        const double least_chord = 1e-6 * (model_.strata.right() - model_.strata.left());
-        if (std::abs(entry - exit) < least_chord) return std::nullopt;
-        return entry < exit ? Ends{top, toe} : Ends{toe, top};
-    }
-
-    /// F at a place, infinite where there is no valid surface. Remembers the best.
+    /// F at a place, infinite where there is no valid surface.
     double try_at(const Place& place) {
         const auto ends = ends_of(place);
         if (!ends) return none;
@@ -92,55 +84,119 @@ class Search {
             sagitta = circles.sagitta[place.which] * (1.0 - 1e-9);  // touches, does not cut
         }
         sagitta = std::max(sagitta, flattest * 2.0 * ends->half_chord());
-        const Surface surface = surface_through(*ends, sagitta);
-        if (cut(model_.strata, model_.soils, surface, model_.slices, slices_) != Cut::done) {
-            ++result_.tally.not_a_surface;
+        const bool to_left = entry_of(place) > exit_of(place);
+        const auto surface = with_crack(model_.strata, surface_through(*ends, sagitta),
+                                        to_left ? UpperEnd::right : UpperEnd::left);
+        if (!surface || cut(model_.strata, model_.soils, *surface, wanted_, slices_) != Cut::done) {
+            ++tally_.not_a_surface;
             return none;
         }
         if (slices_.depth < ranges_.minimum_depth) {
-            ++result_.tally.too_shallow;
+            ++tally_.too_shallow;
             return none;
         }
-        const double entry = at(ranges_.entry, place.entry);
-        const Slide slide = entry == surface.right ? Slide::to_left : Slide::to_right;
-        const Bishop bishop_result = bishop(slices_, slide, model_.k_h);
-        if (bishop_result.balance != Balance::found) {
-            ++result_.tally.no_answer;
+        const Bishop result =
+            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h);
+        if (result.balance != Balance::found) {
+            ++tally_.no_answer;
             return none;
         }
-        ++result_.tally.analysed;
-        last_ = {surface, bishop_result};
-        if (!result_.critical ||
-            bishop_result.factor_of_safety < result_.critical->bishop.factor_of_safety) {
-            result_.critical = last_;
-        }
-        return bishop_result.factor_of_safety;
+        ++tally_.analysed;
+        last_ = {*surface, result};
+        if (!best_ || result.factor_of_safety < best_->bishop.factor_of_safety) best_ = last_;
+        return result.factor_of_safety;
     }
 
-    /// Every pair of ends with every depth and every touching circle; the best place of each pair.
-    std::vector<Place> coarse() {
-        std::vector<Place> places;
-        places.reserve(static_cast<std::size_t>(ranges_.entry_points) * ranges_.exit_points);
-        values_.clear();
-        for (int i = 0; i < ranges_.entry_points; ++i) {
-            for (int j = 0; j < ranges_.exit_points; ++j) {
-                places.push_back(best_of_pair(i / (ranges_.entry_points - 1.0),
-                                              j / (ranges_.exit_points - 1.0)));
+  private:
+    static double at(const std::array<double, 2>& range, double share) {
+        return range[0] + share * (range[1] - range[0]);
+    }
+
+    std::optional<Ends> ends_of(const Place& place) const {
+        const double entry = entry_of(place);
+        const double exit = exit_of(place);
+        // on a vertical face the surface starts at its head and ends at its foot
+        const scene::Vec2 top(entry, std::max(ground_level(model_.strata, entry, From::left),
+                                              ground_level(model_.strata, entry, From::right)));
+        const scene::Vec2 toe(exit, std::min(ground_level(model_.strata, exit, From::left),
+                                             ground_level(model_.strata, exit, From::right)));
+        const double least_chord = 1e-6 * (model_.strata.right() - model_.strata.left());
+        if (std::abs(entry - exit) < least_chord) return std::nullopt;
+        return entry < exit ? Ends{top, toe} : Ends{toe, top};
+    }
+
+    const Model& model_;
+    const scene::SlipSearch& ranges_;
+    const std::vector<Line>& boundaries_;
+    int wanted_;
+    Slices slices_;
+    Critical last_{};
+    std::optional<Critical> best_;
+    Tally tally_;
+};
+
+class Search {
+  public:
+    Search(const Model& model, const scene::SlipSearch& ranges, int threads)
+        : model_(model),
+          ranges_(ranges),
+          threads_(threads),
+          boundaries_(boundaries_of(model.strata)) {}
+
+    SearchResult run() {
+        coarse();
+        const std::vector<Place> starts = valleys();
+        std::vector<Probe> probes;
+        probes.reserve(starts.size());
+        for (std::size_t i = 0; i < starts.size(); ++i) probes.push_back(probe(model_.slices));
+        run_blocks(starts.size(), threads_, [&](std::size_t i) { follow(starts[i], probes[i]); });
+        for (const Probe& each : probes) {
+            result_.tally += each.tally();
+            const bool lower =
+                each.best() && (!result_.critical || each.best()->bishop.factor_of_safety <
+                                                         result_.critical->bishop.factor_of_safety);
+            if (lower) result_.critical = each.best();
+        }
+        return std::move(result_);
+    }
+
+  private:
+    /// The best surface of a pair of ends.
+    struct Pair {
+        Place place;
+        double value = none;
+        std::optional<PairBest> best;
+    };
+
+    Probe probe(int slices) const { return {model_, ranges_, boundaries_, slices}; }
+
+    /// Every pair of ends with every depth and every touching circle; one block per entry.
+    void coarse() {
+        const auto entries = static_cast<std::size_t>(ranges_.entry_points);
+        const auto exits = static_cast<std::size_t>(ranges_.exit_points);
+        pairs_.resize(entries * exits);
+        std::vector<Tally> tallies(entries);
+        run_blocks(entries, threads_, [&](std::size_t i) {
+            Probe here = probe(std::min(model_.slices, coarse_slices));
+            for (std::size_t j = 0; j < exits; ++j) {
+                pairs_[i * exits + j] =
+                    best_of_pair(here, static_cast<double>(i) / static_cast<double>(entries - 1),
+                                 static_cast<double>(j) / static_cast<double>(exits - 1));
             }
+            tallies[i] = here.tally();
+        });
+        for (const Tally& tally : tallies) result_.tally += tally;
+        for (const Pair& pair : pairs_) {
+            if (pair.best) result_.pairs.push_back(*pair.best);
         }
-        return places;
     }
 
-    Place best_of_pair(double entry, double exit) {
-        Place best{entry, exit, 0.5};
-        double least = none;
-        std::optional<Critical> critical;
+    Pair best_of_pair(Probe& here, double entry, double exit) const {
+        Pair pair{{entry, exit, 0.5}, none, std::nullopt};
         const auto consider = [&](const Place& place) {
-            const double F = try_at(place);
-            if (F >= least) return;
-            least = F;
-            best = place;
-            critical = last_;
+            const double F = here.try_at(place);
+            if (F >= pair.value) return;
+            pair = {place, F, PairBest{here.entry_of(place), here.exit_of(place), here.last()}};
         };
         for (int k = 1; k <= ranges_.depths; ++k) {
             consider({entry, exit, static_cast<double>(k) / ranges_.depths});
@@ -148,35 +204,33 @@ class Search {
         for (int line = 0; line < static_cast<int>(boundaries_.size()); ++line) {
             for (int which = 0; which < 2; ++which) consider({entry, exit, 0.5, line, which});
         }
-        values_.push_back(least);
-        if (critical) {
-            result_.pairs.push_back({at(ranges_.entry, entry), at(ranges_.exit, exit), *critical});
-        }
-        return best;
+        return pair;
     }
 
     /// The best pairs, each a twelfth of the ranges away from every better one.
-    std::vector<Place> valleys(const std::vector<Place>& places) const {
-        std::vector<std::size_t> order(places.size());
+    std::vector<Place> valleys() const {
+        std::vector<std::size_t> order(pairs_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return values_[a] < values_[b]; });
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return pairs_[a].value < pairs_[b].value;
+        });
         std::vector<Place> starts;
         for (const std::size_t n : order) {
-            if (values_[n] == none || starts.size() == valleys_followed) break;
+            if (pairs_[n].value == none || starts.size() == valleys_followed) break;
+            const Place& place = pairs_[n].place;
             const auto near = [&](const Place& other) {
-                return std::abs(other.entry - places[n].entry) < 1.0 / 12.0 &&
-                       std::abs(other.exit - places[n].exit) < 1.0 / 12.0;
+                return std::abs(other.entry - place.entry) < 1.0 / 12.0 &&
+                       std::abs(other.exit - place.exit) < 1.0 / 12.0;
             };
-            if (std::none_of(starts.begin(), starts.end(), near)) starts.push_back(places[n]);
+            if (std::none_of(starts.begin(), starts.end(), near)) starts.push_back(place);
         }
         return starts;
     }
 
-    void follow(const Place& start) {
+    void follow(const Place& start, Probe& here) const {
         const double depth_step = start.touches < 0 ? 1.0 / ranges_.depths : 0.0;
         const auto value = [&](const std::array<double, 3>& at) {
-            return try_at({at[0], at[1], at[2], start.touches, start.which});
+            return here.try_at({at[0], at[1], at[2], start.touches, start.which});
         };
         const std::array<double, 3> at{start.entry, start.exit, start.depth};
         descend(value, {at, value(at)},
@@ -186,17 +240,24 @@ class Search {
 
     const Model& model_;
     const scene::SlipSearch& ranges_;
+    int threads_;
     std::vector<Line> boundaries_;
-    Slices slices_;
-    std::vector<double> values_;
-    Critical last_{};
+    std::vector<Pair> pairs_;
     SearchResult result_;
 };
 
 }  // namespace
 
-SearchResult search(const Model& model, const scene::SlipSearch& ranges) {
-    return Search(model, ranges).run();
+Tally& Tally::operator+=(const Tally& other) {
+    analysed += other.analysed;
+    not_a_surface += other.not_a_surface;
+    too_shallow += other.too_shallow;
+    no_answer += other.no_answer;
+    return *this;
+}
+
+SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads) {
+    return Search(model, ranges, threads).run();
 }
 
 }  // namespace breach::lem

@@ -1,5 +1,5 @@
 // The critical circle: entry-exit search, coarse grid first, then every promising valley to its
-// bottom. Deterministic; the answer does not depend on luck or on the order of evaluation.
+// bottom. Deterministic; the answer does not depend on luck, nor on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Model {
 Model make_model(const scene::Scene& scene);
 
 /// The soils after the first `count` layers have liquefied: c = s_r, phi = 0.
-std::vector<Soil> liquefied(const Model& model, const std::vector<scene::LiquefiedLayer>& layers,
+std::vector<Soil> liquefied(const Model& model, const std::vector<scene::UndrainedRegion>& layers,
                             std::size_t count);
 
 /// A surface with its factor of safety.
@@ -37,6 +37,8 @@ struct Tally {
     std::int64_t not_a_surface = 0;  ///< left the soil, the model, or met a closed region
     std::int64_t too_shallow = 0;
     std::int64_t no_answer = 0;  ///< no driving moment, m_alpha too small, not converged
+
+    Tally& operator+=(const Tally& other);
 };
 
 /// The best circle of one pair of ends, for the figure of the search.
@@ -52,6 +54,9 @@ struct SearchResult {
     std::vector<PairBest> pairs;
 };
 
-SearchResult search(const Model& model, const scene::SlipSearch& ranges);
+/// The coarse grid takes at most `coarse_slices`; the descents, and so the answer, take the
+/// model's.
+inline constexpr int coarse_slices = 25;
+SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1);
 
 }  // namespace breach::lem

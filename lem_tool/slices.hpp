@@ -1,5 +1,6 @@
-// A sliding mass above a circular arc, cut into vertical slices at every material boundary and
-// ground vertex. Geometry, weight and strength of each slice; no factor of safety here.
+// A sliding mass above a circular arc or an arc cut by a floor (composite surface), cut into
+// vertical slices at every material boundary and ground vertex. Geometry, weight and strength of
+// each slice; no factor of safety here.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +11,15 @@
 
 namespace breach::lem {
 
-/// A circle's lower arc between the two points where it meets the ground.
+/// Which end of a surface is a vertical crack.
+enum class CrackAt { none, left, right };
+
+/// A circle's lower arc between the two points where it meets the ground or a crack's foot.
 struct Surface {
     scene::Circle circle;
     double left;   ///< x [m]
     double right;  ///< x [m]
+    CrackAt crack = CrackAt::none;
 
     double level(double x) const;  ///< y of the arc [m]
 };
@@ -26,7 +31,7 @@ struct Meeting {
 };
 Meeting meet(const scene::Circle& circle, const Line& line, double from, double to);
 
-/// Strength of a region as limit equilibrium sees it.
+/// Strength of a region as limit equilibrium sees it: c + coefficient (sigma'_v0 / p_a)^exponent.
 struct Soil {
     double c;        ///< [Pa]
     double tan_phi;  ///< [-]
@@ -34,27 +39,35 @@ struct Soil {
     enum class Passage {
         open,
         closed
-    } passage;  ///< closed: stronger than any surface (linear elastic)
+    } passage;                 ///< closed: stronger than any surface (linear elastic)
+    double coefficient = 0.0;  ///< undrained strength at sigma'_v0 = p_a [Pa]
+    double exponent = 1.0;     ///< [-]
 };
+
+inline constexpr double p_a = 101325.0;  // [Pa]
 
 /// Slices from left to right, one array per quantity; `resize`d once, then only `count` changes.
 struct Slices {
     std::size_t count = 0;
-    double depth = 0.0;          ///< greatest vertical depth of the mass [m]
-    std::vector<double> left;    ///< x of the left side [m]
-    std::vector<double> width;   ///< [m]
-    std::vector<double> base;    ///< y of the base's middle [m]
-    std::vector<double> sin_a;   ///< base inclination, positive when rising to the right [-]
-    std::vector<double> cos_a;   ///< [-]
-    std::vector<double> length;  ///< arc length of the base [m]
-    std::vector<double> weight;  ///< soil, surcharge and free water above [N/m]
-    std::vector<double> u;       ///< pore pressure at the base [Pa]
-    std::vector<double>
-        driving;  ///< moment of all vertical loads and of free water about the centre over R [N/m]
+    double depth = 0.0;               ///< greatest vertical depth of the mass [m]
+    std::vector<double> left;         ///< x of the left side [m]
+    std::vector<double> width;        ///< [m]
+    std::vector<double> base;         ///< y of the base's middle [m]
+    std::vector<double> sin_a;        ///< base inclination, positive when rising to the right [-]
+    std::vector<double> cos_a;        ///< [-]
+    std::vector<double> length;       ///< arc length of the base [m]
+    std::vector<double> weight;       ///< soil, surcharge and free water above [N/m]
+    std::vector<double> u;            ///< pore pressure at the base [Pa]
+    std::vector<double> soil_weight;  ///< the soil's part of it [N/m]
+    std::vector<double> push;  ///< horizontal load of free water and line loads, to the left [N/m]
+    std::vector<double> driving;  ///< what the loads turn, over R: on the arc their moment about
+                                  ///< the centre, on a floor W h tan a and horizontal moments [N/m]
     std::vector<double> shaking;  ///< moment of the soil's weight, put horizontal, over R [N/m]
-    std::vector<double> force;    ///< c l cos a + (W - u l cos a) tan phi: Bishop's numerator [N/m]
-    std::vector<double> c;        ///< [Pa]
-    std::vector<double> tan_phi;  ///< [-]
+    std::vector<double> lever;  ///< arm of the base's shear in Bishop's moment over R: 1 on the arc
+    std::vector<double>
+        force;  ///< (c l cos a + (W - u l cos a) tan phi) lever: Bishop's numerator [N/m]
+    std::vector<double> c;          ///< [Pa]
+    std::vector<double> tan_phi;    ///< [-]
     std::vector<double> crossings;  ///< scratch of the cutting
 
     void reserve(std::size_t slices, std::size_t most_layers);
@@ -73,6 +86,11 @@ enum class Cut {
     overhangs,      ///< an end lies above the centre: the arc would lean back over the mass
 };
 
+/// Why Bishop's balance keeps its form on a floor, where the normal force has a moment too: with
+/// N = (W - S sin a) / cos a the sum of W d = S r + N f (d, h: base's middle beside and below the
+/// centre, r = d sin a + h cos a, f = d cos a - h sin a) becomes W h tan a = S h / cos a, which on
+/// the arc is W d = S R.
+///
 /// Cuts the mass into about `wanted` slices of equal width, more where boundaries ask for it. Arc
 /// segments are exact in weight, moment and (to the fourth order of their angle) length; only the
 /// base inclination is that of the chord. No allocation.

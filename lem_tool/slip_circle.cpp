@@ -27,19 +27,57 @@ std::vector<double> sign_borders(const Strata& strata, const scene::Circle& circ
 }  // namespace
 
 std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle) {
-    std::vector<Surface> masses;
+    std::vector<Surface> whole;
     const std::vector<double> borders = sign_borders(strata, circle);
     bool inside = false;
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
         if (borders[i + 1] <= borders[i]) continue;
         const double middle = 0.5 * (borders[i] + borders[i + 1]);
-        const bool below =
-            Surface{circle, 0.0, 0.0}.level(middle) < ground_level(strata, middle, From::left);
-        if (below && inside) masses.back().right = borders[i + 1];
-        if (below && !inside) masses.push_back({circle, borders[i], borders[i + 1]});
+        const bool below = base_level(strata, {circle, 0.0, 0.0}, middle) <
+                           ground_level(strata, middle, From::left);
+        if (below && inside) whole.back().right = borders[i + 1];
+        if (below && !inside) whole.push_back({circle, borders[i], borders[i + 1]});
         inside = below;
     }
+    std::vector<Surface> masses;
+    for (const Surface& surface : whole) {
+        const bool falls_left = ground_level(strata, surface.left, From::right) <
+                                ground_level(strata, surface.right, From::left);
+        const auto cracked =
+            with_crack(strata, surface, falls_left ? UpperEnd::right : UpperEnd::left);
+        if (cracked) masses.push_back(*cracked);
+    }
     return masses;
+}
+
+double base_level(const Strata& strata, const Surface& surface, double x) {
+    return std::max(surface.level(x), strata.strips[strip_at(strata, x)].floor.at(x));
+}
+
+std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, UpperEnd upper) {
+    if (strata.crack.depth == 0.0) return surface;
+    const bool from_left = upper == UpperEnd::left;
+    std::size_t i = strip_at(strata, from_left ? surface.left : surface.right);
+    while (true) {
+        const Strip& strip = strata.strips[i];
+        const double low = std::max(strip.from, surface.left);
+        const double high = std::min(strip.to, surface.right);
+        const Line feet{strata.ground(strip).level - strata.crack.depth,
+                        strata.ground(strip).slope};
+        const double start = from_left ? low : high;
+        std::optional<double> found;
+        if (high > low && surface.level(start) <= feet.at(start)) found = start;
+        const Meeting meeting = meet(surface.circle, feet, low, high);
+        if (!found && meeting.count > 0) found = meeting.x[from_left ? 0 : meeting.count - 1];
+        if (found && from_left)
+            return Surface{surface.circle, *found, surface.right, CrackAt::left};
+        if (found) return Surface{surface.circle, surface.left, *found, CrackAt::right};
+        if (from_left ? strip.to >= surface.right || i + 1 == strata.strips.size()
+                      : strip.from <= surface.left || i == 0) {
+            return std::nullopt;
+        }
+        i += from_left ? 1 : -1;
+    }
 }
 
 double Ends::largest_sagitta() const {

@@ -10,8 +10,17 @@
 
 namespace breach::lem {
 
-/// Every mass that a circle's lower arc cuts off, from left to right.
+/// Every mass that a circle's lower arc cuts off, from left to right, each with its crack at the
+/// higher end. Masses shallower than the crack are left out.
 std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle);
+
+/// y of the arc, or of the floor where that is higher [m].
+double base_level(const Strata& strata, const Surface& surface, double x);
+
+/// The surface cut short where the mass gets as deep as the crack, coming from the upper end; none
+/// if it never does. Without a crack in the strata it is the surface itself.
+enum class UpperEnd { left, right };
+std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, UpperEnd upper);
 
 /// Two points of the ground that a slip surface joins.
 struct Ends {

@@ -19,25 +19,39 @@ struct Extent {
     double height;
 };
 
-/// Where the water line crosses the border of a region: among them, where free water meets the
-/// ground.
-std::vector<double> shorelines(const scene::Section& section,
-                               const std::vector<scene::Vec2>& water) {
-    std::vector<double> xs;
-    for (const scene::Region& region : section.regions) {
-        for (std::size_t i = 0; i < region.polygon.size(); ++i) {
-            const scene::Vec2& a = region.polygon[i];
-            const scene::Vec2 ab = region.polygon[(i + 1) % region.polygon.size()] - a;
-            for (std::size_t j = 0; j + 1 < water.size(); ++j) {
-                const scene::Vec2 cd = water[j + 1] - water[j];
-                const scene::Vec2 ac = water[j] - a;
-                const double cross = ab.x() * cd.y() - ab.y() * cd.x();
-                if (cross == 0.0) continue;
-                const double s = (ac.x() * cd.y() - ac.y() * cd.x()) / cross;
-                const double t = (ac.x() * ab.y() - ac.y() * ab.x()) / cross;
-                if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) xs.push_back(a.x() + s * ab.x());
-            }
+using Path = std::vector<scene::Vec2>;
+
+void add_crossings(const Path& one, const Path& other, std::vector<double>& xs) {
+    for (std::size_t i = 0; i + 1 < one.size(); ++i) {
+        const scene::Vec2 ab = one[i + 1] - one[i];
+        for (std::size_t j = 0; j + 1 < other.size(); ++j) {
+            const scene::Vec2 cd = other[j + 1] - other[j];
+            const scene::Vec2 ac = other[j] - one[i];
+            const double cross = ab.x() * cd.y() - ab.y() * cd.x();
+            if (cross == 0.0) continue;
+            const double s = (ac.x() * cd.y() - ac.y() * cd.x()) / cross;
+            const double t = (ac.x() * ab.y() - ac.y() * ab.x()) / cross;
+            if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) xs.push_back(one[i].x() + s * ab.x());
         }
+    }
+}
+
+/// A line from side to side of the model: level beyond its ends.
+Path prolonged(Path line, double from, double to) {
+    if (line.front().x() > from) line.insert(line.begin(), {from, line.front().y()});
+    if (line.back().x() < to) line.push_back({to, line.back().y()});
+    return line;
+}
+
+/// Kinks of a line and where it crosses the border of a region: for the water, among them, where it
+/// meets the ground.
+std::vector<double> breaks_of(const Path& line, const scene::Section& section) {
+    std::vector<double> xs;
+    for (const scene::Vec2& vertex : line) xs.push_back(vertex.x());
+    for (const scene::Region& region : section.regions) {
+        Path ring = region.polygon;
+        ring.push_back(ring.front());
+        add_crossings(ring, line, xs);
     }
     return xs;
 }
@@ -63,13 +77,24 @@ std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
         if (x > from && x < to) xs.push_back(x);
     };
     extent = {to - from, high - low};
+    Path water;
     if (lem.water) {
-        for (const scene::Vec2& vertex : lem.water->line) add(vertex.x());
-        for (const double x : shorelines(section, lem.water->line)) add(x);
+        water = prolonged(lem.water->line, from, to);
+        for (const double x : breaks_of(water, section)) add(x);
+    }
+    if (!lem.floor.empty()) {
+        const Path floor = prolonged(lem.floor, from, to);
+        std::vector<double> breaks = breaks_of(floor, section);
+        add_crossings(floor, water, breaks);
+        for (const double x : breaks) add(x);
     }
     for (const scene::Surcharge& load : lem.surcharge) {
         add(load.from);
         add(load.to);
+    }
+    if (lem.search && lem.search->lowest_level) {
+        const double level = *lem.search->lowest_level;
+        for (const double x : breaks_of({{from, level}, {to, level}}, section)) add(x);
     }
     std::sort(xs.begin(), xs.end());
     const double tolerance = same_place * extent.width;
@@ -110,17 +135,31 @@ void add_pieces(const scene::Polygon& polygon, std::size_t region, double from, 
     }
 }
 
-constexpr Line no_water{-std::numeric_limits<double>::infinity(), 0.0};
+constexpr Line nowhere{-std::numeric_limits<double>::infinity(), 0.0};
 
-/// Level of the water over a strip; the line goes on level beyond its ends.
-Line water_over(const scene::Lem& lem, double middle) {
-    if (!lem.water) return no_water;
-    const std::vector<scene::Vec2>& line = lem.water->line;
+/// The straight part of a line over x = middle; it goes on level beyond its ends.
+Line part_over(const Path& line, double middle) {
+    if (line.empty()) return nowhere;
     if (middle <= line.front().x()) return {line.front().y(), 0.0};
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         if (middle < line[i + 1].x()) return line_through(line[i], line[i + 1]);
     }
     return {line.back().y(), 0.0};
+}
+
+Line water_over(const scene::Lem& lem, double middle) {
+    return lem.water ? part_over(lem.water->line, middle) : nowhere;
+}
+
+/// gamma_w, times cos^2 of a phreatic line's inclination where the scene says so. A free surface is
+/// level and has no correction.
+double gamma_u_of(const scene::Scene& scene, const Line& water, const Line& ground, double middle) {
+    const scene::Lem& lem = scene::lem_of(scene);
+    if (!lem.water) return 0.0;
+    const double gamma_w = lem.water->density * scene.gravity;
+    const bool corrected = lem.water->correction == scene::PhreaticCorrection::cos2 &&
+                           water.at(middle) < ground.at(middle);
+    return corrected ? gamma_w / (1.0 + water.slope * water.slope) : gamma_w;
 }
 
 double surcharge_on(const scene::Lem& lem, double middle) {
@@ -151,13 +190,21 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
     std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& p, const Piece& q) {
         return p.top.at(middle) > q.top.at(middle);
     });
+    const scene::Lem& lem = scene::lem_of(scene);
+    const Line water = water_over(lem, middle);
+    Line bottom = pieces.back().bottom;
+    if (lem.search && lem.search->lowest_level && *lem.search->lowest_level > bottom.at(middle)) {
+        bottom = {*lem.search->lowest_level, 0.0};
+    }
     Strip strip{from,
                 to,
                 strata.layers.size(),
                 0,
-                pieces.back().bottom,
-                water_over(scene::lem_of(scene), middle),
-                surcharge_on(scene::lem_of(scene), middle)};
+                bottom,
+                part_over(lem.floor, middle),
+                water,
+                gamma_u_of(scene, water, pieces.front().top, middle),
+                surcharge_on(lem, middle)};
     Line weight{0.0, 0.0};
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
@@ -176,7 +223,41 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
     strata.strips.push_back(strip);
 }
 
+/// Free water against the vertical faces of the ground, and the line loads.
+void add_loads(const scene::Scene& scene, const Extent& extent, Strata& strata) {
+    const double same_level = same_place * (extent.width + extent.height);
+    for (std::size_t i = 0; strata.gamma_w > 0.0 && i + 1 < strata.strips.size(); ++i) {
+        const double x = strata.strips[i].to;
+        const double left = strata.ground(strata.strips[i]).at(x);
+        const double right = strata.ground(strata.strips[i + 1]).at(x);
+        if (std::abs(right - left) <= same_level) continue;
+        const bool faces_left = right > left;
+        const double water = strata.strips[faces_left ? i : i + 1].water.at(x);
+        const Thrust push =
+            thrust(strata.gamma_w, water, std::min(left, right), std::max(left, right));
+        if (push.force > 0.0) {
+            strata.loads.push_back({x, push.level, 0.0, faces_left ? -push.force : push.force});
+        }
+    }
+    for (const scene::LineLoad& load : scene::lem_of(scene).line_loads) {
+        const double level = std::max(ground_level(strata, load.x, From::left),
+                                      ground_level(strata, load.x, From::right));
+        strata.loads.push_back({load.x, level, load.down, -load.right});
+    }
+}
+
 }  // namespace
+
+Thrust thrust(double gamma_w, double water, double low, double high) {
+    if (!(water > low) || !(high > low)) return {0.0, low};
+    const double deep = water - low;
+    const double shallow = std::max(0.0, water - high);
+    const double force = 0.5 * gamma_w * (deep * deep - shallow * shallow);
+    // pressure-weighted depth: (2/3) (b^3 - a^3) / (b^2 - a^2)
+    const double depth =
+        (2.0 / 3.0) * (deep * deep + deep * shallow + shallow * shallow) / (deep + shallow);
+    return {force, water - depth};
+}
 
 Strata make_strata(const scene::Scene& scene) {
     Extent extent{};
@@ -187,6 +268,11 @@ Strata make_strata(const scene::Scene& scene) {
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
         add_strip(scene, borders[i], borders[i + 1], extent, strata);
     }
+    if (lem.tension_crack) {
+        const double gamma_w = (lem.water ? lem.water->density : 1000.0) * scene.gravity;
+        strata.crack = {lem.tension_crack->depth, lem.tension_crack->filled, gamma_w};
+    }
+    add_loads(scene, extent, strata);
     return strata;
 }
 

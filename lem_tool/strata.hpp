@@ -30,14 +30,33 @@ struct Strip {
     double to;          ///< [m]
     std::size_t first;  ///< layers first .. last - 1, from the ground down
     std::size_t last;
-    Line bottom;  ///< lower border of the model [m]
+    Line bottom;  ///< lower border of the model, or lowest level of the search if higher [m]
+    Line floor;   ///< no surface goes below; -inf: none [m]
     Line water;  ///< phreatic level, or the free water's where it lies above ground; -inf: none [m]
+    double gamma_u;    ///< pore pressure per depth below the water line [N/m3]
     double surcharge;  ///< vertical pressure on the ground [Pa]
+};
+
+/// A force on one vertical: a line load on the ground, or free water against a vertical face.
+struct PointLoad {
+    double x;      ///< [m]
+    double level;  ///< [m]
+    double down;   ///< [N/m]
+    double left;   ///< towards the left [N/m]
+};
+
+/// Vertical crack at the upper end of every surface.
+struct Crack {
+    double depth = 0.0;    ///< below ground; 0: none [m]
+    double filled = 0.0;   ///< share of the depth under water [-]
+    double gamma_w = 0.0;  ///< [N/m3]
 };
 
 struct Strata {
     std::vector<Strip> strips;  ///< left to right, without gaps
     std::vector<Layer> layers;
+    std::vector<PointLoad> loads;
+    Crack crack;
     double gamma_w = 0.0;  ///< unit weight of water [N/m3]; 0 in a scene without water
 
     double left() const { return strips.front().from; }
@@ -45,9 +64,17 @@ struct Strata {
     const Line& ground(const Strip& strip) const { return layers[strip.first].top; }
 };
 
-/// Cuts the section at every vertex, water kink, end of a surcharge and where water meets the
-/// ground. Throws BadInput where a vertical line meets air below ground (an overhang, a cavity, two
-/// separate bodies): limit equilibrium with vertical slices has no answer there.
+/// Water at rest against a vertical face between `low` and `high`.
+struct Thrust {
+    double force;  ///< [N/m]
+    double level;  ///< where it acts [m]
+};
+Thrust thrust(double gamma_w, double water, double low, double high);
+
+/// Cuts the section at every vertex, kink of water or floor, end of a surcharge, and where water or
+/// floor meet a boundary. Throws BadInput where a vertical line meets air below ground (an
+/// overhang, a cavity, two separate bodies): limit equilibrium with vertical slices has no answer
+/// there.
 Strata make_strata(const scene::Scene& scene);
 
 /// Index of the strip that holds x, the left one on a border; x is clamped to the model.

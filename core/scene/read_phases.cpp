@@ -134,34 +134,47 @@ void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     }
 }
 
-void read_water(Reader& reader, const json& lem, Lem& result) {
-    if (!lem.contains("water")) return;
-    Water water{.line = {}, .density = lem.at("water").at("density")};
-    for (const json& vertex : lem.at("water").at("line")) water.line.push_back(point_from(vertex));
+/// Points from left to right, no two above each other.
+std::vector<Vec2> line_from(Reader& reader, const json& points, const std::string& pointer) {
+    std::vector<Vec2> line;
+    for (const json& vertex : points) line.push_back(point_from(vertex));
     check_order(
-        reader, water.line, [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); },
-        "/lem/water/line", "give points from left to right, no two with the same x");
-    result.water = std::move(water);
+        reader, line, [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); }, pointer,
+        "give points from left to right, no two with the same x");
+    return line;
 }
 
-/// Index of a region by its name; a fault when there is none.
-std::optional<std::size_t> region_named(Reader& reader, const Scene& scene, const json& name,
-                                        const std::string& pointer) {
-    if (!reader.sound("/section")) return std::nullopt;  // its own faults are named already
-    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
-        if (scene.section.regions[i].name == name) return i;
+/// Index of a region or material by its name; a fault when there is none.
+template <class List>
+std::optional<std::size_t> index_of(Reader& reader, const List& list, const json& name,
+                                    const std::string& pointer, const std::string& remedy) {
+    if (!reader.sound("/section") || !reader.sound("/materials")) return std::nullopt;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i].name == name) return i;
     }
-    reader.add(pointer, "names no region", "give the name of one of /section/regions");
+    reader.add(pointer, "is " + name.dump() + ", which does not exist", remedy);
     return std::nullopt;
 }
 
-void read_loads_and_layers(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
-    constexpr double kPa = 1e3;
+std::optional<std::size_t> region_named(Reader& reader, const Scene& scene, const json& name,
+                                        const std::string& pointer) {
+    return index_of(reader, scene.section.regions, name, pointer,
+                    "give the name of one of /section/regions");
+}
+
+constexpr double kPa = 1e3;
+constexpr double kN = 1e3;
+
+void read_loads(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
     for (const json& load : lem.at("surcharge")) {
         const std::string pointer = "/lem/surcharge/" + std::to_string(result.surcharge.size());
         check_ascending(reader, {load.at("from"), load.at("to")}, pointer);
         result.surcharge.push_back(
             {load.at("from"), load.at("to"), load.at("pressure_kPa").get<double>() * kPa});
+    }
+    for (const json& load : lem.at("line_loads")) {
+        result.line_loads.push_back({load.at("x"), load.at("down_kN").get<double>() * kN,
+                                     load.at("right_kN").get<double>() * kN});
     }
     for (std::size_t i = 0; i < lem.at("pore_pressure_ratios").size(); ++i) {
         const json& each = lem.at("pore_pressure_ratios")[i];
@@ -169,13 +182,142 @@ void read_loads_and_layers(Reader& reader, const Scene& scene, const json& lem, 
         const auto region = region_named(reader, scene, each.at("region"), pointer);
         if (region) result.pore_pressure_ratios.push_back({*region, each.at("r_u")});
     }
-    for (std::size_t i = 0; i < lem.at("liquefaction").size(); ++i) {
-        const json& each = lem.at("liquefaction")[i];
-        const std::string pointer = "/lem/liquefaction/" + std::to_string(i) + "/region";
-        const auto region = region_named(reader, scene, each.at("region"), pointer);
-        const double s_r = each.at("residual_strength_kPa").get<double>() * kPa;
-        if (region) result.liquefaction.push_back({*region, s_r});
+    if (lem.contains("water")) {
+        const json& water = lem.at("water");
+        result.water = Water{
+            line_from(reader, water.at("line"), "/lem/water/line"), water.at("density"),
+            water.at("correction") == "cos2" ? PhreaticCorrection::cos2 : PhreaticCorrection::none};
     }
+}
+
+/// Where the entry of /lem/<list> keeps the parts of its strength.
+struct StrengthKeys {
+    const char* list;
+    const char* constant;
+    const char* coefficient;
+    const char* exponent;
+};
+
+std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, const json& lem,
+                                            const StrengthKeys& keys) {
+    std::vector<UndrainedRegion> result;
+    for (std::size_t i = 0; i < lem.at(keys.list).size(); ++i) {
+        const json& each = lem.at(keys.list)[i];
+        const std::string pointer = "/lem/" + std::string(keys.list) + "/" + std::to_string(i);
+        const auto region = region_named(reader, scene, each.at("region"), pointer + "/region");
+        if (!region) continue;
+        for (const UndrainedRegion& other : result) {
+            if (other.region != *region) continue;
+            reader.add(pointer + "/region", "is named twice", "give every region once");
+        }
+        result.push_back({*region,
+                          {each.at(keys.constant).get<double>() * kPa,
+                           each.at(keys.coefficient).get<double>() * kPa, each.at(keys.exponent)}});
+    }
+    return result;
+}
+
+VariedSurface varied_surface(const json& part) {
+    return part.at("surface") == "fixed" ? VariedSurface::fixed : VariedSurface::searched;
+}
+
+std::size_t layers_liquefied(Reader& reader, const json& part, const Lem& lem,
+                             const std::string& pointer) {
+    const std::size_t count = part.at("layers_liquefied");
+    if (count > lem.liquefaction.size()) {
+        reader.add(pointer + "/layers_liquefied", "is more than /lem/liquefaction has",
+                   "give at most " + std::to_string(lem.liquefaction.size()));
+    }
+    return count;
+}
+
+Parameter parameter_from(const std::string& text) {
+    if (text == "cohesion") return Parameter::cohesion;
+    if (text == "friction_angle") return Parameter::friction_angle;
+    if (text == "density") return Parameter::density;
+    if (text == "undrained_strength") return Parameter::undrained_strength;
+    if (text == "residual_strength") return Parameter::residual_strength;
+    return Parameter::seismic_coefficient;
+}
+
+/// What `of` counts: see RandomVariable.
+std::optional<std::size_t> varied(Reader& reader, const Scene& scene, const Lem& lem,
+                                  Parameter parameter, const json& name,
+                                  const std::string& pointer) {
+    if (parameter == Parameter::seismic_coefficient) return std::size_t{0};
+    const bool of_region =
+        parameter == Parameter::undrained_strength || parameter == Parameter::residual_strength;
+    if (!of_region) {
+        const auto material =
+            index_of(reader, scene.materials, name, pointer, "give the name of one of /materials");
+        if (!material || parameter == Parameter::density) return material;
+        if (std::holds_alternative<materials::MohrCoulomb>(scene.materials[*material].law)) {
+            return material;
+        }
+        reader.add(pointer, "has no cohesion or friction", "name a Mohr-Coulomb material");
+        return std::nullopt;
+    }
+    const auto region = region_named(reader, scene, name, pointer);
+    const auto& list =
+        parameter == Parameter::undrained_strength ? lem.undrained : lem.liquefaction;
+    for (std::size_t i = 0; region && i < list.size(); ++i) {
+        if (list[i].region == *region) return i;
+    }
+    if (region) {
+        reader.add(pointer, "has no such strength",
+                   "name a region of /lem/undrained (undrained_strength) or /lem/liquefaction "
+                   "(residual_strength)");
+    }
+    return std::nullopt;
+}
+
+void read_variations(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
+    if (lem.contains("sensitivity")) {
+        const json& part = lem.at("sensitivity");
+        result.sensitivity =
+            Sensitivity{part.at("change"), varied_surface(part),
+                        layers_liquefied(reader, part, result, "/lem/sensitivity")};
+    }
+    if (!lem.contains("probability")) return;
+    const json& part = lem.at("probability");
+    Probability probability{part.at("samples"),
+                            part.at("seed"),
+                            varied_surface(part),
+                            layers_liquefied(reader, part, result, "/lem/probability"),
+                            {}};
+    for (std::size_t i = 0; i < part.at("variables").size(); ++i) {
+        const json& each = part.at("variables")[i];
+        const Parameter parameter = parameter_from(each.at("parameter"));
+        const auto of = varied(reader, scene, result, parameter, each.at("of"),
+                               "/lem/probability/variables/" + std::to_string(i) + "/of");
+        if (!of) continue;
+        probability.variables.push_back(
+            {parameter, *of,
+             each.at("distribution") == "normal" ? Distribution::normal : Distribution::lognormal,
+             each.at("coefficient_of_variation")});
+    }
+    result.probability = std::move(probability);
+}
+
+/// Entry and exit may also be points.
+void check_end_range(Reader& reader, const std::array<double, 2>& range,
+                     const std::string& pointer) {
+    if (range[0] > range[1]) reader.add(pointer, "is not ascending", "write [from, to]");
+}
+
+SlipSearch search_from(Reader& reader, const json& search) {
+    SlipSearch result{.entry = range_from(search.at("entry")),
+                      .exit = range_from(search.at("exit")),
+                      .entry_points = search.at("entry_points"),
+                      .exit_points = search.at("exit_points"),
+                      .depths = search.at("depths"),
+                      .minimum_depth = search.at("minimum_depth")};
+    if (search.contains("lowest_level")) {
+        result.lowest_level = search.at("lowest_level").get<double>();
+    }
+    check_end_range(reader, result.entry, "/lem/search/entry");
+    check_end_range(reader, result.exit, "/lem/search/exit");
+    return result;
 }
 
 Wall wall_from(const std::string& text) {
@@ -191,23 +333,23 @@ void read_lem(Reader& reader, Scene& scene) {
     Lem result{};
     result.slices = lem.at("slices");
     result.seismic_coefficient = lem.at("seismic_coefficient");
-    read_water(reader, lem, result);
-    read_loads_and_layers(reader, scene, lem, result);
+    read_loads(reader, scene, lem, result);
+    if (lem.contains("floor")) result.floor = line_from(reader, lem.at("floor"), "/lem/floor");
+    if (lem.contains("tension_crack")) {
+        result.tension_crack =
+            TensionCrack{lem.at("tension_crack").at("depth"), lem.at("tension_crack").at("filled")};
+    }
+    result.undrained = undrained_from(reader, scene, lem,
+                                      {"undrained", "strength_kPa", "coefficient_kPa", "exponent"});
+    result.liquefaction = undrained_from(
+        reader, scene, lem,
+        {"liquefaction", "residual_strength_kPa", "residual_coefficient_kPa", "residual_exponent"});
+    read_variations(reader, scene, lem, result);
     if (lem.contains("circle")) {
         result.circle =
             Circle{point_from(lem.at("circle").at("center")), lem.at("circle").at("radius")};
     }
-    if (lem.contains("search")) {
-        const json& search = lem.at("search");
-        result.search = SlipSearch{.entry = range_from(search.at("entry")),
-                                   .exit = range_from(search.at("exit")),
-                                   .entry_points = search.at("entry_points"),
-                                   .exit_points = search.at("exit_points"),
-                                   .depths = search.at("depths"),
-                                   .minimum_depth = search.at("minimum_depth")};
-        check_ascending(reader, result.search->entry, "/lem/search/entry");
-        check_ascending(reader, result.search->exit, "/lem/search/exit");
-    }
+    if (lem.contains("search")) result.search = search_from(reader, lem.at("search"));
     if (!result.circle && !result.search) {
         reader.add("/lem", "has neither a circle nor a search", "give one of them, or both");
     }
@@ -215,7 +357,7 @@ void read_lem(Reader& reader, Scene& scene) {
         reader.add("/lem/liquefaction", "needs a search: every stage has its own critical circle",
                    "give /lem/search");
     }
-    scene.lem = result;
+    scene.lem = std::move(result);
 }
 
 void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene) {
@@ -244,6 +386,7 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.crest = point_from(fem.at("crest"));
     result.strain_threshold = fem.at("strain_threshold");
     result.snapshot_times = fem.at("snapshot_times").get<std::vector<double>>();
+    result.snapshot_interval = fem.at("snapshot_interval");
     result.telemetry_interval = fem.at("telemetry_interval");
     check_order(reader, result.snapshot_times, std::less<>(), "/fem/snapshot_times",
                 "list the times in ascending order, each once");
@@ -309,4 +452,3 @@ void read_mpm(Reader& reader, Scene& scene) {
 }
 
 }  // namespace breach::scene
-    result.snapshot_interval = fem.at("snapshot_interval");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -50,14 +51,25 @@ struct SlipSearch {
     std::array<double, 2> exit;   ///< x range of the lower end [m]
     int entry_points;
     int exit_points;
-    int depths;            ///< circles per pair of ends, from shallow to deep
-    double minimum_depth;  ///< least depth of sliding mass below ground [m]
+    int depths;                            ///< circles per pair of ends, from shallow to deep
+    double minimum_depth;                  ///< least depth of sliding mass below ground [m]
+    std::optional<double> lowest_level{};  ///< no surface reaches below [m]
 };
+
+/// Vertical crack at the upper end of every surface.
+struct TensionCrack {
+    double depth;   ///< below ground [m]
+    double filled;  ///< share of the depth under water [-]
+};
+
+/// u below the phreatic line: gamma_w times the depth, or that times cos^2 of its inclination.
+enum class PhreaticCorrection { none, cos2 };
 
 /// Hydrostatic water below (and, where it lies above ground, free water above) a line.
 struct Water {
     std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
     double density;          ///< [kg/m3]
+    PhreaticCorrection correction;
 };
 
 struct PorePressureRatio {
@@ -72,9 +84,58 @@ struct Surcharge {
     double pressure;  ///< [Pa]
 };
 
-struct LiquefiedLayer {
-    std::size_t region;        ///< index into the section's regions
-    double residual_strength;  ///< s_r [Pa]
+/// Force on the ground per metre of slope.
+struct LineLoad {
+    double x;      ///< [m]
+    double down;   ///< [N/m]
+    double right;  ///< [N/m]
+};
+
+/// s = constant + coefficient (sigma'_v0 / p_a)^exponent, p_a = 101.325 kPa; phi = 0.
+struct UndrainedStrength {
+    double constant;     ///< [Pa]
+    double coefficient;  ///< [Pa]
+    double exponent;     ///< [-]
+};
+
+struct UndrainedRegion {
+    std::size_t region;  ///< index into the section's regions
+    UndrainedStrength strength;
+};
+
+/// Which surface the variations of a parameter are analysed on.
+enum class VariedSurface { fixed, searched };
+
+struct Sensitivity {
+    double change;  ///< share of each strength parameter [-]
+    VariedSurface surface;
+    std::size_t layers_liquefied;
+};
+
+enum class Parameter {
+    cohesion,
+    friction_angle,
+    density,
+    undrained_strength,
+    residual_strength,
+    seismic_coefficient
+};
+enum class Distribution { normal, lognormal };
+
+/// `of` counts the materials, or the entries of Lem::undrained or Lem::liquefaction.
+struct RandomVariable {
+    Parameter parameter;
+    std::size_t of;
+    Distribution distribution;
+    double variation;  ///< standard deviation over mean [-]
+};
+
+struct Probability {
+    int samples;
+    std::uint64_t seed;
+    VariedSurface surface;
+    std::size_t layers_liquefied;
+    std::vector<RandomVariable> variables;
 };
 
 struct Lem {
@@ -85,7 +146,13 @@ struct Lem {
     std::vector<PorePressureRatio> pore_pressure_ratios;
     double seismic_coefficient;  ///< k_h, towards the slide [-]
     std::vector<Surcharge> surcharge;
-    std::vector<LiquefiedLayer> liquefaction;  ///< from the top down, one more per stage
+    std::vector<LineLoad> line_loads;
+    std::vector<Vec2> floor;  ///< ascending in x, level beyond its ends; empty: none [m]
+    std::optional<TensionCrack> tension_crack;
+    std::vector<UndrainedRegion> undrained;
+    std::vector<UndrainedRegion> liquefaction;  ///< from the top down, one more per stage
+    std::optional<Sensitivity> sensitivity;
+    std::optional<Probability> probability;
 };
 
 // ---------------------------------------------------------------- fem_solver

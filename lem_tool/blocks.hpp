@@ -1,0 +1,35 @@
+// Independent blocks of work on some threads. What a block computes may not depend on which thread
+// runs it, so the answer is the same on one thread and on many.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace breach::lem {
+
+/// Calls work(0) .. work(count - 1), each once. The first exception is thrown again here.
+template <class Work>
+void run_blocks(std::size_t count, int threads, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::mutex failing;
+    const auto take_blocks = [&] {
+        try {
+            for (std::size_t block = next++; block < count; block = next++) work(block);
+        } catch (...) {
+            const std::lock_guard lock(failing);
+            if (!failure) failure = std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int n = 1; n < threads; ++n) others.emplace_back(take_blocks);
+        take_blocks();
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace breach::lem

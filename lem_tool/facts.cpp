@@ -1,0 +1,137 @@
+#include "lem_tool/facts.hpp"
+
+#include <algorithm>
+
+#include "lem_tool/slip_circle.hpp"
+#include "lem_tool/spencer.hpp"
+
+namespace breach::lem {
+
+using nlohmann::json;
+
+namespace {
+
+json point(double x, double y) { return json::array({x, y}); }
+
+/// Lowest point of the base; of a level floor, its left end.
+scene::Vec2 lowest_point(const Strata& strata, const Surface& surface, const Slices& slices) {
+    const double bottom = std::clamp(surface.circle.center.x(), surface.left, surface.right);
+    scene::Vec2 lowest(bottom, base_level(strata, surface, bottom));
+    for (std::size_t i = 0; i <= slices.count; ++i) {
+        const double x = i < slices.count ? slices.left[i] : surface.right;
+        const double y = base_level(strata, surface, x);
+        if (y < lowest.y()) lowest = {x, y};
+    }
+    return lowest;
+}
+
+std::string because(Cut cut) {
+    switch (cut) {
+        case Cut::above_ground:
+            return "comes out of the ground between its ends";
+        case Cut::leaves_model:
+            return "leaves the model";
+        case Cut::closed_region:
+            return "passes through a linear elastic region, which cannot fail";
+        case Cut::overhangs:
+            return "meets the ground above its centre and would lean back over the mass";
+        case Cut::done:
+            break;
+    }
+    return "cuts nothing off";
+}
+
+std::string because(Balance balance) {
+    switch (balance) {
+        case Balance::no_driving_moment:
+            return "cuts off a mass that its weight does not drive";
+        case Balance::not_converged:
+            return "has a factor of safety on which the iteration does not settle";
+        case Balance::small_m_alpha:
+        case Balance::found:
+            break;
+    }
+    return "has no factor of safety";
+}
+
+}  // namespace
+
+json facts_of(const Model& model, const Critical& critical, Slices& slices) {
+    const Surface& s = critical.surface;
+    cut(model.strata, model.soils, s, model.slices, slices);
+    const scene::Vec2 center = s.circle.center;
+    const Slide slide = slide_of(slices);
+    const double left = base_level(model.strata, s, s.left);
+    const double right = base_level(model.strata, s, s.right);
+    const bool falls_right = slide == Slide::to_right;
+    const scene::Vec2 lowest = lowest_point(model.strata, s, slices);
+    json facts{{"factor_of_safety", critical.bishop.factor_of_safety},
+               {"method", "bishop_simplified"},
+               {"circle", {{"center", point(center.x(), center.y())}, {"radius", s.circle.radius}}},
+               {"entry", falls_right ? point(s.left, left) : point(s.right, right)},
+               {"exit", falls_right ? point(s.right, right) : point(s.left, left)},
+               {"lowest_point", point(lowest.x(), lowest.y())},
+               {"sliding_depth", slices.depth},
+               {"least_m_alpha", critical.bishop.m_alpha},
+               {"iterations", critical.bishop.iterations},
+               {"slices", slices.count},
+               {"ordinary", nullptr},
+               {"spencer", nullptr}};
+    if (const auto F = ordinary(slices, s.circle, slide, model.k_h)) {
+        facts["ordinary"] = {{"factor_of_safety", *F}};
+    }
+    if (const auto rigorous = spencer(slices, s.circle, slide, model.k_h)) {
+        facts["spencer"] = {{"factor_of_safety", rigorous->factor_of_safety},
+                            {"interslice_inclination", rigorous->theta}};
+    }
+    return facts;
+}
+
+json facts_of(const Tally& tally) {
+    return {{"analysed", tally.analysed},
+            {"outside_soil", tally.not_a_surface},
+            {"too_shallow", tally.too_shallow},
+            {"without_answer", tally.no_answer}};
+}
+
+Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& slices) {
+    std::optional<Critical> best;
+    std::string why = because(Cut::done);
+    for (const Surface& surface : masses_of(model.strata, *scene::lem_of(scene).circle)) {
+        const Cut verdict = cut(model.strata, model.soils, surface, model.slices, slices);
+        if (verdict != Cut::done) {
+            why = because(verdict);
+            continue;
+        }
+        const Bishop result = bishop(slices, slide_of(slices), model.k_h);
+        // a small m_alpha is reported, not refused: this circle was asked for
+        if (result.balance != Balance::found && result.balance != Balance::small_m_alpha) {
+            why = because(result.balance);
+            continue;
+        }
+        if (!best || result.factor_of_safety < best->bishop.factor_of_safety) {
+            best = Critical{surface, result};
+        }
+    }
+    if (!best) {
+        throw fault::BadInput(
+            scene.name, {{"/lem/circle", why,
+                          "give a circle whose lower arc cuts a mass off the slope, or a search"}});
+    }
+    return *best;
+}
+
+SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads) {
+    SearchResult found = search(model, *scene::lem_of(scene).search, threads);
+    if (found.critical) return found;
+    const Tally& tally = found.tally;
+    throw fault::BadInput(
+        scene.name,
+        {{"/lem/search",
+          "finds no surface: " + std::to_string(tally.not_a_surface) + " leave the soil, " +
+              std::to_string(tally.too_shallow) + " are shallower than minimum_depth, " +
+              std::to_string(tally.no_answer) + " have no factor of safety",
+          "put entry on the upper and exit on the lower side of the slope, within the model"}});
+}
+
+}  // namespace breach::lem

@@ -1,0 +1,22 @@
+// Surfaces and searches as facts of result.json, and why one is refused.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/scene/scene.hpp"
+#include "lem_tool/search.hpp"
+
+namespace breach::lem {
+
+/// Everything about one analysed surface; leaves its slices in `slices`.
+nlohmann::json facts_of(const Model& model, const Critical& critical, Slices& slices);
+nlohmann::json facts_of(const Tally& tally);
+
+/// Bishop on the mass of the circle with the lowest factor of safety; a circle can cut off several.
+/// Throws BadInput when there is none.
+Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& slices);
+
+/// The search, which must find something. Throws BadInput otherwise.
+SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads);
+
+}  // namespace breach::lem

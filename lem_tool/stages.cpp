@@ -1,0 +1,84 @@
+#include "lem_tool/stages.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "lem_tool/facts.hpp"
+
+namespace breach::lem {
+
+using nlohmann::json;
+
+namespace {
+
+double top_of(const scene::Region& region) { return scene::bounding_box(region.polygon).high.y(); }
+double bottom_of(const scene::Region& region) {
+    return scene::bounding_box(region.polygon).low.y();
+}
+
+/// Depth at which F falls through 1, linear between the stages around it.
+json depth_at_one(const json& stages) {
+    for (std::size_t i = 1; i < stages.size(); ++i) {
+        const double before = stages[i - 1].at("factor_of_safety");
+        const double after = stages[i].at("factor_of_safety");
+        if (before < 1.0 || after >= 1.0) continue;
+        const double from = stages[i - 1].at("liquefied_depth");
+        const double to = stages[i].at("liquefied_depth");
+        return from + (to - from) * (before - 1.0) / (before - after);
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+void add_stages(const scene::Scene& scene, const Model& sound, const SearchResult& unliquefied,
+                int threads, json& result) {
+    const std::vector<scene::UndrainedRegion>& layers = scene.lem->liquefaction;
+    const std::vector<scene::Region>& regions = scene.section.regions;
+    const double top = top_of(regions[layers.front().region]);
+    Slices slices = make_slices(sound.strata, sound.slices);
+    std::int64_t analysed = 0;
+    json stages = json::array();
+    for (std::size_t count = 0; count <= layers.size(); ++count) {
+        Model model = sound;
+        model.soils = liquefied(sound, layers, count);
+        const SearchResult found =
+            count == 0 ? unliquefied : found_by_search(scene, model, threads);
+        json stage = facts_of(model, *found.critical, slices);
+        stage["layers_liquefied"] = count;
+        stage["liquefied_depth"] =
+            count == 0 ? 0.0 : top - bottom_of(regions[layers[count - 1].region]);
+        stage["lowest_point_depth"] = top - stage.at("lowest_point")[1].get<double>();
+        analysed += found.tally.analysed;
+        stages.push_back(stage);
+    }
+    const auto lowest =
+        std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
+            // a stage that repeats the minimum adds nothing: the earlier one counts
+            return a.at("factor_of_safety").get<double>() <
+                   b.at("factor_of_safety").get<double>() * (1.0 - 1e-6);
+        });
+    result["stages"] = stages;
+    result["critical_depth"] = lowest->at("lowest_point_depth");
+    result["depth_at_fs_1"] = depth_at_one(stages);
+    result["surfaces_analysed_in_stages"] = analysed;
+}
+
+std::string table_of(const json& stages) {
+    std::ostringstream table;
+    table << "layers_liquefied,liquefied_depth_m,factor_of_safety,spencer,center_x_m,center_y_m,"
+             "radius_m,entry_x_m,entry_y_m,exit_x_m,exit_y_m,lowest_point_depth_m\n";
+    for (const json& stage : stages) {
+        const json& rigorous = stage.at("spencer");
+        const json& center = stage.at("circle").at("center");
+        table << stage.at("layers_liquefied") << ',' << stage.at("liquefied_depth") << ','
+              << stage.at("factor_of_safety") << ','
+              << (rigorous.is_null() ? "" : rigorous.at("factor_of_safety").dump()) << ','
+              << center[0] << ',' << center[1] << ',' << stage.at("circle").at("radius") << ','
+              << stage.at("entry")[0] << ',' << stage.at("entry")[1] << ',' << stage.at("exit")[0]
+              << ',' << stage.at("exit")[1] << ',' << stage.at("lowest_point_depth") << '\n';
+    }
+    return table.str();
+}
+
+}  // namespace breach::lem

@@ -1,0 +1,18 @@
+// Layers that liquefy from the top down: a search for every stage.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "lem_tool/search.hpp"
+
+namespace breach::lem {
+
+/// Adds stages, critical_depth, depth_at_fs_1 and surfaces_analysed_in_stages to the result. The
+/// first stage, nothing liquefied, is the search that has been done already.
+void add_stages(const scene::Scene& scene, const Model& sound, const SearchResult& unliquefied,
+                int threads, nlohmann::json& result);
+
+/// The stages as a table with one line per stage.
+std::string table_of(const nlohmann::json& stages);
+
+}  // namespace breach::lem

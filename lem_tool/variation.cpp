@@ -1,0 +1,235 @@
+#include "lem_tool/variation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "lem_tool/blocks.hpp"
+#include "lem_tool/facts.hpp"
+#include "lem_tool/hypercube.hpp"
+
+namespace breach::lem {
+
+using nlohmann::json;
+using scene::Parameter;
+
+namespace {
+
+constexpr double steepest_friction = 89.0 * M_PI / 180.0;
+
+void scale(scene::UndrainedStrength& strength, double factor) {
+    strength.constant *= factor;
+    strength.coefficient *= factor;
+}
+
+/// Changes one parameter of the scene by a factor.
+void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double factor) {
+    switch (parameter) {
+        case Parameter::cohesion:
+            std::get<materials::MohrCoulomb>(scene.materials[of].law).c *= factor;
+            break;
+        case Parameter::friction_angle: {
+            double& phi = std::get<materials::MohrCoulomb>(scene.materials[of].law).phi;
+            phi = std::min(phi * factor, steepest_friction);
+            break;
+        }
+        case Parameter::density:
+            scene.materials[of].density *= factor;
+            break;
+        case Parameter::undrained_strength:
+            scale(scene.lem->undrained[of].strength, factor);
+            break;
+        case Parameter::residual_strength:
+            scale(scene.lem->liquefaction[of].strength, factor);
+            break;
+        case Parameter::seismic_coefficient:
+            scene.lem->seismic_coefficient *= factor;
+            break;
+    }
+}
+
+std::string name_of(const scene::Scene& scene, Parameter parameter, std::size_t of) {
+    const auto region = [&](const std::vector<scene::UndrainedRegion>& list) {
+        return scene.section.regions[list[of].region].name;
+    };
+    switch (parameter) {
+        case Parameter::cohesion:
+            return "cohesion of " + scene.materials[of].name;
+        case Parameter::friction_angle:
+            return "friction_angle of " + scene.materials[of].name;
+        case Parameter::density:
+            return "density of " + scene.materials[of].name;
+        case Parameter::undrained_strength:
+            return "undrained_strength of " + region(scene.lem->undrained);
+        case Parameter::residual_strength:
+            return "residual_strength of " + region(scene.lem->liquefaction);
+        case Parameter::seismic_coefficient:
+            break;
+    }
+    return "seismic_coefficient";
+}
+
+/// F of varied scenes, on the surface that is critical without variation or on their own.
+class Variations {
+  public:
+    Variations(const scene::Scene& scene, scene::VariedSurface surface, std::size_t layers,
+               int threads)
+        : surface_(surface), layers_(layers) {
+        const Model model = model_of(scene);
+        Slices slices = make_slices(model.strata, model.slices);
+        base_ = scene.lem->search ? *found_by_search(scene, model, threads).critical
+                                  : analyse_circle(scene, model, slices);
+        cut(model.strata, model.soils, base_.surface, model.slices, slices);
+        slide_ = slide_of(slices);
+    }
+
+    double unvaried() const { return base_.bishop.factor_of_safety; }
+
+    /// Infinite where nothing drives the mass.
+    double factor_of(const scene::Scene& varied) const {
+        constexpr double stable = std::numeric_limits<double>::infinity();
+        const Model model = model_of(varied);
+        if (surface_ == scene::VariedSurface::searched && varied.lem->search) {
+            const SearchResult found = search(model, *varied.lem->search);
+            return found.critical ? found.critical->bishop.factor_of_safety : stable;
+        }
+        Slices slices = make_slices(model.strata, model.slices);
+        cut(model.strata, model.soils, base_.surface, model.slices, slices);
+        const Bishop result = bishop(slices, slide_, model.k_h);
+        const bool answered =
+            result.balance == Balance::found || result.balance == Balance::small_m_alpha;
+        return answered ? result.factor_of_safety : stable;
+    }
+
+  private:
+    Model model_of(const scene::Scene& varied) const {
+        Model model = make_model(varied);
+        model.soils = liquefied(model, varied.lem->liquefaction, layers_);
+        return model;
+    }
+
+    scene::VariedSurface surface_;
+    std::size_t layers_;
+    Critical base_{};
+    Slide slide_ = Slide::to_left;
+};
+
+struct Strength {
+    Parameter parameter;
+    std::size_t of;
+};
+
+/// Every strength parameter of the scene that is not zero.
+std::vector<Strength> strengths_of(const scene::Scene& scene, std::size_t layers) {
+    std::vector<Strength> strengths;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto* law = std::get_if<materials::MohrCoulomb>(&scene.materials[i].law);
+        if (law && law->c > 0.0) strengths.push_back({Parameter::cohesion, i});
+        if (law && law->phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
+    }
+    for (std::size_t i = 0; i < scene.lem->undrained.size(); ++i) {
+        strengths.push_back({Parameter::undrained_strength, i});
+    }
+    for (std::size_t i = 0; i < layers; ++i) strengths.push_back({Parameter::residual_strength, i});
+    return strengths;
+}
+
+json or_null(double F) { return std::isfinite(F) ? json(F) : json(nullptr); }
+
+json statistics_of(const std::vector<double>& factors) {
+    double sum = 0.0;
+    double squares = 0.0;
+    std::size_t driven = 0;
+    std::size_t failed = 0;
+    for (const double F : factors) {
+        if (!std::isfinite(F)) continue;
+        ++driven;
+        sum += F;
+        squares += F * F;
+        if (F < 1.0) ++failed;
+    }
+    const auto n = static_cast<double>(driven);
+    const double mean = driven > 0 ? sum / n : 0.0;
+    const double deviation =
+        driven > 1 ? std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1.0))) : 0.0;
+    json facts{{"samples", factors.size()},
+               {"mean", mean},
+               {"standard_deviation", deviation},
+               {"failures", failed},
+               {"not_driven", factors.size() - driven},
+               {"probability_of_failure",
+                static_cast<double>(failed) / static_cast<double>(factors.size())},
+               {"reliability_index", nullptr}};
+    if (deviation > 0.0) facts["reliability_index"] = (mean - 1.0) / deviation;
+    return facts;
+}
+
+}  // namespace
+
+void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
+    const scene::Sensitivity& asked = *scene.lem->sensitivity;
+    const Variations variations(scene, asked.surface, asked.layers_liquefied, threads);
+    const std::vector<Strength> strengths = strengths_of(scene, asked.layers_liquefied);
+    std::vector<double> factors(2 * strengths.size());
+    run_blocks(factors.size(), threads, [&](std::size_t n) {
+        scene::Scene varied = scene;
+        const Strength& strength = strengths[n / 2];
+        vary(varied, strength.parameter, strength.of, 1.0 + (n % 2 ? asked.change : -asked.change));
+        factors[n] = variations.factor_of(varied);
+    });
+    json list = json::array();
+    for (std::size_t i = 0; i < strengths.size(); ++i) {
+        list.push_back({{"parameter", name_of(scene, strengths[i].parameter, strengths[i].of)},
+                        {"lower", or_null(factors[2 * i])},
+                        {"higher", or_null(factors[2 * i + 1])}});
+    }
+    result["sensitivity"] = {{"change", asked.change},
+                             {"layers_liquefied", asked.layers_liquefied},
+                             {"factor_of_safety", variations.unvaried()},
+                             {"parameters", list}};
+}
+
+Samples add_probability(const scene::Scene& scene, int threads, json& result) {
+    constexpr std::size_t block = 32;
+    const scene::Probability& asked = *scene.lem->probability;
+    const Variations variations(scene, asked.surface, asked.layers_liquefied, threads);
+    const auto count = static_cast<std::size_t>(asked.samples);
+    Samples samples{{}, {}, std::vector<double>(count)};
+    for (std::size_t v = 0; v < asked.variables.size(); ++v) {
+        const scene::RandomVariable& variable = asked.variables[v];
+        samples.names.push_back(name_of(scene, variable.parameter, variable.of));
+        std::vector<double> column = hypercube_column(count, asked.seed, v);
+        for (double& x : column) x = factor_at(variable, x);
+        samples.factors.push_back(std::move(column));
+    }
+    run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {
+        for (std::size_t i = n * block; i < std::min(count, (n + 1) * block); ++i) {
+            scene::Scene varied = scene;
+            for (std::size_t v = 0; v < asked.variables.size(); ++v) {
+                vary(varied, asked.variables[v].parameter, asked.variables[v].of,
+                     samples.factors[v][i]);
+            }
+            samples.factor_of_safety[i] = variations.factor_of(varied);
+        }
+    });
+    result["probability"] = statistics_of(samples.factor_of_safety);
+    result["probability"]["seed"] = asked.seed;
+    result["probability"]["layers_liquefied"] = asked.layers_liquefied;
+    result["probability"]["factor_of_safety"] = variations.unvaried();
+    return samples;
+}
+
+std::string table_of(const Samples& samples) {
+    std::ostringstream table;
+    table.precision(10);
+    for (const std::string& name : samples.names) table << name << ',';
+    table << "factor_of_safety\n";
+    for (std::size_t i = 0; i < samples.factor_of_safety.size(); ++i) {
+        for (const auto& column : samples.factors) table << column[i] << ',';
+        table << samples.factor_of_safety[i] << '\n';
+    }
+    return table.str();
+}
+
+}  // namespace breach::lem
