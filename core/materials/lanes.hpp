@@ -171,18 +171,15 @@ template <class Real>
     const Real r =
         (x - k * Real(6.93147180369123816490e-01)) - k * Real(1.90821492927058770002e-10);
     const Real r2 = r * r;
-    // Taylor's series by even and odd parts; |r| <= ln(2) / 2.
+    const Real r4 = r2 * r2;
+    // Taylor's series, |r| <= ln(2) / 2, in short chains that the CPU can work on side by side.
     const Real even =
-        Real(1.0) + r2 * (Real(1.0 / 2) +
-                          r2 * (Real(1.0 / 24) +
-                                r2 * (Real(1.0 / 720) + r2 * (Real(1.0 / 40320) +
-                                                              r2 * (Real(1.0 / 3628800) +
-                                                                    r2 * Real(1.0 / 479001600))))));
-    const Real odd =
-        Real(1.0) +
-        r2 * (Real(1.0 / 6) +
-              r2 * (Real(1.0 / 120) + r2 * (Real(1.0 / 5040) + r2 * (Real(1.0 / 362880) +
-                                                                     r2 * Real(1.0 / 39916800)))));
+        (Real(1.0) + r2 * Real(1.0 / 2)) +
+        r4 * ((Real(1.0 / 24) + r2 * Real(1.0 / 720)) +
+              r4 * ((Real(1.0 / 40320) + r2 * Real(1.0 / 3628800)) + r4 * Real(1.0 / 479001600)));
+    const Real odd = (Real(1.0) + r2 * Real(1.0 / 6)) +
+                     r4 * ((Real(1.0 / 120) + r2 * Real(1.0 / 5040)) +
+                           r4 * (Real(1.0 / 362880) + r2 * Real(1.0 / 39916800)));
     const Real scale = from_bits<Real>((bits_of(shifted) << 52) + bits_of(Real(1.0)));
     return (even + r * odd) * scale;
 }
@@ -197,10 +194,14 @@ template <class Real>
     const Real k = from_bits<Real>(exponent + bits_of(Real(to_integer))) - Real(to_integer);
     const Real s = (y - Real(1.0)) / (y + Real(1.0));
     const Real s2 = s * s;
-    Real series = Real(1.0 / 21);
-    for (const double odd : {19.0, 17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0}) {
-        series = series * s2 + Real(1.0 / odd);
-    }
+    const Real s4 = s2 * s2;
+    const Real s8 = s4 * s4;
+    // s^2/3 + s^4/5 + ..., divided by s^2, in short chains.
+    const Real series =
+        ((Real(1.0 / 3) + s2 * Real(1.0 / 5)) + s4 * (Real(1.0 / 7) + s2 * Real(1.0 / 9))) +
+        s8 * (((Real(1.0 / 11) + s2 * Real(1.0 / 13)) +
+               s4 * (Real(1.0 / 15) + s2 * Real(1.0 / 17))) +
+              s8 * (Real(1.0 / 19) + s2 * Real(1.0 / 21)));
     const Real tail = s * s2 * series;
     return k * Real(6.93147180559945286227e-01) + Real(2.0) * (s + tail);
 }
