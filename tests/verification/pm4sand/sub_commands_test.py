@@ -1,0 +1,51 @@
+"""fem_solver element-test and calibrate from the outside: results, files, refusals."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+root, bin_folder = pathlib.Path(os.environ["BREACH_ROOT"]), pathlib.Path(os.environ["BREACH_BIN"])
+documents = root / "workflows" / "element_tests"
+
+
+def fem_solver(*arguments):
+    return subprocess.run([bin_folder / "fem_solver", *map(str, arguments)], capture_output=True, text=True)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder)
+        done = fem_solver("element-test", documents / "tailings.json", "--output", out / "tests", "--progress", "none")
+        assert done.returncode == 0, done.stderr
+        result = json.loads((out / "tests" / "result.json").read_text())
+        strengths = [test["response_kPa"] for test in result["tests"]["undrained"]]
+        limits = [4.196, 5.827, 9.929]  # of vanishing steps
+        print("s_u computed", strengths, "limits", limits)
+        assert all(abs(s / limit - 1) < 1e-3 for s, limit in zip(strengths, limits))
+        completed = json.loads((out / "tests" / "scene.completed.json").read_text())
+        assert completed["law"]["C_Kaf"] > 4 and completed["law"]["compat"] == "corrected"  # defaults are visible
+        assert (out / "tests" / "element_tests.h5").stat().st_size > 10000
+
+        done = fem_solver("calibrate", documents / "calibrate_tailings.json", "--output", out / "calibration",
+                          "--set", "/calibration/most_evaluations=60", "--progress", "none")
+        assert done.returncode == 0, done.stderr
+        fit = json.loads((out / "calibration" / "result.json").read_text())["calibration"]
+        print("misfit", fit["first"]["misfit"], "->", fit["best"]["misfit"])
+        assert fit["best"]["misfit"] < fit["first"]["misfit"]
+
+        bad = fem_solver("element-test", documents / "tailings.json", "--output", out / "bad", "--set", "/law/nu=0.5",
+                         "--set", "/law/Dr=1", "--set", "/tests/undrained/strain=-1")
+        assert bad.returncode == 65, bad.returncode
+        for pointer in ("/law/nu", "/law/Dr", "/tests/undrained/strain"):
+            assert pointer in bad.stderr, bad.stderr
+        assert not (out / "bad").exists()
+        bad = fem_solver("calibrate", documents / "calibrate_tailings.json", "--output", out / "bad", "--set",
+                         '/calibration/free={"q":{"least":2,"most":1}}')
+        assert bad.returncode == 65 and "/calibration/free/q" in bad.stderr, bad.stderr
+        bad = fem_solver("calibrate", documents / "tailings.json", "--output", out / "bad")
+        assert bad.returncode == 65 and "/calibration" in bad.stderr, bad.stderr
+
+
+sys.exit(main())
