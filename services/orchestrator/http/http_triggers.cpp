@@ -1,0 +1,118 @@
+// Triggers of a run: what became of them, and new ones.
+#include "core/scene/schema.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/triggers/telemetry_tail.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+json as_json(const FiringRow& row) {
+    const Firing& firing = row.firing;
+    return {{"transfer_time", firing.transfer_time},
+            {"wanted_time", firing.wanted_time},
+            {"lag_s", firing.transfer_time - firing.wanted_time},
+            {"snapshot", firing.snapshot},
+            {"sha256", firing.sha256},
+            {"crossed", firing.crossed},
+            {"fem_step", firing.fem_step},
+            {"snapshot_ms", firing.written_at - firing.noticed_at},
+            {"fired_ms", row.fired_ms},
+            {"start_ms", row.start_ms ? json(*row.start_ms) : json(nullptr)}};
+}
+
+json as_json(const Trigger& trigger, const std::vector<FiringRow>& firings) {
+    json body{
+        {"id", trigger.id},         {"name", trigger.name},
+        {"kind", trigger.kind},     {"fem_task", trigger.fem_task},
+        {"spec", trigger.spec},     {"state", name_of(trigger.state)},
+        {"reason", trigger.reason}, {"result", trigger.result ? *trigger.result : json(nullptr)},
+        {"firings", json::array()}};
+    for (const FiringRow& each : firings) {
+        if (each.firing.trigger == trigger.id) body["firings"].push_back(as_json(each));
+    }
+    return body;
+}
+
+json all_of(const Service& service, const std::string& run) {
+    const std::vector<FiringRow> firings = service.store.firings_of(run);
+    json list = json::array();
+    for (const Trigger& each : service.store.triggers_of(run))
+        list.push_back(as_json(each, firings));
+    return {{"run", run}, {"triggers", list}};
+}
+
+double span_of(const json& scene) {
+    double span = 0.0;
+    for (const json& stage : scene.at("fem").at("stages")) span += stage.value("duration", 0.0);
+    return span;
+}
+
+bool runs_now(const Task& fem) {
+    return fem.state == TaskState::starting || fem.state == TaskState::running;
+}
+
+/// Simulated time of the last whole line.
+double reached(const DataFolder& data, const Task& fem) {
+    const std::vector<json> lines = TelemetryTail(data.output(fem) / "telemetry.jsonl").fresh();
+    return lines.empty() ? 0.0 : lines.back().at("time").get<double>();
+}
+
+TriggerPlan checked(const Service& service, const std::string& run, const std::string& body) {
+    // One entry of a study's list, checked by the same schema.
+    json entries = json::array({scene::parse_json(body, "trigger")});
+    std::vector<fault::Fault> faults =
+        scene::complete_and_check(entries, scene::study_schema().at("properties").at("triggers"));
+    if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
+    const double span = span_of(json::parse(*service.store.scene_of(run)));
+    CheckedTriggers triggers = check_triggers(entries, span, "", faults);
+    if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
+    if (triggers.live.empty())
+        throw bad_request("transfer times are given with the study, before its FEM starts");
+    TriggerPlan plan = std::move(triggers.live.front());
+    if (!entries[0].contains("name")) plan.name.clear();
+    return plan;
+}
+
+void add(Service& service, Call& call) {
+    call.allow_parameters({});
+    const std::string& run = call.parts[0];
+    wanted_run(service, run);
+    const TriggerPlan plan = checked(service, run, call.json_body());
+    for (const Trigger& each : service.store.triggers_of(run)) {
+        if (each.name == plan.name)
+            throw Problem{409, "/problems/name-taken", "Name taken",
+                          "the run has a trigger named " + plan.name};
+    }
+    std::vector<std::pair<std::string, TriggerPlan>> wanted;
+    for (const Task& task : service.store.tasks_of(run)) {
+        if (task.phase != "fem_solver" || task.state == TaskState::cancelled) continue;
+        if (plan.kind == "manual" && !runs_now(task)) continue;
+        wanted.emplace_back(task.id, plan);
+        if (plan.kind == "manual") wanted.back().second.spec["after"] = reached(service.data, task);
+    }
+    if (wanted.empty())
+        throw Problem{409, "/problems/no-fem", "No FEM to watch",
+                      plan.kind == "manual" ? "the run's FEM does not run now"
+                                            : "the run's FEM was cancelled"};
+    service.store.write([&](Transaction& transaction) {
+        for (const auto& [fem, each] : wanted) transaction.add_trigger(run, fem, each);
+    });
+    service.dispatcher.wake();
+    reply(call.response, all_of(service, run), 202);
+}
+
+}  // namespace
+
+void add_trigger_routes(Router& router, Service& service) {
+    router.get("/v1/runs/{id}/triggers", [&](Call& call) {
+        call.allow_parameters({});
+        wanted_run(service, call.parts[0]);
+        reply(call.response, all_of(service, call.parts[0]));
+    });
+    router.post("/v1/runs/{id}/triggers", [&](Call& call) { add(service, call); });
+}
+
+}  // namespace breach::orchestrator

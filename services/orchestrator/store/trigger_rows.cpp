@@ -1,0 +1,233 @@
+// Triggers and their firings in the store: the writing and the reading half.
+#include <map>
+
+#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/study.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+std::string with_time(std::string text, double time) {
+    const std::string open(open_time_text);
+    const auto at = text.find(open);
+    if (at != std::string::npos) text.replace(at, open.size(), spelt(time));
+    return text;
+}
+
+constexpr const char* trigger_columns =
+    "SELECT id, run, fem_task, name, kind, spec, state, reason, result FROM triggers ";
+
+Trigger trigger_from(const Row& row) {
+    Trigger trigger{.id = row.text(0),
+                    .run = row.text(1),
+                    .fem_task = row.text(2),
+                    .name = row.text(3),
+                    .kind = row.text(4),
+                    .spec = json::parse(row.text(5)),
+                    .state = trigger_state_named(row.text(6)),
+                    .reason = row.text(7),
+                    .result = std::nullopt};
+    if (!row.is_null(8)) trigger.result = json::parse(row.text(8));
+    return trigger;
+}
+
+}  // namespace
+
+void Transaction::add_triggers(const NewRun& run) {
+    if (!run.firing_plan.empty())
+        database_.change("INSERT INTO firing_plans (run, tasks) VALUES (?,?)",
+                         {run.id, run.firing_plan});
+    for (std::size_t i = 0; i < run.tasks.size(); ++i) {
+        if (run.tasks[i].phase != "fem_solver") continue;
+        for (const TriggerPlan& each : run.triggers) add_trigger(run.id, task_id(run.id, i), each);
+    }
+}
+
+std::string Transaction::add_trigger(const std::string& run, const std::string& fem_task,
+                                     const TriggerPlan& plan) {
+    std::int64_t number = 0;
+    database_.query("SELECT count(*) FROM triggers WHERE run=?", {run},
+                    [&](const Row& row) { number = row.integer(0); });
+    const std::string id = run + "-t" + std::to_string(number);
+    std::string name = plan.name;
+    if (name.empty()) name = plan.kind + "_" + std::to_string(number + 1);
+    const std::string now = utc_now();
+    database_.change(
+        "INSERT INTO triggers (id, run, fem_task, name, kind, spec, state, created, changed) "
+        "VALUES (?,?,?,?,?,?,'armed',?,?)",
+        {id, run, fem_task, name, plan.kind, plan.spec.dump(), now, now});
+    add_event(run, fem_task, "run",
+              {{"event", "trigger"}, {"trigger", id}, {"name", name}, {"to", "armed"}});
+    return id;
+}
+
+bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json detail) {
+    std::optional<TriggerState> from;
+    database_.query("SELECT state FROM triggers WHERE id=?", {trigger.id},
+                    [&](const Row& row) { from = trigger_state_named(row.text(0)); });
+    const auto to = from ? next(*from, event) : std::nullopt;
+    if (!to) return false;
+    if (detail.is_null()) detail = json::object();
+    database_.change(
+        "UPDATE triggers SET state=?, reason=?, changed=? WHERE id=?",
+        {std::string(orchestrator::name_of(*to)), detail.value("why", ""), utc_now(), trigger.id});
+    detail["event"] = "trigger";
+    detail["trigger"] = trigger.id;
+    detail["name"] = trigger.name;
+    detail["what"] = orchestrator::name_of(event);
+    detail["from"] = orchestrator::name_of(*from);
+    detail["to"] = orchestrator::name_of(*to);
+    add_event(trigger.run, trigger.fem_task, "run", detail);
+    return true;
+}
+
+bool Transaction::add_firing(const Trigger& trigger, const Firing& firing) {
+    const auto added = database_.change(
+        "INSERT OR IGNORE INTO firings (trigger, transfer_time, wanted_time, snapshot, sha256, "
+        "crossed, fem_step, noticed_at, written_at, fired_at) SELECT id,?,?,?,?,?,?,?,?,? FROM "
+        "triggers WHERE id=? AND state IN ('armed', 'holding')",
+        {firing.transfer_time, firing.wanted_time, firing.snapshot, firing.sha256,
+         firing.crossed.dump(), firing.fem_step, firing.noticed_at, firing.written_at, epoch_ms(),
+         trigger.id});
+    if (added == 0) return false;
+    add_event(trigger.run, trigger.fem_task, "run",
+              {{"event", "firing"},
+               {"trigger", trigger.id},
+               {"name", trigger.name},
+               {"transfer_time", firing.transfer_time},
+               {"wanted_time", firing.wanted_time},
+               {"snapshot", firing.snapshot},
+               {"sha256", firing.sha256},
+               {"crossed", firing.crossed}});
+    add_transfer(trigger.run, trigger.fem_task, firing.transfer_time);
+    return true;
+}
+
+/// What is there already (an at-time transfer, another trigger on the same snapshot) is shared.
+void Transaction::add_transfer(const std::string& run, const std::string& fem_task, double time) {
+    json plan = json::array();
+    std::int64_t priority = 0;
+    std::map<std::string, std::string> id_of_label;
+    database_.query(
+        "SELECT firing_plans.tasks, tasks.label, tasks.priority FROM tasks JOIN firing_plans ON "
+        "firing_plans.run = tasks.run WHERE tasks.id=?",
+        {fem_task}, [&](const Row& row) {
+            plan = json::parse(row.text(0));
+            id_of_label[row.text(1)] = fem_task;
+            priority = row.integer(2);
+        });
+    for (const json& task : plan) {
+        const auto parent = id_of_label.find(with_time(task.at("parent"), time));
+        if (parent == id_of_label.end()) continue;  // of another variant's FEM
+        const std::string label = with_time(task.at("label"), time);
+        std::string id;
+        database_.query("SELECT id FROM tasks WHERE run=? AND label=?", {run, label},
+                        [&](const Row& row) { id = row.text(0); });
+        if (id.empty()) id = add_fired_task(run, parent->second, label, task, time, priority);
+        id_of_label[label] = id;
+    }
+}
+
+std::string Transaction::add_fired_task(const std::string& run, const std::string& parent,
+                                        const std::string& label, const json& task, double time,
+                                        std::int64_t priority) {
+    std::int64_t ordinal = 0;
+    database_.query("UPDATE runs SET last_task = last_task + 1 WHERE id=? RETURNING last_task - 1",
+                    {run}, [&](const Row& row) { ordinal = row.integer(0); });
+    const std::string id = task_id(run, static_cast<std::size_t>(ordinal));
+    // Its snapshot exists: a transfer has nothing to wait for.
+    const bool ready = task.at("release") == "file_exists";
+    const std::string recipe = task.at("recipe");
+    database_.change(
+        "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
+        "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
+        "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+        {id, run, task.at("phase").get<std::string>(), label, time, parent,
+         task.at("release").get<std::string>(), with_time(task.at("input"), time),
+         task.at("overrides").dump(), std::string(ready ? "ready" : "blocked"),
+         task.at("variant").get<std::string>(), priority, task.at("cores").get<std::int64_t>(),
+         task.at("memory_MB").get<std::int64_t>(), recipe.empty() ? Value(nullptr) : Value(recipe),
+         ready ? Value(epoch_ms()) : Value(nullptr)});
+    return id;
+}
+
+void Transaction::keep_trigger_result(const std::string& trigger, const json& result) {
+    database_.change("UPDATE triggers SET result=? WHERE id=?", {result.dump(), trigger});
+}
+
+void Transaction::disarm_triggers(const std::string& run, const std::string& why) {
+    std::vector<Trigger> open;
+    database_.query(std::string(trigger_columns) + "WHERE run=? AND state IN ('armed', 'holding')",
+                    {run}, [&](const Row& row) { open.push_back(trigger_from(row)); });
+    for (const Trigger& each : open) move_trigger(each, TriggerEvent::disarm, {{"why", why}});
+}
+
+// ---------------------------------------------------------------- reading
+
+std::vector<Trigger> Store::open_triggers() const {
+    std::vector<Trigger> found;
+    read([&](Connection& database) {
+        database.query(std::string(trigger_columns) +
+                           "WHERE state IN ('armed', 'holding') AND fem_task IN (SELECT id FROM "
+                           "tasks WHERE state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
+                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Trigger> Store::triggers_of(const std::string& run) const {
+    std::vector<Trigger> found;
+    read([&](Connection& database) {
+        database.query(std::string(trigger_columns) + "WHERE run=? ORDER BY rowid", {run},
+                       [&](const Row& row) { found.push_back(trigger_from(row)); });
+    });
+    return found;
+}
+
+std::vector<FiringRow> Store::firings_of(const std::string& run) const {
+    std::vector<FiringRow> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT trigger, transfer_time, wanted_time, snapshot, sha256, crossed, fem_step, "
+            "noticed_at, snapshot_ms, fired_ms, start_ms FROM trigger_firings WHERE run=? ORDER BY "
+            "trigger, noticed_at",
+            {run}, [&](const Row& row) {
+                FiringRow each{.firing = {.trigger = row.text(0),
+                                          .transfer_time = row.real(1),
+                                          .wanted_time = row.real(2),
+                                          .snapshot = row.text(3),
+                                          .sha256 = row.text(4),
+                                          .crossed = json::parse(row.text(5)),
+                                          .fem_step = row.integer(6),
+                                          .noticed_at = row.integer(7),
+                                          .written_at = row.integer(7) + row.integer(8)},
+                               .fired_ms = row.integer(9),
+                               .start_ms = row.optional_integer(10)};
+                found.push_back(std::move(each));
+            });
+    });
+    return found;
+}
+
+std::vector<Sample> Store::samples_of(const std::string& trigger) const {
+    std::vector<Sample> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT firings.transfer_time, min(mpm.id), mpm.state, json_extract(mpm.result, "
+            "'$.runout') FROM firings JOIN triggers ON triggers.id = firings.trigger JOIN tasks AS "
+            "transfer ON transfer.parent = triggers.fem_task AND transfer.input = firings.snapshot "
+            "JOIN tasks AS mpm ON mpm.parent = transfer.id WHERE firings.trigger=? GROUP BY "
+            "firings.transfer_time ORDER BY firings.transfer_time",
+            {trigger}, [&](const Row& row) {
+                const TaskState state = task_state_named(row.text(2));
+                found.push_back({row.real(0), is_final(state), row.optional_real(3)});
+            });
+    });
+    return found;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,105 @@
+// What makes a transfer happen: the kinds of triggers, their states, and their checking at the
+// door. At-time triggers need no watching: they become transfer times of the study.
+//
+//     armed    -> holding   its condition is true (or a user asked); waits for the hold or a
+//     snapshot holding  -> armed     the condition was broken inside the hold armed, holding ->
+//     fired     in one transaction with its firing and its tasks; final armed, holding -> expired
+//     the FEM ended without what it waited for; final armed, holding -> disarmed  the run was
+//     cancelled; final
+//
+// A restart evaluates the telemetry again from its first line: what is stored in `armed` and
+// `holding` is for people, what is stored in `fired` is the truth.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/criteria/window.hpp"
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+enum class TriggerState { armed, holding, fired, expired, disarmed };
+enum class TriggerEvent { cross, uncross, fire, expire, disarm };
+
+std::optional<TriggerState> next(TriggerState from, TriggerEvent event);
+bool is_final(TriggerState state);
+std::string_view name_of(TriggerState state);
+std::string_view name_of(TriggerEvent event);
+TriggerState trigger_state_named(std::string_view name);
+
+/// A trigger before it is stored.
+struct TriggerPlan {
+    std::string name;  ///< unique in the run (per FEM)
+    std::string kind;  ///< "manual", "criterion", "window", "bisect"
+    nlohmann::json spec;
+};
+
+struct Trigger {
+    std::string id;
+    std::string run;
+    std::string fem_task;
+    std::string name;
+    std::string kind;
+    nlohmann::json spec;
+    TriggerState state;
+    std::string reason;                    ///< why it expired or was disarmed
+    std::optional<nlohmann::json> result;  ///< bisect: the edges
+};
+
+/// One transfer that a trigger made.
+struct Firing {
+    std::string trigger;
+    double transfer_time;     ///< the snapshot's [s]
+    double wanted_time;       ///< when the trigger was met [s]
+    std::string snapshot;     ///< file name
+    std::string sha256;       ///< of the snapshot
+    nlohmann::json crossed;   ///< values on the line that crossed; null: nothing was measured
+    std::int64_t fem_step;    ///< of that line
+    std::int64_t noticed_at;  ///< when the service read the line that met it [ms since 1970]
+    std::int64_t written_at;  ///< when the snapshot was written [ms since 1970]
+};
+
+// ---------------------------------------------------------------- kinds, ready to work
+
+struct Manual {
+    double after;  ///< simulated time when it was asked for [s]
+};
+struct When {
+    criteria::Criterion criterion;
+};
+struct Between {
+    criteria::Window window;
+    criteria::Pick pick;
+};
+struct Bisect {
+    double share;      ///< of the largest runout that still counts as plateau [-]
+    double tolerance;  ///< of the edges [s]
+    double from, to;   ///< where to look [s]
+    int seeds;         ///< transfers before the first halving
+    int most_runs;
+};
+using Work = std::variant<Manual, When, Between, Bisect>;
+
+/// From a checked spec.
+Work work_of(const TriggerPlan& plan);
+
+/// Fields of the FEM's telemetry, which conditions may use.
+const std::vector<std::string>& telemetry_fields();
+
+struct CheckedTriggers {
+    std::vector<TriggerPlan> live;        ///< to be watched
+    std::vector<nlohmann::json> at_time;  ///< "times" of the at-time ones: a list or a range
+    double snapshot_interval = 0.0;       ///< that the live ones need; 0: they ask the FEM [s]
+};
+
+/// Checks entries that fit the schema; `span`: the dynamic stages' length [s]. Faults are added
+/// below `pointer`.
+CheckedTriggers check_triggers(const nlohmann::json& entries, double span,
+                               const std::string& pointer, std::vector<fault::Fault>& faults);
+
+}  // namespace breach::orchestrator

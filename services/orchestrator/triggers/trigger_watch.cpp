@@ -1,0 +1,354 @@
+#include "services/orchestrator/triggers/trigger_watch.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "core/exchange/provenance.hpp"
+#include "services/orchestrator/frames.hpp"
+#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/study.hpp"
+#include "services/orchestrator/triggers/bisection.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr double slack = 1e-6;  // names of snapshots carry six decimals [s]
+constexpr auto reload_interval = std::chrono::seconds(1);
+constexpr auto ask_again_after = std::chrono::seconds(1);
+constexpr const char* request_file = "snapshot_request";
+
+bool has_ended(TaskState state) { return is_final(state) || state == TaskState::finalizing; }
+
+bool has_regular_snapshots(const Task& fem, const json& scene) {
+    const std::string key = "/fem/snapshot_interval=";
+    for (const std::string& each : fem.overrides) {
+        if (each.starts_with(key)) return std::stod(each.substr(key.size())) > 0.0;
+    }
+    return scene.at("fem").value("snapshot_interval", 0.0) > 0.0;
+}
+
+criteria::Line line_for(const criteria::Expression& expression, const json& telemetry) {
+    criteria::Line line{telemetry.at("time"), telemetry.value("step", std::int64_t{0}), {}};
+    for (const std::string& field : expression.fields) {
+        const auto found = telemetry.find(field);
+        const bool known = found != telemetry.end() && found->is_number();
+        line.values.push_back(known ? found->get<double>()
+                                    : std::numeric_limits<double>::quiet_NaN());
+    }
+    return line;
+}
+
+/// The values on the crossing line, by name.
+json crossing_of(const criteria::Criterion& criterion) {
+    const criteria::Line& line = *criterion.crossing();
+    json values{{"time", line.time}, {"step", line.step}};
+    for (std::size_t i = 0; i < line.values.size(); ++i)
+        values[criterion.expression().fields[i]] = line.values[i];
+    return values;
+}
+
+std::int64_t written_at(const std::filesystem::path& file) {
+    const auto time = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(file));
+    return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
+}
+
+}  // namespace
+
+void TriggerWatch::look() {
+    watch_.changes();
+    load_open_triggers();
+    for (auto& [id, fem] : fems_) {
+        read_on(fem);
+        for (Armed& each : fem.armed) settle(fem, each);
+    }
+}
+
+/// Only when something was stored since the last time, or a second has passed.
+void TriggerWatch::load_open_triggers() {
+    const std::int64_t newest = store_.last_event();
+    if (newest == seen_event_ && Clock::now() - loaded_ < reload_interval) return;
+    seen_event_ = newest;
+    loaded_ = Clock::now();
+    const std::vector<Trigger> open = store_.open_triggers();
+    const auto is_open = [&](const Armed& armed) {
+        return std::ranges::find(open, armed.trigger.id, &Trigger::id) != open.end();
+    };
+    std::erase_if(fems_, [&](auto& entry) {
+        std::erase_if(entry.second.armed, [&](const Armed& each) { return !is_open(each); });
+        if (!entry.second.armed.empty()) return false;
+        watch_.remove(entry.second.watch);
+        return true;
+    });
+    for (const Trigger& trigger : open) {
+        auto found = fems_.find(trigger.fem_task);
+        if (found == fems_.end()) {
+            Task task = *store_.task(trigger.fem_task);
+            const auto output = data_.output(task);
+            const bool regular =
+                has_regular_snapshots(task, json::parse(*store_.scene_of(task.run)));
+            Fem fem{.task = std::move(task),
+                    .output = output,
+                    .tail = TelemetryTail(output / "telemetry.jsonl"),
+                    .regular = regular};
+            found = fems_.emplace(trigger.fem_task, std::move(fem)).first;
+        }
+        arm(found->second, trigger);
+    }
+    for (auto& [id, fem] : fems_) fem.task = *store_.task(id);
+}
+
+void TriggerWatch::arm(Fem& fem, const Trigger& trigger) {
+    for (Armed& each : fem.armed) {
+        if (each.trigger.id != trigger.id) continue;
+        each.trigger.state = trigger.state;
+        return;
+    }
+    fem.armed.push_back(
+        {.trigger = trigger, .work = work_of({trigger.name, trigger.kind, trigger.spec})});
+    Armed& armed = fem.armed.back();
+    if (trigger.kind == "manual") armed.noticed_at = epoch_ms();
+    for (const json& line : fem.lines) feed(armed, line);
+}
+
+void TriggerWatch::read_on(Fem& fem) {
+    // Asked before reading: what ended before was written before.
+    fem.ended = has_ended(fem.task.state);
+    if (!fem.ended) fem.watch = watch_.add(fem.tail.file(), Notice::every_change);
+    for (json& line : fem.tail.fresh()) {
+        for (Armed& each : fem.armed) feed(each, line);
+        fem.lines.push_back(std::move(line));
+    }
+    fem.snapshots.clear();
+    for (Frame& each : frames_in(fem.output, fem.task.phase))
+        fem.snapshots.push_back({each.time, std::move(each.name)});
+}
+
+void TriggerWatch::feed(Armed& armed, const json& line) {
+    const auto note = [&](const criteria::Criterion& criterion, bool before) {
+        if (before || criterion.state() != criteria::Criterion::State::met) return;
+        armed.noticed_at = epoch_ms();
+        armed.crossed = crossing_of(criterion);
+        armed.crossed_step = criterion.crossing()->step;
+    };
+    const auto met = [](const criteria::Criterion& criterion) {
+        return criterion.state() == criteria::Criterion::State::met;
+    };
+    if (auto* when = std::get_if<When>(&armed.work)) {
+        const bool before = met(when->criterion);
+        when->criterion.take(line_for(when->criterion.expression(), line));
+        note(when->criterion, before);
+    } else if (auto* between = std::get_if<Between>(&armed.work)) {
+        criteria::Window& window = between->window;
+        const bool lower = met(window.lower()), upper = met(window.upper());
+        window.take_lower(line_for(window.lower().expression(), line));
+        note(window.lower(), lower);
+        window.take_upper(line_for(window.upper().expression(), line));
+        note(window.upper(), upper);
+    }
+}
+
+// ---------------------------------------------------------------- deciding
+
+void TriggerWatch::settle(Fem& fem, Armed& armed) {
+    if (is_final(armed.trigger.state)) return;
+    std::visit([&](auto& work) { settle_work(fem, armed, work); }, armed.work);
+}
+
+void TriggerWatch::settle_work(Fem& fem, Armed& armed, Manual& manual) {
+    if (armed.trigger.state == TriggerState::armed) move(armed, TriggerEvent::cross, {});
+    take_first_from(fem, armed, manual.after);
+}
+
+void TriggerWatch::settle_work(Fem& fem, Armed& armed, When& when) {
+    using State = criteria::Criterion::State;
+    const State state = when.criterion.state();
+    const bool holding = armed.trigger.state == TriggerState::holding;
+    if (state == State::armed && holding) move(armed, TriggerEvent::uncross, {});
+    if (state != State::armed && !holding)
+        move(armed, TriggerEvent::cross, {{"crossed", crossing_of(when.criterion)}});
+    if (state == State::met) {
+        take_first_from(fem, armed, when.criterion.met_at());
+    } else if (fem.ended) {
+        const std::string why = state == State::armed
+                                    ? "the FEM ended and the condition was not true"
+                                    : "the FEM ended inside the hold";
+        move(armed, TriggerEvent::expire, {{"why", why}});
+    }
+}
+
+void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
+    using State = criteria::Criterion::State;
+    const criteria::Criterion& lower = between.window.lower();
+    const criteria::Criterion& upper = between.window.upper();
+    if (lower.state() != State::met) {
+        if (fem.ended)
+            move(armed, TriggerEvent::expire, {{"why", "the FEM ended before the lower edge"}});
+        return;
+    }
+    if (armed.trigger.state == TriggerState::armed)
+        move(armed, TriggerEvent::cross, {{"crossed", crossing_of(lower)}});
+    const double lower_edge = lower.crossing()->time;
+    if (between.pick == criteria::Pick::first) {
+        take_first_from(fem, armed, lower_edge);
+        return;
+    }
+    const bool upper_met = upper.state() == State::met;
+    if (!upper_met && !fem.ended) return;
+    // Snapshots before the edge were written in earlier steps and are all there. A FEM that never
+    // got too distorted closes the window with its end.
+    std::vector<double> times;
+    const double limit = upper_met ? upper.crossing()->time : std::numeric_limits<double>::max();
+    for (const Snapshot& each : fem.snapshots) {
+        if (each.time < limit - slack) times.push_back(each.time);
+    }
+    const double upper_edge = upper_met ? limit : times.empty() ? lower_edge : times.back();
+    const auto time = criteria::picked(between.pick, lower_edge, upper_edge, times);
+    if (!time) {
+        move(armed, TriggerEvent::expire,
+             {{"why", "no snapshot lies between " + spelt(lower_edge) + " s and " +
+                          spelt(upper_edge) + " s; give a shorter snapshot_interval_s"}});
+        return;
+    }
+    armed.crossed = {{"lower", crossing_of(lower)},
+                     {"upper", upper_met ? crossing_of(upper) : json("the FEM's end")}};
+    if (armed.noticed_at == 0) armed.noticed_at = epoch_ms();
+    const double wanted =
+        between.pick == criteria::Pick::midpoint ? 0.5 * (lower_edge + upper_edge) : *time;
+    take(fem, armed, *std::ranges::find(fem.snapshots, *time, &Snapshot::time), wanted);
+}
+
+void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
+    if (!fem.ended) return;
+    std::vector<double> times;
+    std::vector<Snapshot> at;
+    for (const Snapshot& each : fem.snapshots) {
+        const bool inside = each.time >= bisect.from - slack && each.time <= bisect.to + slack;
+        const bool apart = times.empty() || each.time - times.back() >= bisect.tolerance - slack;
+        if (!inside || !apart) continue;
+        times.push_back(each.time);
+        at.push_back(each);
+    }
+    const std::vector<Sample> samples = store_.samples_of(armed.trigger.id);
+    std::vector<std::optional<double>> runouts(times.size());
+    for (const Sample& each : samples) {
+        if (!each.ended) return;  // one round at a time: halving needs both answers
+        const auto found = std::ranges::find(times, each.transfer_time);
+        if (found != times.end())
+            runouts[static_cast<std::size_t>(found - times.begin())] =
+                each.runout.value_or(no_runout);
+    }
+    if (times.empty()) {
+        move(armed, TriggerEvent::expire, {{"why", "no snapshot lies in the range"}});
+        return;
+    }
+    const Advice advice = advise(times, runouts, bisect.share, bisect.seeds);
+    const bool enough = samples.size() >= static_cast<std::size_t>(bisect.most_runs);
+    if (!advice.run_next.empty() && !enough) {
+        if (armed.trigger.state == TriggerState::armed) move(armed, TriggerEvent::cross, {});
+        armed.noticed_at = epoch_ms();
+        std::vector<Firing> firings;
+        for (const std::size_t i : advice.run_next)
+            firings.push_back(firing_of(fem, armed, at[i], times[i]));
+        store_.write([&](Transaction& transaction) {
+            for (const Firing& each : firings) transaction.add_firing(armed.trigger, each);
+        });
+        return;
+    }
+    json result{{"runs", samples.size()},
+                {"uniform_runs", times.size()},
+                {"complete", advice.run_next.empty()}};
+    if (advice.plateau) {
+        const auto edge = [](const Edge& each) {
+            return json{{"off", each.off ? json(*each.off) : json(nullptr)}, {"on", each.on}};
+        };
+        result["lower"] = edge(advice.plateau->lower);
+        result["upper"] = edge(advice.plateau->upper);
+        result["largest_runout"] = advice.plateau->largest;
+        result["largest_at"] = advice.plateau->largest_at;
+    }
+    const TriggerEvent event = advice.plateau ? TriggerEvent::fire : TriggerEvent::expire;
+    json detail{{"result", result}};
+    if (!advice.plateau) detail["why"] = "no transfer time gave a runout above zero";
+    store_.write([&](Transaction& transaction) {
+        transaction.keep_trigger_result(armed.trigger.id, result);
+        transaction.move_trigger(armed.trigger, event, detail);
+    });
+    armed.trigger.state = *next(armed.trigger.state, event);
+}
+
+// ---------------------------------------------------------------- firing
+
+void TriggerWatch::take_first_from(Fem& fem, Armed& armed, double wanted) {
+    const auto first = std::ranges::find_if(
+        fem.snapshots, [&](const Snapshot& each) { return each.time >= wanted - slack; });
+    if (first != fem.snapshots.end()) {
+        take(fem, armed, *first, wanted);
+    } else if (fem.ended) {
+        move(armed, TriggerEvent::expire,
+             {{"why", "the FEM ended without a snapshot at or after " + spelt(wanted) + " s"}});
+    } else if (!fem.regular) {
+        ask_for_snapshot(fem);
+    }
+}
+
+void TriggerWatch::take(Fem& fem, Armed& armed, const Snapshot& snapshot, double wanted) {
+    const double within = armed.trigger.spec.value("within_s", std::numeric_limits<double>::max());
+    const double lag = snapshot.time - wanted;
+    if (lag > within + slack) {
+        move(armed, TriggerEvent::expire,
+             {{"why", "the first snapshot after " + spelt(wanted) + " s is at " +
+                          spelt(snapshot.time) + " s, later than within_s = " + spelt(within) +
+                          " s allows; give snapshot_interval_s"}});
+        return;
+    }
+    const Firing firing = firing_of(fem, armed, snapshot, wanted);
+    store_.write([&](Transaction& transaction) {
+        if (!transaction.add_firing(armed.trigger, firing)) return;
+        transaction.move_trigger(armed.trigger, TriggerEvent::fire,
+                                 {{"transfer_time", firing.transfer_time}});
+    });
+    armed.trigger.state = TriggerState::fired;
+    spdlog::info("{}: trigger {} fired, {} for {:.6f} s", fem.task.id, armed.trigger.name,
+                 snapshot.name, wanted);
+}
+
+Firing TriggerWatch::firing_of(const Fem& fem, const Armed& armed, const Snapshot& snapshot,
+                               double wanted) const {
+    const auto file = fem.output / snapshot.name;
+    return {.trigger = armed.trigger.id,
+            .transfer_time = snapshot.time,
+            .wanted_time = wanted,
+            .snapshot = snapshot.name,
+            .sha256 = exchange::sha256_of_file(file),
+            .crossed = armed.crossed,
+            .fem_step = armed.crossed_step,
+            .noticed_at = armed.noticed_at,
+            .written_at = written_at(file)};
+}
+
+/// Renamed into place. Asked again when nothing came: a FEM that was killed has not answered.
+void TriggerWatch::ask_for_snapshot(Fem& fem) {
+    const auto request = fem.output / request_file;
+    if (std::filesystem::exists(request) || Clock::now() - fem.asked < ask_again_after) return;
+    const auto draft = fem.output / (std::string(request_file) + ".new");
+    std::ofstream(draft) << utc_now() << "\n";
+    std::error_code error;
+    std::filesystem::rename(draft, request, error);
+    fem.asked = Clock::now();
+}
+
+void TriggerWatch::move(Armed& armed, TriggerEvent event, json detail) {
+    store_.write(
+        [&](Transaction& transaction) { transaction.move_trigger(armed.trigger, event, detail); });
+    armed.trigger.state = *next(armed.trigger.state, event);
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,83 @@
+// Watches the FEMs that have open triggers: reads their telemetry as it grows, decides, asks for
+// snapshots, and stores firings with the tasks that they make. Runs on the dispatcher's thread.
+//
+// What is decided is a function of the telemetry and of the snapshots that exist, both on the disk:
+// after a kill -9 the replay comes to the same firing, and the store takes it once.
+//
+// The snapshot of a firing is the first one not before the time at which the trigger was met. While
+// there is none and the FEM runs, it is asked for one (the file snapshot_request in its output
+// folder), unless it takes regular ones anyway. When the FEM has ended, what exists must serve; a
+// snapshot later than the trigger's within_s makes it expire.
+#pragma once
+
+#include <chrono>
+#include <map>
+
+#include "services/orchestrator/data_folder.hpp"
+#include "services/orchestrator/folder_watch.hpp"
+#include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/triggers/telemetry_tail.hpp"
+
+namespace breach::orchestrator {
+
+class TriggerWatch {
+  public:
+    TriggerWatch(Store& store, const DataFolder& data) : store_(store), data_(data) {}
+
+    /// Readable when a watched telemetry file has grown.
+    int descriptor() const { return watch_.descriptor(); }
+    /// Looks at everything that may have moved on; cheap when nothing is open.
+    void look();
+
+  private:
+    struct Snapshot {
+        double time;
+        std::string name;
+    };
+    /// A trigger at work.
+    struct Armed {
+        Trigger trigger;
+        Work work;
+        std::int64_t noticed_at = 0;  ///< when the line that met it was read [ms since 1970]
+        nlohmann::json crossed = nullptr;
+        std::int64_t crossed_step = 0;
+    };
+    /// A FEM with open triggers.
+    struct Fem {
+        Task task;
+        std::filesystem::path output;
+        TelemetryTail tail;
+        int watch = -1;
+        std::vector<nlohmann::json> lines;  ///< all so far, for triggers that come later
+        std::vector<Armed> armed;
+        bool ended = false;
+        bool regular = false;  ///< takes snapshots at an interval
+        std::vector<Snapshot> snapshots;
+        std::chrono::steady_clock::time_point asked{};
+    };
+
+    void load_open_triggers();
+    void arm(Fem& fem, const Trigger& trigger);
+    void read_on(Fem& fem);
+    void feed(Armed& armed, const nlohmann::json& line);
+    void settle(Fem& fem, Armed& armed);
+    void settle_work(Fem& fem, Armed& armed, Manual& manual);
+    void settle_work(Fem& fem, Armed& armed, When& when);
+    void settle_work(Fem& fem, Armed& armed, Between& between);
+    void settle_work(Fem& fem, Armed& armed, Bisect& bisect);
+    void take_first_from(Fem& fem, Armed& armed, double wanted);
+    void take(Fem& fem, Armed& armed, const Snapshot& snapshot, double wanted);
+    void ask_for_snapshot(Fem& fem);
+    Firing firing_of(const Fem& fem, const Armed& armed, const Snapshot& snapshot,
+                     double wanted) const;
+    void move(Armed& armed, TriggerEvent event, nlohmann::json detail);
+
+    Store& store_;
+    const DataFolder& data_;
+    FolderWatch watch_;
+    std::map<std::string, Fem> fems_;  ///< by task id
+    std::int64_t seen_event_ = -1;
+    std::chrono::steady_clock::time_point loaded_{};
+};
+
+}  // namespace breach::orchestrator
