@@ -24,10 +24,11 @@ json as_json(const Attempt& attempt) {
             {"cpu_seconds", or_null(attempt.cpu_seconds)}};
 }
 
-constexpr std::array columns{"transfer_time",     "state",          "runout",
-                             "runout_beyond_toe", "runout_largest", "volume_ratio",
-                             "numerical_share",   "cpu_seconds",    "reason",
-                             "transfer_task",     "mpm_task"};
+constexpr std::array columns{
+    "transfer_time",  "state",        "runout",          "runout_beyond_toe",
+    "runout_largest", "volume_ratio", "numerical_share", "overlap",
+    "cpu_seconds",    "reason",       "transfer_task",   "mpm_task",
+    "variant",        "reused",       "trigger"};
 
 std::string csv_field(const json& value) {
     if (value.is_null()) return {};
@@ -45,7 +46,7 @@ std::string csv_field(const json& value) {
 json as_json(const Run& run, const ProgressBoard& board) {
     double progress = 1.0;
     if (!run.finished && run.tasks_total > 0) {
-        progress = (static_cast<double>(run.tasks_done) + board.sum_of_run(run.id)) /
+        progress = (static_cast<double>(run.tasks_ended) + board.sum_of_run(run.id)) /
                    static_cast<double>(run.tasks_total);
     }
     return {{"id", run.id},
@@ -59,6 +60,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"tasks_total", run.tasks_total},
             {"tasks_done", run.tasks_done},
             {"tasks_failed", run.tasks_failed},
+            {"paused", run.paused},
             {"message", run.message}};
 }
 
@@ -74,20 +76,25 @@ json as_json(const Task& task, const std::vector<Attempt>& attempts,
     json fault = nullptr;
     if (task.fault)
         fault = {{"exit_code", or_null(task.fault->exit_code)}, {"summary", task.fault->summary}};
-    return {{"id", task.id},
-            {"run", task.run},
-            {"phase", task.phase},
-            {"label", task.label},
-            {"transfer_time", or_null(task.transfer_time)},
-            {"state", name_of(task.state)},
-            {"progress", progress.fraction},
-            {"message", progress.message},
-            {"started", or_null(task.started)},
-            {"finished", or_null(task.finished)},
-            {"result", or_null(task.result)},
-            {"fault", fault},
-            {"attempts", tried},
-            {"artifacts", kept}};
+    return {
+        {"id", task.id},
+        {"run", task.run},
+        {"phase", task.phase},
+        {"label", task.label},
+        {"transfer_time", or_null(task.transfer_time)},
+        {"variant", task.variant},
+        {"state", name_of(task.state)},
+        {"progress", progress.fraction},
+        {"message", progress.message},
+        {"started", or_null(task.started)},
+        {"finished", or_null(task.finished)},
+        {"result", or_null(task.result)},
+        {"fault", fault},
+        {"same_as", or_null(task.same_as)},
+        {"priority", task.priority},
+        {"resources", {{"cores", task.resources.cores}, {"memory_MB", task.resources.memory_mb}}},
+        {"attempts", tried},
+        {"artifacts", kept}};
 }
 
 json as_json(const Event& event) {
@@ -104,10 +111,14 @@ json as_json(const SweepRow& row) {
             {"runout_largest", or_null(row.runout_largest)},
             {"volume_ratio", or_null(row.volume_ratio)},
             {"numerical_share", or_null(row.numerical_share)},
+            {"overlap", or_null(row.overlap)},
             {"cpu_seconds", or_null(row.cpu_seconds)},
             {"reason", row.reason},
             {"transfer_task", row.transfer_task},
-            {"mpm_task", row.mpm_task}};
+            {"mpm_task", row.mpm_task},
+            {"variant", row.variant},
+            {"reused", row.reused},
+            {"trigger", row.trigger}};
 }
 
 json as_json(const std::vector<fault::Fault>& faults) {

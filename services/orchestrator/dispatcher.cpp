@@ -28,11 +28,20 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
       executor_(executor),
       board_(board),
       settings_(std::move(settings)),
+      triggers_(store, data),
       wake_descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
-      registrar_(store, data, [this](const std::string& task) {
+      registrar_(store, data,
+                 [this](const std::string& task) {
+                     {
+                         const std::lock_guard lock(registered_mutex_);
+                         registered_.push_back(task);
+                     }
+                     wake();
+                 }),
+      cache_(store, data, [this](const std::string& task) {
           {
               const std::lock_guard lock(registered_mutex_);
-              registered_.push_back(task);
+              looked_up_.push_back(task);
           }
           wake();
       }) {
@@ -47,6 +56,11 @@ Dispatcher::~Dispatcher() {
 }
 
 void Dispatcher::wake() { eventfd_write(wake_descriptor_, 1); }
+
+void Dispatcher::settle_all() {
+    unsettled_ = true;
+    wake();
+}
 
 void Dispatcher::serve(const std::stop_token& stop) {
     bool reconciled = false;
@@ -101,7 +115,10 @@ void Dispatcher::look_around() {
         observe(live);
     }
     forget_the_ended();
+    triggers_.look();
     release_retries();
+    if (unsettled_.exchange(false))
+        for (const std::string& parent : store_.parents_of_blocked()) settle_children(parent);
 }
 
 void Dispatcher::wait_for_something() {
@@ -110,8 +127,10 @@ void Dispatcher::wait_for_something() {
         const auto left = std::chrono::milliseconds(*retry - epoch_ms());
         wait = std::clamp(left, std::chrono::milliseconds(0), longest_wait);
     }
-    pollfd wanted[] = {{watch_.descriptor(), POLLIN, 0}, {wake_descriptor_, POLLIN, 0}};
-    poll(wanted, 2, static_cast<int>(wait.count()));
+    pollfd wanted[] = {{watch_.descriptor(), POLLIN, 0},
+                       {triggers_.descriptor(), POLLIN, 0},
+                       {wake_descriptor_, POLLIN, 0}};
+    poll(wanted, 3, static_cast<int>(wait.count()));
     eventfd_t count = 0;
     eventfd_read(wake_descriptor_, &count);
 }
@@ -130,20 +149,88 @@ void Dispatcher::shut_down() {
 // ---------------------------------------------------------------- starting
 
 void Dispatcher::start_ready_tasks() {
-    if (live_.size() >= settings_.slots) return;
-    for (const Task& task : store_.tasks_in(TaskState::ready, settings_.slots - live_.size()))
-        start(task);
+    const std::vector<Task> tasks = tasks_that_fit();
+    if (!tasks.empty()) start(tasks);
 }
 
-void Dispatcher::start(const Task& task) {
-    std::int64_t number = 0;
+/// In order of priority and age; the first that does not fit holds back those behind it, so that
+/// small tasks cannot keep a large one waiting for ever. One that asks for more than there is runs
+/// alone.
+std::vector<Task> Dispatcher::tasks_that_fit() {
+    constexpr std::size_t look_ahead = 8;  // the cache needs no slot
+    std::int64_t cores = static_cast<std::int64_t>(settings_.slots);
+    std::int64_t memory = settings_.memory_mb;
+    std::map<std::string, std::size_t> running;
+    const auto take = [&](const Task& task) {
+        cores -= task.resources.cores;
+        memory -= task.resources.memory_mb;
+        ++running[task.phase];
+    };
+    for (const Live& live : live_) take(live.task);
+    const auto is_full = [&](const std::string& phase) {
+        const auto limit = settings_.limits.find(phase);
+        return limit != settings_.limits.end() && running[phase] >= limit->second;
+    };
+    std::vector<std::string> full;
+    for (const auto& [phase, limit] : settings_.limits)
+        if (is_full(phase)) full.push_back(phase);
+
+    std::vector<Task> chosen;
+    bool held_back = false;
+    const auto most = static_cast<std::size_t>(std::max<std::int64_t>(cores, 0)) + look_ahead +
+                      in_the_cache_.size();
+    for (Task& task : store_.tasks_to_start(full, most)) {
+        if (leave_to_the_cache(task)) continue;
+        if (held_back || is_full(task.phase)) continue;
+        const bool alone = live_.empty() && chosen.empty();
+        const bool fits = task.resources.cores <= cores &&
+                          (settings_.memory_mb == 0 || task.resources.memory_mb <= memory);
+        held_back = !fits && !alone;
+        if (held_back) continue;
+        take(task);
+        chosen.push_back(std::move(task));
+    }
+    return chosen;
+}
+
+bool Dispatcher::leave_to_the_cache(const Task& task) {
+    if (in_the_cache_.contains(task.id)) return true;
+    if (not_cached_.contains(task.id) || !cache_.may_answer(task)) return false;
+    in_the_cache_.insert(task.id);
+    cache_.examine(task);
+    return true;
+}
+
+/// One commit before the processes are started and one after, for all of them.
+void Dispatcher::start(const std::vector<Task>& tasks) {
+    std::vector<std::int64_t> numbers;
     store_.write([&](Transaction& transaction) {
-        number = 0;
-        if (!transaction.try_move_task(task.id, TaskEvent::claim)) return;  // cancelled meanwhile
-        number = transaction.add_attempt(task.id);
+        numbers.clear();
+        for (const Task& task : tasks) {
+            const bool claimed = transaction.try_move_task(task.id, TaskEvent::claim).has_value();
+            numbers.push_back(claimed ? transaction.add_attempt(task.id) : 0);  // 0: cancelled
+        }
     });
-    if (number == 0) return;
-    Live& live = attach(task, number);
+    std::vector<Live*> started;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        not_cached_.erase(tasks[i].id);
+        if (numbers[i] == 0) continue;
+        Live& live = attach(tasks[i], numbers[i]);
+        if (hand_over(live)) started.push_back(&live);
+    }
+    store_.write([&](Transaction& transaction) {
+        for (const Live* live : started) {
+            transaction.move_attempt(live->task.id, live->number, AttemptEvent::submit);
+            transaction.move_task(live->task.id, TaskEvent::start);
+        }
+    });
+    for (Live* live : started) live->submission_noted = true;
+    forget_the_ended();
+}
+
+/// False: it cannot be started, which is noted.
+bool Dispatcher::hand_over(Live& live) {
+    const Task& task = live.task;
     try {
         const std::filesystem::path scene = data_.scene(task.run);
         if (!std::filesystem::exists(scene))
@@ -152,11 +239,23 @@ void Dispatcher::start(const Task& task) {
         executor_.submit(live.folder, order_for(live));
     } catch (const std::exception& error) {
         note_loss(live, std::string("it cannot be started: ") + error.what());
-        forget_the_ended();
-        return;
+        return false;
     }
-    spdlog::info("{} ({}): attempt {} started", task.id, task.label, number);
-    note_submission(live);
+    note_latency(task);
+    spdlog::info("{} ({}): attempt {} started", task.id, task.label, live.number);
+    return true;
+}
+
+void Dispatcher::note_latency(const Task& task) {
+    const auto ready_at = store_.ready_at(task.id);
+    if (ready_at) queue_wait_.add(1e-3 * static_cast<double>(epoch_ms() - *ready_at));
+    if (task.release != Release::file_exists) return;
+    std::error_code error;
+    const auto appeared = std::filesystem::last_write_time(
+        data_.output(*store_.task(*task.parent)) / task.input, error);
+    if (error) return;
+    const auto since = std::chrono::file_clock::now() - appeared;
+    snapshot_to_start_.add(std::chrono::duration<double>(since).count());
 }
 
 Order Dispatcher::order_for(const Live& live) const {
@@ -169,7 +268,8 @@ Order Dispatcher::order_for(const Live& live) const {
     arguments.insert(arguments.end(), {"--output", data_.output(task)});
     for (const std::string& each : task.overrides)
         arguments.insert(arguments.end(), {"--set", each});
-    arguments.insert(arguments.end(), {"--progress", "json", "--threads", "1"});
+    arguments.insert(arguments.end(),
+                     {"--progress", "json", "--threads", std::to_string(task.resources.cores)});
     if (live.number > 1) arguments.emplace_back("--resume");
     return {.attempt = attempt_id(task.id, live.number),
             .program = settings_.bin / task.phase,
@@ -246,11 +346,21 @@ void Dispatcher::settle_children(const std::string& parent_id) {
 
 void Dispatcher::settle_after_registrar() {
     std::vector<std::string> tasks;
+    std::vector<std::string> looked_up;
     {
         const std::lock_guard lock(registered_mutex_);
         tasks.swap(registered_);
+        looked_up.swap(looked_up_);
     }
     for (const std::string& task : tasks) settle_children(task);
+    for (const std::string& task : looked_up) {
+        in_the_cache_.erase(task);
+        if (store_.task(task)->state == TaskState::ready) {
+            not_cached_.insert(task);
+        } else {
+            settle_children(task);
+        }
+    }
 }
 
 }  // namespace breach::orchestrator

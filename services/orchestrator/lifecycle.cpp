@@ -51,6 +51,10 @@ constexpr std::array task_table{
     // stopped.
     TaskRule{T::cancelling, E::start, T::cancelling},
     TaskRule{T::cancelling, E::stopped, T::cancelled},
+
+    TaskRule{T::failed, E::redo, T::blocked},
+    TaskRule{T::cancelled, E::redo, T::blocked},
+    TaskRule{T::skipped, E::redo, T::blocked},
 };
 
 constexpr std::array attempt_table{
@@ -73,13 +77,13 @@ constexpr std::array<std::string_view, 13> task_state_names{
     "failed",  "lost",  "retry_wait", "cancelling", "cancelled", "skipped"};
 
 constexpr std::array task_events{
-    E::release,    E::skip,           E::reuse,          E::claim,  E::start,  E::exit_well,
-    E::exit_badly, E::exit_retryable, E::interrupt,      E::vanish, E::retry,  E::give_up,
-    E::wait_over,  E::keep_outputs,   E::refuse_outputs, E::cancel, E::stopped};
-constexpr std::array<std::string_view, 17> task_event_names{
-    "release",    "skip",           "reuse",          "claim",  "start",  "exit_well",
-    "exit_badly", "exit_retryable", "interrupt",      "vanish", "retry",  "give_up",
-    "wait_over",  "keep_outputs",   "refuse_outputs", "cancel", "stopped"};
+    E::release,    E::skip,           E::reuse,          E::claim,  E::start,   E::exit_well,
+    E::exit_badly, E::exit_retryable, E::interrupt,      E::vanish, E::retry,   E::give_up,
+    E::wait_over,  E::keep_outputs,   E::refuse_outputs, E::cancel, E::stopped, E::redo};
+constexpr std::array<std::string_view, 18> task_event_names{
+    "release",    "skip",           "reuse",          "claim",  "start",   "exit_well",
+    "exit_badly", "exit_retryable", "interrupt",      "vanish", "retry",   "give_up",
+    "wait_over",  "keep_outputs",   "refuse_outputs", "cancel", "stopped", "redo"};
 
 constexpr std::array attempt_states{A::submitting, A::submitted, A::running,
                                     A::exited,     A::lost,      A::fenced};
@@ -124,8 +128,9 @@ std::optional<AttemptState> next(AttemptState from, AttemptEvent event) {
 }
 
 bool is_final(TaskState state) {
-    return std::ranges::none_of(task_table,
-                                [&](const TaskRule& rule) { return rule.from == state; });
+    return std::ranges::none_of(task_table, [&](const TaskRule& rule) {
+        return rule.from == state && rule.event != E::redo;
+    });
 }
 
 bool is_live(AttemptState state) {

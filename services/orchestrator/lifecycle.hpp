@@ -58,6 +58,7 @@ enum class TaskEvent {
     refuse_outputs,  ///< the outputs promised are not there
     cancel,          ///< asked for by a user
     stopped,         ///< the process asked to stop is gone
+    redo,            ///< asked for by a user: what ended badly is tried again
 };
 
 enum class AttemptState { submitting, submitted, running, exited, lost, fenced };
@@ -94,7 +95,7 @@ std::span<const AttemptEvent> all_attempt_events();
 std::optional<TaskState> next(TaskState from, TaskEvent event);
 std::optional<AttemptState> next(AttemptState from, AttemptEvent event);
 
-/// No event moves it any more.
+/// It is over: only a user's redo moves it any more.
 bool is_final(TaskState state);
 /// The attempt may still have a process.
 bool is_live(AttemptState state);

@@ -3,8 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <set>
 
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/executors/supervisor.hpp"
@@ -25,10 +28,25 @@ std::string token_in(const std::filesystem::path& file) {
     return token;
 }
 
-/// The dashboard: installed beside the executable, else in the source tree.
-std::filesystem::path web_folder(const std::filesystem::path& self) {
-    const auto installed = self.parent_path().parent_path() / "share" / "breachline" / "web";
-    return std::filesystem::exists(installed) ? installed : std::filesystem::path(BREACH_WEB);
+/// A shared folder: installed beside the executable, else in the source tree.
+std::filesystem::path shared_folder(const std::filesystem::path& self, const char* name,
+                                    const char* in_source_tree) {
+    const auto installed = self.parent_path().parent_path() / "share" / "breachline" / name;
+    return std::filesystem::exists(installed) ? installed : std::filesystem::path(in_source_tree);
+}
+
+/// "mpm_solver=2"
+std::optional<std::pair<std::string, std::size_t>> limit_in(const std::string& text) {
+    static const std::set<std::string> phases{"lem_tool", "fem_solver", "transfer_tool",
+                                              "mpm_solver"};
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || !phases.contains(text.substr(0, equals)))
+        return std::nullopt;
+    std::size_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data() + equals + 1, end, number);
+    if (parsed.ec != std::errc{} || parsed.ptr != end || number == 0) return std::nullopt;
+    return std::pair{text.substr(0, equals), number};
 }
 
 int guarded_serve(const ServeSettings& settings) {
@@ -50,11 +68,13 @@ int main(int argc, char** argv) {
     settings.self = std::filesystem::canonical("/proc/self/exe");
     settings.dispatch.bin = settings.self.parent_path();
     settings.dispatch.slots = std::max(1U, std::thread::hardware_concurrency());
-    settings.web = web_folder(settings.self);
+    settings.web = shared_folder(settings.self, "web", BREACH_WEB);
+    settings.workflows = shared_folder(settings.self, "studies/..", BREACH_WORKFLOWS);
     settings.http.port = 8470;
     std::filesystem::path token_file;
     std::filesystem::path attempt;
     double retry_seconds = 0.5;
+    std::vector<std::string> limits;
 
     CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
     app.set_version_flag("--version", "breachline " BREACH_VERSION);
@@ -67,9 +87,18 @@ int main(int argc, char** argv) {
     serving->add_option("--port", settings.http.port, "0: any free one")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    serving->add_option("--slots", settings.dispatch.slots, "phases at the same time")
+    serving
+        ->add_option("--slots", settings.dispatch.slots,
+                     "cores that running phases may occupy together")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    serving
+        ->add_option("--memory", settings.dispatch.memory_mb,
+                     "MB that running phases may ask for together; 0: not limited")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    serving->add_option("--limit", limits, "at most N of a phase at the same time, as PHASE=N")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     serving->add_option("--bin", settings.dispatch.bin, "folder of the phase executables")
         ->capture_default_str();
     serving->add_option("--web", settings.web, "folder of the dashboard")->capture_default_str();
@@ -96,6 +125,14 @@ int main(int argc, char** argv) {
     settings.dispatch.bin = std::filesystem::absolute(settings.dispatch.bin);
     settings.dispatch.retry_delay =
         std::chrono::milliseconds(static_cast<int>(1000 * retry_seconds));
+    for (const std::string& each : limits) {
+        const auto limit = limit_in(each);
+        if (!limit) {
+            std::cerr << "breachline: --limit " << each << ": must be PHASE=N with N >= 1\n";
+            return static_cast<int>(ExitCode::usage);
+        }
+        settings.dispatch.limits.insert(*limit);
+    }
     if (!token_file.empty()) settings.http.token = token_in(token_file);
     return guarded_serve(settings);
 }

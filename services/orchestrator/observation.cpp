@@ -123,7 +123,12 @@ void Dispatcher::note_exit(Live& live) {
     spdlog::info("{} ({}): attempt {} ended, {}", task, live.task.label, live.number,
                  in_words(record));
     live.over = true;
-    if (verdict == Verdict::well && !stopped) registrar_.add(live.task);
+    const bool over = (verdict == Verdict::well && !stopped) || is_over(task);
+    if (over) registrar_.add(live.task);
+}
+
+bool Dispatcher::is_over(const std::string& task) const {
+    return is_final(store_.task(task)->state);
 }
 
 void Dispatcher::note_loss(Live& live, const std::string& why) {
@@ -138,6 +143,7 @@ void Dispatcher::note_loss(Live& live, const std::string& why) {
     });
     spdlog::warn("{} ({}): attempt {} lost, {}", task, live.task.label, live.number, why);
     live.over = true;
+    if (is_over(task)) registrar_.add(live.task);
 }
 
 void Dispatcher::retry_or_give_up(Transaction& transaction, const Live& live, TaskEvent retry,

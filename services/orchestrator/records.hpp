@@ -9,11 +9,26 @@
 #include <vector>
 
 #include "services/orchestrator/lifecycle.hpp"
+#include "services/orchestrator/triggers/trigger.hpp"
 
 namespace breach::orchestrator {
 
 /// What lets a blocked task go: an input file that exists, or a parent that succeeded.
 enum class Release { at_once, file_exists, parent_succeeded };
+
+/// What a phase's result depends on besides its input file; equal recipes give equal results.
+struct Recipe {
+    std::string hash;  ///< SHA-256 of the three below
+    std::string phase;
+    std::int64_t cache_version;
+    std::string part;  ///< of the completed scene, as far as the phase reads it, JSON
+};
+
+/// What a task occupies while it runs.
+struct Resources {
+    std::int64_t cores = 1;
+    std::int64_t memory_mb = 0;
+};
 
 /// A task before it is stored: one phase execution in a study's graph.
 struct TaskPlan {
@@ -24,6 +39,9 @@ struct TaskPlan {
     Release release = Release::at_once;
     std::string input;                   ///< file name in the parent's output folder; empty: none
     std::vector<std::string> overrides;  ///< "/json/pointer=value" beside those of the study
+    std::string variant = {};            ///< empty: serves all variants
+    Resources resources = {};
+    std::string recipe = {};  ///< hash of one of the run's recipes; empty: never reused
 };
 
 struct NewRun {
@@ -33,6 +51,11 @@ struct NewRun {
     std::string study;  ///< the completed study without its scene, JSON
     std::string scene;  ///< the completed scene, JSON
     std::vector<TaskPlan> tasks;
+    std::vector<Recipe> recipes = {};
+    std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
+    std::string firing_plan = {};            ///< tasks of one more transfer, JSON (graph.hpp)
+    std::int64_t priority = 0;  ///< higher goes first
+    bool sweep = false;         ///< several points, or asked for as a sweep
 };
 
 struct Run {
@@ -45,9 +68,19 @@ struct Run {
     std::optional<std::string> started;
     std::optional<std::string> finished;
     std::int64_t tasks_total = 0;
-    std::int64_t tasks_done = 0;    ///< in a final state
+    std::int64_t tasks_done = 0;    ///< succeeded or cached
+    std::int64_t tasks_ended = 0;   ///< in a final state, good or bad
     std::int64_t tasks_failed = 0;  ///< failed or skipped
     std::string message;            ///< why it is not simply fine
+    bool paused = false;            ///< nothing new of it is started
+};
+
+/// Which runs a list shows: newest first, after the place where the last page ended.
+struct RunFilter {
+    std::optional<std::string> state;
+    std::optional<std::string> name;
+    std::optional<std::pair<std::string, std::string>> before;  ///< (created, id)
+    bool sweeps_only = false;
 };
 
 /// Why a task failed or was skipped.
@@ -72,6 +105,13 @@ struct Task {
     std::optional<std::string> finished;
     std::optional<nlohmann::json> result;
     std::optional<TaskFault> fault;
+    std::string variant;
+    Resources resources;
+    std::optional<std::string> recipe;
+    std::optional<std::string> input_sha256;   ///< known once it succeeded
+    std::optional<std::string> same_as;        ///< the task whose result it took
+    std::optional<std::string> cache_refusal;  ///< why a fitting entry of the cache was not served
+    std::int64_t priority = 0;
 };
 
 struct Attempt {
@@ -105,17 +145,35 @@ struct Event {
 
 /// One row of the sweep's table. Numbers are absent until the runout is done.
 struct SweepRow {
+    std::string variant;  ///< empty: the study has none
     double transfer_time;
     std::string state;
     std::optional<double> runout;
     std::optional<double> runout_beyond_toe;
     std::optional<double> runout_largest;
     std::optional<double> volume_ratio;
-    std::optional<double> numerical_share;
+    std::optional<double> numerical_share;  ///< energy made or lost by the numerics [-]
+    std::optional<double> overlap;          ///< area of soil that lies in other soil, of all [-]
     std::optional<double> cpu_seconds;
+    bool reused = false;  ///< taken from an earlier, equal task
     std::string reason;
     std::string transfer_task;
     std::string mpm_task;
+    std::string trigger = "at_time";  ///< names of those that made the transfer
+};
+
+/// A firing and how long it took from the line that met its trigger [ms].
+struct FiringRow {
+    Firing firing;
+    std::int64_t fired_ms;                 ///< to the stored firing
+    std::optional<std::int64_t> start_ms;  ///< to the start of the transfer's process
+};
+
+/// What a bisect knows of one of its transfers.
+struct Sample {
+    double transfer_time;
+    bool ended;
+    std::optional<double> runout;  ///< empty when it failed
 };
 
 }  // namespace breach::orchestrator

@@ -77,12 +77,33 @@ void Registrar::serve(std::stop_token stop) {
     }
 }
 
+/// What the task read; the key of the cache needs it. Empty: it reads no file.
+std::string Registrar::input_sha256(const Task& task) const {
+    if (task.input.empty()) return {};
+    return exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
+}
+
+/// The outputs of a task that failed or was stopped can be looked at, too. Never reused.
+void Registrar::keep_remains(const Task& task) {
+    std::vector<Artifact> artifacts;
+    try {
+        artifacts = hashed_outputs(task, data_.output(task));
+    } catch (const std::exception& error) {
+        spdlog::warn("{}: its outputs cannot be read: {}", task.id, error.what());
+        return;
+    }
+    store_.write([&](Transaction& transaction) { transaction.keep_artifacts(artifacts); });
+}
+
 void Registrar::finalize(const Task& task) {
+    if (store_.task(task.id)->state != TaskState::finalizing) return keep_remains(task);
     const std::filesystem::path output = data_.output(task);
     json result;
     std::vector<Artifact> artifacts;
     std::string trouble;
+    std::string input;
     try {
+        input = input_sha256(task);
         result = facts_of(output / "result.json");
         artifacts = hashed_outputs(task, output);
     } catch (const json::exception&) {
@@ -92,7 +113,7 @@ void Registrar::finalize(const Task& task) {
     }
     store_.write([&](Transaction& transaction) {
         if (trouble.empty()) {
-            transaction.finish_task(task.id, result, artifacts);
+            transaction.finish_task(task.id, result, artifacts, input);
         } else {
             transaction.fail_task(task.id, TaskEvent::refuse_outputs, {std::nullopt, trouble});
         }

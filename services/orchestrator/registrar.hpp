@@ -1,5 +1,5 @@
-// Hashes and stores the outputs of tasks whose process ended well, on a thread of its own: hashing
-// a large output must not hold up the dispatcher.
+// Hashes and stores the outputs of tasks whose process has ended, well or not, on a thread of its
+// own: hashing a large output must not hold up the dispatcher.
 #pragma once
 
 #include <condition_variable>
@@ -23,6 +23,8 @@ class Registrar {
   private:
     void serve(std::stop_token stop);
     void finalize(const Task& task);
+    void keep_remains(const Task& task);
+    std::string input_sha256(const Task& task) const;
 
     Store& store_;
     const DataFolder& data_;

@@ -43,7 +43,10 @@ int serve(const ServeSettings& settings) {
     LocalExecutor executor(settings.self);
     FrameReader frames;
     Dispatcher dispatcher(store, data, executor, board, settings.dispatch);
-    Service service{store, data, dispatcher, board, frames, settings.dispatch.bin, settings.web};
+    Service service{store,        data,
+                    dispatcher,   board,
+                    frames,       settings.dispatch.bin,
+                    settings.web, settings.workflows};
     HttpServer server(service, settings.http);
 
     std::jthread answering([&] { server.serve(); });

@@ -11,7 +11,8 @@ namespace breach::orchestrator {
 struct ServeSettings {
     std::filesystem::path data = "breachline-data";
     std::filesystem::path web;
-    std::filesystem::path self;  ///< this executable, for supervisors
+    std::filesystem::path workflows;  ///< folder with studies/ and scenes/
+    std::filesystem::path self;       ///< this executable, for supervisors
     DispatchSettings dispatch;
     HttpSettings http;
 };

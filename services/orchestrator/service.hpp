@@ -18,8 +18,9 @@ struct Service {
     Dispatcher& dispatcher;
     const ProgressBoard& board;
     FrameReader& frames;
-    std::filesystem::path bin;  ///< the phase executables
-    std::filesystem::path web;  ///< the dashboard's files
+    std::filesystem::path bin;        ///< the phase executables
+    std::filesystem::path web;        ///< the dashboard's files
+    std::filesystem::path workflows;  ///< the studies that are shipped, and their scenes
 };
 
 }  // namespace breach::orchestrator

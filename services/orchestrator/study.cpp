@@ -112,6 +112,63 @@ std::optional<scene::Scene> checked_scene(const json& document, const std::strin
     }
 }
 
+/// What makes transfers happen: times, and triggers that watch the FEM.
+void read_triggers(const json& document, const scene::Fem& fem, Study& study,
+                   std::vector<Fault>& faults) {
+    const double span = dynamic_duration(fem);
+    CheckedTriggers checked = check_triggers(document["triggers"], span, "/triggers", faults);
+    std::vector<double> times;
+    const auto take = [&](const json& entry) {
+        const std::vector<double> more = wanted_times(entry, faults);
+        times.insert(times.end(), more.begin(), more.end());
+    };
+    if (document.contains("transfer_times")) take(document["transfer_times"]);
+    for (const json& each : checked.at_time) take(each);
+    std::ranges::sort(times);
+    const auto repeated = std::ranges::unique(times);
+    times.erase(repeated.begin(), repeated.end());
+    study.transfer_times = std::move(times);
+    study.triggers = std::move(checked.live);
+    study.snapshot_interval = checked.snapshot_interval;
+    if (fem.snapshot_interval > 0.0 && study.snapshot_interval > fem.snapshot_interval)
+        study.snapshot_interval = 0.0;  // the scene's own are finer
+    if (study.transfer_times.empty() && document["triggers"].empty()) {
+        faults.push_back({"/transfer_times", "nothing says when to transfer",
+                          "give \"transfer_times\", \"triggers\" or both"});
+    }
+}
+
+/// Each variant's scene, checked and completed; faults are those of its overrides.
+std::vector<Variant> checked_variants(const json& entries, const json& scene,
+                                      std::vector<Fault>& faults) {
+    if (entries.empty()) return {{.name = "", .overrides = {}, .scene = scene}};
+    std::vector<Variant> variants;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::string at = "/variants/" + std::to_string(i);
+        Variant variant{.name = entries[i].at("name"),
+                        .overrides = entries[i].at("overrides"),
+                        .scene = nullptr};
+        if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
+            faults.push_back({at + "/name", "the name \"" + variant.name + "\" is given twice",
+                              "give each variant a name of its own"});
+        }
+        std::vector<Fault> found;
+        const auto changed = checked_scene(scene, "", variant.overrides, found);
+        for (const Fault& each : found)
+            faults.push_back({at + "/overrides", each.pointer + ": " + each.cause, each.remedy});
+        if (changed) variant.scene = json::parse(changed->completed);
+        variants.push_back(std::move(variant));
+    }
+    return variants;
+}
+
+std::map<std::string, Resources> wanted_resources(const json& entries) {
+    std::map<std::string, Resources> wanted;
+    for (const auto& [phase, ask] : entries.items())
+        wanted[phase] = {.cores = ask.at("cores"), .memory_mb = ask.at("memory_MB")};
+    return wanted;
+}
+
 }  // namespace
 
 std::string spelt(double time) {
@@ -137,13 +194,27 @@ Study read_study(std::string_view text) {
         for (const char* part : {"fem", "mpm"}) need_part(document["scene"], part, faults);
         scene = checked_scene(document["scene"], "/scene", overrides, faults);
     }
-    if (study_is_sound) study.transfer_times = wanted_times(document["transfer_times"], faults);
-    if (scene && scene->fem) check_times(study.transfer_times, *scene->fem, faults);
+    if (study_is_sound && scene && scene->fem) {
+        read_triggers(document, *scene->fem, study, faults);
+        check_times(study.transfer_times, *scene->fem, faults);
+    }
+    if (faults.empty()) {
+        study.scene = json::parse(scene->completed);
+        study.variants = checked_variants(document["variants"], study.scene, faults);
+        if (study.variants.size() * study.transfer_times.size() > most_transfers) {
+            faults.push_back(
+                {"/variants",
+                 "variants times transfer times are more than " + std::to_string(most_transfers),
+                 "split the study"});
+        }
+    }
     if (!faults.empty()) throw BadInput("study", std::move(faults));
 
     study.name = document["name"];
     study.title = document["title"];
-    study.scene = json::parse(scene->completed);
+    study.resources = wanted_resources(document["resources"]);
+    study.priority = document["priority"];
+    study.reuse = document["reuse"];
     study.stability = document["stability"].get<bool>() && scene->lem.has_value();
     document.erase("scene");
     study.document = std::move(document);

@@ -134,8 +134,10 @@ Answer Service::get(const std::string& path,
     return answer_of(client(port_).Get(path, httplib::Headers(headers.begin(), headers.end())));
 }
 
-Answer Service::post(const std::string& path, const std::string& body, const std::string& type) {
-    return answer_of(client(port_).Post(path, body, type));
+Answer Service::post(const std::string& path, const std::string& body, const std::string& type,
+                     const std::multimap<std::string, std::string>& headers) {
+    return answer_of(
+        client(port_).Post(path, httplib::Headers(headers.begin(), headers.end()), body, type));
 }
 
 Answer Service::ask(const std::string& method, const std::string& path) {

@@ -57,7 +57,8 @@ class Service {
     Answer get(const std::string& path,
                const std::multimap<std::string, std::string>& headers = {});
     Answer post(const std::string& path, const std::string& body,
-                const std::string& type = "application/json");
+                const std::string& type = "application/json",
+                const std::multimap<std::string, std::string>& headers = {});
     Answer ask(const std::string& method, const std::string& path);
 
     /// Posts the study and returns the run's id.

@@ -38,7 +38,12 @@ void write_order(const AttemptFolder& folder, const Order& order) {
                         {"program", order.program.string()},
                         {"arguments", order.arguments},
                         {"grace_seconds", order.grace_seconds}};
-    exchange::publish_text(folder.order(), document.dump(2) + "\n");
+    // Not forced onto the disk: when the machine goes down before the supervisor has read it, the
+    // attempt is lost with it, and the wait for the disk would delay every start.
+    std::ofstream stream(folder.order(), std::ios::binary);
+    stream << document.dump(2) << "\n";
+    if (!stream.flush())
+        throw fault::IoError(folder.order().string() + ": cannot be written (disk full?)");
 }
 
 Order read_order(const AttemptFolder& folder) {

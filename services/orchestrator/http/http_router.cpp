@@ -132,7 +132,19 @@ void Router::post(const std::string& path, Handler handler) {
     routes_.push_back({"POST", segments_of(path), std::move(handler)});
 }
 
+std::array<std::uint64_t, 6> Router::answers() const {
+    std::array<std::uint64_t, 6> counts{};
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = answers_[i];
+    return counts;
+}
+
 void Router::answer(const httplib::Request& request, httplib::Response& response) const {
+    answer_uncounted(request, response);
+    const int status = response.status < 0 ? 200 : response.status;  // httplib's "not set yet"
+    ++answers_[static_cast<std::size_t>(std::clamp(status / 100, 0, 5))];
+}
+
+void Router::answer_uncounted(const httplib::Request& request, httplib::Response& response) const {
     try {
         run(request, response);
     } catch (const Problem& problem) {

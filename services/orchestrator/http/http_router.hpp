@@ -4,6 +4,8 @@
 
 #include <httplib.h>
 
+#include <array>
+#include <atomic>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -54,6 +56,8 @@ class Router {
     void post(const std::string& path, Handler handler);
     /// Finds and runs the handler; every outcome becomes an answer, nothing is thrown.
     void answer(const httplib::Request& request, httplib::Response& response) const;
+    /// Answers so far, by class of status: [1] is 1xx, ... [5] is 5xx.
+    std::array<std::uint64_t, 6> answers() const;
 
   private:
     struct Route {
@@ -62,7 +66,9 @@ class Router {
         Handler handler;
     };
     void run(const httplib::Request& request, httplib::Response& response) const;
+    void answer_uncounted(const httplib::Request& request, httplib::Response& response) const;
     std::vector<Route> routes_;
+    mutable std::array<std::atomic<std::uint64_t>, 6> answers_{};
 };
 
 }  // namespace breach::orchestrator

@@ -10,10 +10,16 @@ namespace breach::orchestrator {
 
 /// Runs and tasks: submit, list, inspect, cancel, results.
 void add_run_routes(Router& router, Service& service);
+/// Triggers: what became of them, and new ones while a run goes on.
+void add_trigger_routes(Router& router, Service& service);
 /// What the phases wrote: logs, telemetry, frames, artifacts.
 void add_output_routes(Router& router, Service& service);
 /// The stream of events. `stopping` ends every waiting client.
 void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping);
+/// Studies that are shipped, whole, to begin with.
+void add_example_routes(Router& router, Service& service);
+/// /metrics as Prometheus text. `router` counts the requests.
+void add_metric_routes(Router& router, Service& service);
 /// Schemas, plans, health, the dashboard.
 void add_page_routes(Router& router, Service& service);
 

@@ -1,15 +1,13 @@
 #include "services/orchestrator/answers.hpp"
-#include "services/orchestrator/graph.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
-#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/http/http_submission.hpp"
+#include "services/orchestrator/why.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
 
 namespace {
-
-constexpr std::size_t longest_list = 500;
 
 json run_json(const Service& service, const std::string& id) {
     return as_json(wanted_run(service, id), service.board);
@@ -23,26 +21,17 @@ json task_json(const Service& service, const Task& task) {
 /// 202 only when the run is on the disk.
 void submit(Service& service, Call& call) {
     call.allow_parameters({});
-    const Study study = read_study(call.json_body());
-    const NewRun run{.id = new_run_id(),
-                     .name = study.name,
-                     .title = study.title,
-                     .study = study.document.dump(),
-                     .scene = study.scene.dump(),
-                     .tasks = plan_tasks(study)};
-    service.store.write([&](Transaction& transaction) { transaction.add_run(run); });
-    service.dispatcher.wake();
-    call.response.set_header("Location", "/v1/runs/" + run.id);
-    reply(call.response, run_json(service, run.id), 202);
+    const Accepted accepted = accept_study(service, call);
+    call.response.set_header("Location", "/v1/runs/" + accepted.run);
+    reply(call.response, run_json(service, accepted.run), 202);
 }
 
 void list(const Service& service, Call& call) {
-    call.allow_parameters({"limit"});
-    const auto limit = call.whole_number("limit", 100, 1, longest_list);
+    call.allow_parameters({"limit", "cursor", "state", "name"});
+    const RunPage page = wanted_page(service, call, RunFilter{});
     json runs = json::array();
-    for (const Run& each : service.store.runs(static_cast<std::size_t>(limit)))
-        runs.push_back(as_json(each, service.board));
-    reply(call.response, {{"runs", runs}});
+    for (const Run& each : page.runs) runs.push_back(as_json(each, service.board));
+    reply(call.response, {{"runs", runs}, {"next", page.next}});
 }
 
 void show(const Service& service, Call& call) {
@@ -66,6 +55,29 @@ void cancel(Service& service, Call& call) {
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.wake();
     reply(call.response, run_json(service, call.parts[0]), 202);
+}
+
+/// An order to a whole run; 404 when there is none.
+template <class Order>
+void command_run(Service& service, Call& call, Order order) {
+    call.allow_parameters({});
+    bool known = false;
+    service.store.write(
+        [&](Transaction& transaction) { known = order(transaction, call.parts[0]); });
+    if (!known) throw not_found("run " + call.parts[0]);
+    service.dispatcher.settle_all();
+    reply(call.response, run_json(service, call.parts[0]), 202);
+}
+
+void set_priority(Service& service, Call& call) {
+    const json body = json::parse(call.json_body(), nullptr, false);
+    const bool sound = body.is_object() && body.size() == 1 && body.contains("priority") &&
+                       body["priority"].is_number_integer() && body["priority"] >= -100 &&
+                       body["priority"] <= 100;
+    if (!sound) throw bad_request("the body must be {\"priority\": -100..100}");
+    command_run(service, call, [&](Transaction& transaction, const std::string& run) {
+        return transaction.set_priority(run, body["priority"].get<std::int64_t>());
+    });
 }
 
 void results(const Service& service, Call& call) {
@@ -102,10 +114,29 @@ void add_run_routes(Router& router, Service& service) {
     router.get("/v1/runs", [&](Call& call) { list(service, call); });
     router.get("/v1/runs/{id}", [&](Call& call) { show(service, call); });
     router.post("/v1/runs/{id}/cancel", [&](Call& call) { cancel(service, call); });
+    router.post("/v1/runs/{id}/pause", [&](Call& call) {
+        command_run(service, call, [](Transaction& transaction, const std::string& run) {
+            return transaction.pause_run(run);
+        });
+    });
+    router.post("/v1/runs/{id}/resume", [&](Call& call) {
+        command_run(service, call, [](Transaction& transaction, const std::string& run) {
+            return transaction.resume_run(run);
+        });
+    });
+    router.post("/v1/runs/{id}/retry", [&](Call& call) {
+        command_run(service, call, [](Transaction& transaction, const std::string& run) {
+            return transaction.retry_run(run).has_value();
+        });
+    });
+    router.post("/v1/runs/{id}/priority", [&](Call& call) { set_priority(service, call); });
     router.get("/v1/runs/{id}/results", [&](Call& call) { results(service, call); });
     router.get("/v1/tasks/{id}", [&](Call& call) {
         call.allow_parameters({});
-        reply(call.response, task_json(service, wanted_task(service, call.parts[0])));
+        const Task task = wanted_task(service, call.parts[0]);
+        json body = task_json(service, task);
+        body["why"] = why_it_ran(service.store, task);
+        reply(call.response, body);
     });
 }
 

@@ -73,8 +73,11 @@ class HttpServer::Implementation {
   public:
     Implementation(Service& service, HttpSettings settings) : settings_(std::move(settings)) {
         add_run_routes(router_, service);
+        add_trigger_routes(router_, service);
         add_output_routes(router_, service);
         add_event_routes(router_, service, stopping_);
+        add_example_routes(router_, service);
+        add_metric_routes(router_, service);
         add_page_routes(router_, service);
         set_limits();
         set_doors();

@@ -9,8 +9,8 @@ namespace {
 
 constexpr const char* run_columns =
     "SELECT r.id, r.name, r.title, r.state, r.created, r.started, r.finished, r.tasks_total, "
-    "r.tasks_done, "
-    "r.tasks_failed, coalesce((SELECT t.label || ': ' || t.fault_summary FROM tasks t WHERE t.run "
+    "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
+    "t.fault_summary FROM tasks t WHERE t.run "
     "= r.id AND "
     "t.fault_summary IS NOT NULL ORDER BY t.id LIMIT 1), '') FROM run_summaries r ";
 
@@ -24,14 +24,17 @@ Run run_from(const Row& row) {
             .finished = row.optional_text(6),
             .tasks_total = row.integer(7),
             .tasks_done = row.integer(8),
-            .tasks_failed = row.integer(9),
-            .message = row.text(10)};
+            .tasks_ended = row.integer(9),
+            .tasks_failed = row.integer(11),
+            .message = row.text(12),
+            .paused = row.integer(10) != 0};
 }
 
 constexpr const char* task_columns =
     "SELECT id, run, phase, label, transfer_time, state, parent, release, input, overrides, tries, "
     "started, "
-    "finished, result, fault_exit, fault_summary FROM tasks ";
+    "finished, result, fault_exit, fault_summary, variant, cores, memory_mb, recipe, input_sha256, "
+    "same_as, cache_refusal, priority FROM tasks ";
 
 Release release_named(const std::string& name) {
     if (name == "at_once") return Release::at_once;
@@ -53,7 +56,14 @@ Task task_from(const Row& row) {
               .started = row.optional_text(11),
               .finished = row.optional_text(12),
               .result = std::nullopt,
-              .fault = std::nullopt};
+              .fault = std::nullopt,
+              .variant = row.text(16),
+              .resources = {row.integer(17), row.integer(18)},
+              .recipe = row.optional_text(19),
+              .input_sha256 = row.optional_text(20),
+              .same_as = row.optional_text(21),
+              .cache_refusal = row.optional_text(22),
+              .priority = row.integer(23)};
     if (!row.is_null(13)) task.result = json::parse(row.text(13));
     if (!row.is_null(15)) task.fault = TaskFault{row.optional_integer(14), row.text(15)};
     return task;
@@ -64,11 +74,44 @@ Value as_value(TaskState state) { return std::string(name_of(state)); }
 
 }  // namespace
 
-std::vector<Run> Store::runs(std::size_t most) const {
+std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
+    std::string sql = std::string(run_columns) + "WHERE 1";
+    std::vector<Value> values;
+    if (filter.state) {
+        sql += " AND r.state=?";
+        values.emplace_back(*filter.state);
+    }
+    // The unfinished are few: found by their tasks, not by asking every run there ever was.
+    if (filter.state == "queued" || filter.state == "running")
+        sql += " AND r.id IN (SELECT run FROM tasks WHERE finished IS NULL)";
+    if (filter.name) {
+        sql += " AND r.name=?";
+        values.emplace_back(*filter.name);
+    }
+    if (filter.before) {
+        sql += " AND (r.created, r.id) < (?, ?)";
+        values.emplace_back(filter.before->first);
+        values.emplace_back(filter.before->second);
+    }
+    if (filter.sweeps_only) sql += " AND r.sweep=1";
+    sql += " ORDER BY r.created DESC, r.id DESC LIMIT ?";
+    values.push_back(as_value(most));
     std::vector<Run> found;
     read([&](Connection& database) {
-        database.query(std::string(run_columns) + "ORDER BY r.id DESC LIMIT ?", {as_value(most)},
-                       [&](const Row& row) { found.push_back(run_from(row)); });
+        database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Run> Store::runs(std::size_t most) const { return runs(RunFilter{}, most); }
+
+std::optional<IdempotentRun> Store::run_of_key(const std::string& key) const {
+    std::optional<IdempotentRun> found;
+    read([&](Connection& database) {
+        database.query("SELECT body_sha256, run FROM idempotency_keys WHERE key=?", {key},
+                       [&](const Row& row) {
+                           found = IdempotentRun{row.text(0), row.text(1)};
+                       });
     });
     return found;
 }
@@ -128,6 +171,20 @@ std::vector<Task> Store::tasks_in(TaskState state, std::size_t most) const {
     return found;
 }
 
+std::vector<Task> Store::tasks_to_start(const std::vector<std::string>& full_queues,
+                                        std::size_t most) const {
+    std::vector<Task> found;
+    read([&](Connection& database) {
+        database.query(std::string(task_columns) +
+                           "INDEXED BY tasks_to_start WHERE state='ready' AND phase NOT IN (SELECT "
+                           "value FROM json_each(?)) AND run NOT IN (SELECT id FROM runs WHERE "
+                           "paused=1) ORDER BY priority DESC, id LIMIT ?",
+                       {json(full_queues).dump(), as_value(most)},
+                       [&](const Row& row) { found.push_back(task_from(row)); });
+    });
+    return found;
+}
+
 std::vector<Task> Store::blocked_children(const std::string& parent) const {
     std::vector<Task> found;
     read([&](Connection& database) {
@@ -142,6 +199,15 @@ std::vector<std::string> Store::parents_of_blocked() const {
     read([&](Connection& database) {
         database.query("SELECT DISTINCT parent FROM tasks WHERE state='blocked'", {},
                        [&](const Row& row) { found.push_back(row.text(0)); });
+    });
+    return found;
+}
+
+std::optional<std::int64_t> Store::ready_at(const std::string& task) const {
+    std::optional<std::int64_t> found;
+    read([&](Connection& database) {
+        database.query("SELECT ready_at FROM tasks WHERE id=?", {task},
+                       [&](const Row& row) { found = row.optional_integer(0); });
     });
     return found;
 }
@@ -214,21 +280,25 @@ std::vector<SweepRow> Store::results(const std::string& run) const {
     read([&](Connection& database) {
         database.query(
             "SELECT transfer_time, state, runout, runout_beyond_toe, runout_largest, volume_ratio, "
-            "numerical_share, cpu_seconds, reason, transfer_task, mpm_task FROM sweep_results "
-            "WHERE run=? "
-            "ORDER BY transfer_time",
+            "numerical_share, cpu_seconds, reason, transfer_task, mpm_task, variant, overlap, "
+            "reused, trigger "
+            "FROM sweep_results WHERE run=? ORDER BY variant, transfer_time",
             {run}, [&](const Row& row) {
-                found.push_back({.transfer_time = row.real(0),
+                found.push_back({.variant = row.text(11),
+                                 .transfer_time = row.real(0),
                                  .state = row.text(1),
                                  .runout = row.optional_real(2),
                                  .runout_beyond_toe = row.optional_real(3),
                                  .runout_largest = row.optional_real(4),
                                  .volume_ratio = row.optional_real(5),
                                  .numerical_share = row.optional_real(6),
+                                 .overlap = row.optional_real(12),
                                  .cpu_seconds = row.optional_real(7),
+                                 .reused = row.integer(13) != 0,
                                  .reason = row.text(8),
                                  .transfer_task = row.text(9),
-                                 .mpm_task = row.text(10)});
+                                 .mpm_task = row.text(10),
+                                 .trigger = row.text(14)});
             });
     });
     return found;

@@ -80,6 +80,7 @@ void Store::commit(std::deque<Job>& jobs) {
         for (Job& job : jobs) job.done.set_exception(failure);
         return;
     }
+    commit_sizes_.add(static_cast<double>(jobs.size()));
     if (newest > 0) {
         {
             const std::lock_guard lock(events_mutex_);

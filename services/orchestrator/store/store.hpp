@@ -9,12 +9,20 @@
 #include <deque>
 #include <functional>
 #include <future>
+#include <map>
 #include <mutex>
 #include <thread>
 
+#include "services/orchestrator/histogram.hpp"
 #include "services/orchestrator/store/transaction.hpp"
 
 namespace breach::orchestrator {
+
+/// What an Idempotency-Key stands for.
+struct IdempotentRun {
+    std::string body_sha256;
+    std::string run;
+};
 
 class Store {
   public:
@@ -28,16 +36,37 @@ class Store {
     void write(std::function<void(Transaction&)> change);
 
     std::vector<Run> runs(std::size_t most) const;
+    std::vector<Run> runs(const RunFilter& filter, std::size_t most) const;
+    std::optional<IdempotentRun> run_of_key(const std::string& key) const;
     std::optional<Run> run(const std::string& id) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 
     std::optional<Task> task(const std::string& id) const;
+    /// Ready tasks in the order in which they are started: by priority, then by age. Not those of
+    /// paused runs and of the queues (phases) that are full.
+    std::vector<Task> tasks_to_start(const std::vector<std::string>& full_queues,
+                                     std::size_t most) const;
+    /// An earlier task with this recipe succeeded, and its input may be the same.
+    bool has_candidate(const Task& task) const;
+    /// Tasks that succeeded with this recipe and input, newest first.
+    std::vector<Task> answers_to(const std::string& recipe, const std::string& input_sha256,
+                                 std::size_t most) const;
+    std::optional<Recipe> recipe(const std::string& hash) const;
+    std::optional<Task> earlier_equal_recipe(const Task& task) const;
+    /// Other recipes of the phase that were used before this task, newest first, with the last task
+    /// that used them.
+    std::vector<std::pair<std::string, Recipe>> earlier_recipes(const Task& task,
+                                                                std::size_t most) const;
+    std::map<std::string, std::int64_t> tasks_by_state() const;
+    std::map<std::string, std::int64_t> attempts_by_state() const;
     std::vector<Task> tasks_of(const std::string& run) const;
     std::vector<Task> tasks_in(TaskState state, std::size_t most) const;
     /// Blocked tasks whose input comes from `parent`.
     std::vector<Task> blocked_children(const std::string& parent) const;
     std::vector<std::string> parents_of_blocked() const;
+    /// When the task last became ready [ms since 1970].
+    std::optional<std::int64_t> ready_at(const std::string& task) const;
     /// Ids of tasks whose retry time is not after `now`, and the earliest later one.
     std::vector<std::string> due_retries(std::int64_t now) const;
     std::optional<std::int64_t> next_retry() const;
@@ -47,7 +76,16 @@ class Store {
     std::optional<Artifact> artifact(const std::string& sha256) const;
     std::vector<SweepRow> results(const std::string& run) const;
 
+    /// Of FEMs that have begun.
+    std::vector<Trigger> open_triggers() const;
+    std::vector<Trigger> triggers_of(const std::string& run) const;
+    std::vector<FiringRow> firings_of(const std::string& run) const;
+    /// A bisect's transfers, ascending in time; of several variants the first counts.
+    std::vector<Sample> samples_of(const std::string& trigger) const;
+
     std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
+    /// Changes of state that were committed together.
+    const Histogram& commit_sizes() const { return commit_sizes_; }
     std::int64_t last_event() const { return last_event_; }
     /// Waits until an event after `seq` is stored, the time is over or the store closes; true:
     /// there is one.
@@ -64,6 +102,7 @@ class Store {
     /// A reading connection for the duration of `read`.
     void read(const std::function<void(Connection&)>& read) const;
 
+    Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;
     Connection writing_;
     std::mutex jobs_mutex_;

@@ -32,8 +32,11 @@ std::string run_of(const std::string& task) { return task.substr(0, task.find('-
 void Transaction::add_run(const NewRun& run) {
     const std::string now = utc_now();
     database_.change(
-        "INSERT INTO runs (id, name, title, created, study, scene) VALUES (?,?,?,?,?,?)",
-        {run.id, run.name, run.title, now, run.study, run.scene});
+        "INSERT INTO runs (id, name, title, created, study, scene, sweep, last_task) VALUES "
+        "(?,?,?,?,?,?,?,?)",
+        {run.id, run.name, run.title, now, run.study, run.scene, std::int64_t{run.sweep ? 1 : 0},
+         static_cast<std::int64_t>(run.tasks.size())});
+    add_recipes(run.recipes);
     add_event(run.id, std::nullopt, "run", {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
@@ -43,12 +46,31 @@ void Transaction::add_run(const NewRun& run) {
         if (task.parent) parent = task_id(run.id, *task.parent);
         database_.change(
             "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
-            "overrides, "
-            "state) VALUES (?,?,?,?,?,?,?,?,?,?)",
+            "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
+            "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
             {task_id(run.id, i), run.id, task.phase, task.label, value_or_null(task.transfer_time),
              parent, std::string(name_of(task.release)), task.input, json(task.overrides).dump(),
-             std::string(orchestrator::name_of(state))});
+             std::string(orchestrator::name_of(state)), task.variant, run.priority,
+             task.resources.cores, task.resources.memory_mb,
+             task.recipe.empty() ? Value(nullptr) : Value(task.recipe),
+             state == TaskState::ready ? Value(epoch_ms()) : Value(nullptr)});
     }
+    add_triggers(run);
+}
+
+void Transaction::add_recipes(const std::vector<Recipe>& recipes) {
+    for (const Recipe& each : recipes) {
+        database_.change(
+            "INSERT OR IGNORE INTO recipes (hash, phase, cache_version, part) VALUES (?,?,?,?)",
+            {each.hash, each.phase, each.cache_version, each.part});
+    }
+}
+
+void Transaction::keep_idempotency_key(const std::string& key, const std::string& body_sha256,
+                                       const std::string& run) {
+    database_.change(
+        "INSERT INTO idempotency_keys (key, body_sha256, run, created) VALUES (?,?,?,?)",
+        {key, body_sha256, run, utc_now()});
 }
 
 TaskState Transaction::state_of(const std::string& task) const {
@@ -64,10 +86,10 @@ void Transaction::set_state(const std::string& task, TaskState from, TaskEvent e
     const std::string now = utc_now();
     database_.change(
         "UPDATE tasks SET state=?, retry_at=?, started=CASE WHEN ? THEN coalesce(started, ?) ELSE "
-        "started "
-        "END, finished=? WHERE id=?",
+        "started END, ready_at=coalesce(?, ready_at), finished=? WHERE id=?",
         {std::string(orchestrator::name_of(to)), value_or_null(retry_at),
          std::int64_t{event == TaskEvent::claim ? 1 : 0}, now,
+         to == TaskState::ready ? Value(epoch_ms()) : Value(nullptr),
          is_final(to) ? Value(now) : Value(nullptr), task});
     if (detail.is_null()) detail = json::object();
     detail["event"] = orchestrator::name_of(event);
@@ -112,14 +134,41 @@ void Transaction::fail_task(const std::string& task, TaskEvent event, const Task
 }
 
 void Transaction::finish_task(const std::string& task, const json& result,
-                              const std::vector<Artifact>& artifacts) {
+                              const std::vector<Artifact>& artifacts,
+                              const std::string& input_sha256) {
+    keep_artifacts(artifacts);
+    database_.change("UPDATE tasks SET result=?, input_sha256=? WHERE id=?",
+                     {text_of(result), input_sha256, task});
+    move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
+}
+
+void Transaction::keep_artifacts(const std::vector<Artifact>& artifacts) {
     for (const Artifact& each : artifacts) {
         database_.change(
             "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) VALUES (?,?,?,?)",
             {each.task, each.name, each.sha256, each.bytes});
     }
-    database_.change("UPDATE tasks SET result=? WHERE id=?", {text_of(result), task});
-    move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
+}
+
+void Transaction::reuse_task(const std::string& task, const Task& earlier) {
+    if (!try_move_task(task, TaskEvent::reuse, {{"same_as", earlier.id}})) return;
+    database_.change(
+        "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) SELECT ?, name, sha256, "
+        "bytes "
+        "FROM artifacts WHERE task=?",
+        {task, earlier.id});
+    database_.change(
+        "UPDATE tasks SET same_as=?1, (result, input_sha256)=(SELECT result, input_sha256 FROM "
+        "tasks WHERE id=?1) WHERE id=?2",
+        {earlier.id, task});
+}
+
+void Transaction::note_cache_refusal(const std::string& task, const std::string& why) {
+    database_.change("UPDATE tasks SET cache_refusal=? WHERE id=?", {why, task});
+}
+
+void Transaction::forget_recipe(const std::string& task) {
+    database_.change("UPDATE tasks SET recipe=NULL WHERE id=?", {task});
 }
 
 std::int64_t Transaction::add_attempt(const std::string& task) {
@@ -177,9 +226,51 @@ bool Transaction::cancel_run(const std::string& run, const std::string& why) {
     bool known = !tasks.empty();
     if (!known)
         database_.query("SELECT 1 FROM runs WHERE id=?", {run}, [&](const Row&) { known = true; });
+    disarm_triggers(run, why);
     for (const std::string& task : tasks) try_move_task(task, TaskEvent::cancel, {{"why", why}});
     if (!tasks.empty()) add_event(run, std::nullopt, "run", {{"event", "cancel"}, {"why", why}});
     return known;
+}
+
+bool Transaction::mark_paused(const std::string& run, std::int64_t paused, const char* event) {
+    if (database_.change("UPDATE runs SET paused=?1 WHERE id=?2 AND paused<>?1", {paused, run}) > 0)
+        add_event(run, std::nullopt, "run", {{"event", event}});
+    bool known = false;
+    database_.query("SELECT 1 FROM runs WHERE id=?", {run}, [&](const Row&) { known = true; });
+    return known;
+}
+
+bool Transaction::pause_run(const std::string& run) { return mark_paused(run, 1, "pause"); }
+bool Transaction::resume_run(const std::string& run) { return mark_paused(run, 0, "resume"); }
+
+bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
+    const bool known =
+        database_.change("UPDATE tasks SET priority=? WHERE run=?", {priority, run}) > 0;
+    if (known)
+        add_event(run, std::nullopt, "run", {{"event", "set_priority"}, {"priority", priority}});
+    return known;
+}
+
+std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
+    std::vector<std::pair<std::string, std::string>> tasks;
+    bool known = false;
+    database_.query("SELECT id, state, release FROM tasks WHERE run=? ORDER BY id", {run},
+                    [&](const Row& row) {
+                        known = true;
+                        if (next(task_state_named(row.text(1)), TaskEvent::redo))
+                            tasks.emplace_back(row.text(0), row.text(2));
+                    });
+    if (!known) return std::nullopt;
+    if (!tasks.empty())
+        add_event(run, std::nullopt, "run", {{"event", "retry"}, {"tasks", tasks.size()}});
+    for (const auto& [task, release] : tasks) {
+        database_.change("UPDATE tasks SET tries=0, fault_exit=NULL, fault_summary=NULL WHERE id=?",
+                         {task});
+        database_.change("DELETE FROM artifacts WHERE task=?", {task});
+        move_task(task, TaskEvent::redo);
+        if (release == name_of(Release::at_once)) move_task(task, TaskEvent::release);
+    }
+    return tasks.size();
 }
 
 void Transaction::add_event(const std::string& run, const std::optional<std::string>& task,

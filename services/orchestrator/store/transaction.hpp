@@ -21,6 +21,10 @@ class Transaction {
     explicit Transaction(Connection& database) : database_(database) {}
 
     void add_run(const NewRun& run);
+    void add_recipes(const std::vector<Recipe>& recipes);
+    /// Remembers that `key` with this body made `run`. The database refuses a key twice.
+    void keep_idempotency_key(const std::string& key, const std::string& body_sha256,
+                              const std::string& run);
 
     /// Moves the task; throws IllegalMove when the table refuses. `detail` goes into the event.
     TaskState move_task(const std::string& task, TaskEvent event, nlohmann::json detail = {});
@@ -32,8 +36,16 @@ class Transaction {
     /// Ends the task without a result (exit_badly, give_up, refuse_outputs, skip) and keeps the
     /// reason.
     void fail_task(const std::string& task, TaskEvent event, const TaskFault& fault);
+    /// `input_sha256`: of the file that the task read; empty: it reads none.
     void finish_task(const std::string& task, const nlohmann::json& result,
-                     const std::vector<Artifact>& artifacts);
+                     const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
+    /// The task takes the result of `earlier`, whose files are linked into its folder already.
+    /// Nothing happens when it is not ready any more.
+    void reuse_task(const std::string& task, const Task& earlier);
+    void note_cache_refusal(const std::string& task, const std::string& why);
+    /// What this task gives does not follow from its recipe alone: it must never be reused.
+    void forget_recipe(const std::string& task);
+    void keep_artifacts(const std::vector<Artifact>& artifacts);
 
     /// The attempt's row, number one higher than the last; the task must have been claimed in this
     /// transaction.
@@ -45,10 +57,34 @@ class Transaction {
 
     /// Cancels what has not started and marks what runs as cancelling. False: no such run.
     bool cancel_run(const std::string& run, const std::string& why);
+    /// False: no such run.
+    bool pause_run(const std::string& run);
+    bool resume_run(const std::string& run);
+    bool set_priority(const std::string& run, std::int64_t priority);
+    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries. Returns how
+    /// many; nothing: no such run.
+    std::optional<std::size_t> retry_run(const std::string& run);
+
+    /// On one FEM of the run; an empty name is made up. Returns its id.
+    std::string add_trigger(const std::string& run, const std::string& fem_task,
+                            const TriggerPlan& plan);
+    /// False, and nothing happens: the table refuses (it was disarmed meanwhile, fired before).
+    bool move_trigger(const Trigger& trigger, TriggerEvent event, nlohmann::json detail = {});
+    /// The firing and the tasks it makes. False, and nothing happens: the trigger is not open any
+    /// more, or fired at this time before.
+    bool add_firing(const Trigger& trigger, const Firing& firing);
+    void keep_trigger_result(const std::string& trigger, const nlohmann::json& result);
 
     std::int64_t last_event() const { return last_event_; }
 
   private:
+    void add_triggers(const NewRun& run);
+    void disarm_triggers(const std::string& run, const std::string& why);
+    void add_transfer(const std::string& run, const std::string& fem_task, double time);
+    std::string add_fired_task(const std::string& run, const std::string& parent,
+                               const std::string& label, const nlohmann::json& task, double time,
+                               std::int64_t priority);
+    bool mark_paused(const std::string& run, std::int64_t paused, const char* event);
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);

@@ -37,6 +37,9 @@ const std::set<std::string> task_moves{
     "retry_wait cancel cancelled",
     "cancelling start cancelling",
     "cancelling stopped cancelled",
+    "failed redo blocked",
+    "cancelled redo blocked",
+    "skipped redo blocked",
 };
 
 const std::set<std::string> attempt_moves{

@@ -106,7 +106,7 @@ TEST(Study, OverridesEnterTheCompletedScene) {
 
 TEST(Graph, EachTransferTimeHasATransferFedByTheFemAndAnMpmFedByTheTransfer) {
     const Study study = read_study(slope_study().dump());
-    const auto tasks = plan_tasks(study);
+    const auto tasks = plan_tasks(study).tasks;
     ASSERT_EQ(tasks.size(), 6u);
     EXPECT_EQ(tasks[0].phase, "fem_solver");
     EXPECT_EQ(tasks[0].overrides, std::vector<std::string>{"/fem/snapshot_times=[0.5,1.0]"});
@@ -128,7 +128,7 @@ TEST(Graph, SnapshotsOfTheSceneAreKeptAndStabilityCanBeLeftOut) {
     json study = slope_study();
     study["scene"]["fem"]["snapshot_times"] = {0.75, 1.0};
     study["stability"] = false;
-    const auto tasks = plan_tasks(read_study(study.dump()));
+    const auto tasks = plan_tasks(read_study(study.dump())).tasks;
     EXPECT_EQ(tasks[0].overrides, std::vector<std::string>{"/fem/snapshot_times=[0.5,0.75,1.0]"});
     EXPECT_EQ(tasks[1].phase, "transfer_tool");
 }

@@ -1,0 +1,106 @@
+#include "services/orchestrator/cache.hpp"
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "core/exchange/provenance.hpp"
+
+namespace breach::orchestrator {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_candidates = 8;
+
+/// A machine that goes down must not find the answer noted and its files gone.
+void sync_folder(const fs::path& folder) {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    fsync(descriptor);
+    close(descriptor);
+}
+
+}  // namespace
+
+Cache::Cache(Store& store, const DataFolder& data, std::function<void(const std::string&)> examined)
+    : store_(store), data_(data), examined_(std::move(examined)) {
+    thread_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
+}
+
+bool Cache::may_answer(const Task& task) const { return task.recipe && store_.has_candidate(task); }
+
+void Cache::examine(Task task) {
+    {
+        const std::lock_guard lock(mutex_);
+        waiting_.push_back(std::move(task));
+    }
+    arrived_.notify_one();
+}
+
+void Cache::serve(std::stop_token stop) {
+    while (true) {
+        std::unique_lock lock(mutex_);
+        if (!arrived_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
+        const Task task = std::move(waiting_.front());
+        waiting_.pop_front();
+        lock.unlock();
+        try {
+            look_up(task);
+        } catch (const std::exception& error) {
+            spdlog::error("cache: {}: {}", task.id, error.what());  // the task simply runs
+        }
+        examined_(task.id);
+    }
+}
+
+void Cache::look_up(const Task& task) {
+    std::string input_sha256;
+    if (!task.input.empty())
+        input_sha256 =
+            exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
+    std::optional<std::string> refusal;
+    for (const Task& earlier : store_.answers_to(*task.recipe, input_sha256, most_candidates)) {
+        refusal = damage_of(earlier);
+        if (refusal) continue;
+        link_outputs(earlier, task);
+        store_.write([&](Transaction& transaction) { transaction.reuse_task(task.id, earlier); });
+        spdlog::info("{} ({}): the same as {}", task.id, task.label, earlier.id);
+        return;
+    }
+    if (!refusal) return;
+    spdlog::warn("{} ({}): {}", task.id, task.label, *refusal);
+    store_.write(
+        [&](Transaction& transaction) { transaction.note_cache_refusal(task.id, *refusal); });
+}
+
+std::optional<std::string> Cache::damage_of(const Task& earlier) const {
+    for (const Artifact& each : store_.artifacts_of(earlier.id)) {
+        const fs::path file = data_.output(earlier) / each.name;
+        std::error_code error;
+        const auto size = fs::file_size(file, error);
+        if (error) return each.name + " of task " + earlier.id + " is missing";
+        if (static_cast<std::int64_t>(size) != each.bytes ||
+            exchange::sha256_of_file(file) != each.sha256)
+            return each.name + " of task " + earlier.id + " is not what was stored";
+    }
+    return std::nullopt;
+}
+
+void Cache::link_outputs(const Task& earlier, const Task& task) const {
+    const fs::path folder = data_.output(task);
+    fs::create_directories(folder);
+    for (const Artifact& each : store_.artifacts_of(earlier.id)) {
+        const fs::path from = data_.output(earlier) / each.name;
+        const fs::path to = folder / each.name;
+        fs::create_directories(to.parent_path());
+        fs::remove(to);
+        std::error_code error;
+        fs::create_hard_link(from, to, error);
+        if (error) fs::copy_file(from, to);  // a file system without links
+        sync_folder(to.parent_path());
+    }
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "services/orchestrator/http/http_routes.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+/// The study with its scene inside, as POST /v1/runs takes it; nothing when a file does not fit.
+std::optional<json> example_in(const std::filesystem::path& file) {
+    json study = json::parse(text_of(file), nullptr, false);
+    if (!study.is_object() || !study.contains("name")) return std::nullopt;
+    if (study.contains("scene") && study["scene"].is_string()) {
+        const auto scene = file.parent_path() / study["scene"].get<std::string>();
+        study["scene"] = json::parse(text_of(scene), nullptr, false);
+    }
+    const bool whole = study.contains("scene") && study["scene"].is_object();
+    return whole ? std::optional(std::move(study)) : std::nullopt;
+}
+
+std::vector<json> examples_in(const std::filesystem::path& folder) {
+    std::vector<json> found;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (entry.path().extension() != ".json") continue;
+        if (auto study = example_in(entry.path())) found.push_back(std::move(*study));
+    }
+    std::ranges::sort(found, {}, [](const json& each) { return each.at("name").dump(); });
+    return found;
+}
+
+void list(const Service& service, Call& call) {
+    call.allow_parameters({});
+    json examples = json::array();
+    for (const json& each : examples_in(service.workflows / "studies"))
+        examples.push_back({{"name", each.at("name")}, {"title", each.value("title", "")}});
+    reply(call.response, {{"examples", examples}});
+}
+
+void show(const Service& service, Call& call) {
+    call.allow_parameters({});
+    for (const json& each : examples_in(service.workflows / "studies"))
+        if (each.at("name") == call.parts[0]) return reply(call.response, each);
+    throw not_found("example " + call.parts[0]);
+}
+
+}  // namespace
+
+void add_example_routes(Router& router, Service& service) {
+    router.get("/v1/examples", [&](Call& call) { list(service, call); });
+    router.get("/v1/examples/{name}", [&](Call& call) { show(service, call); });
+}
+
+}  // namespace breach::orchestrator

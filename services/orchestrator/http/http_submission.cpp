@@ -1,0 +1,137 @@
+#include "services/orchestrator/http/http_submission.hpp"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "core/exchange/provenance.hpp"
+#include "services/orchestrator/graph.hpp"
+#include "services/orchestrator/identity.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::int64_t longest_list = 500;
+constexpr std::array run_states{"queued", "running", "succeeded", "partial", "failed", "cancelled"};
+
+/// The keys of requests that are being stored now. What is stored already is in the database.
+class KeysInProgress {
+  public:
+    bool enter(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        return keys_.insert(key).second;
+    }
+    void leave(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        keys_.erase(key);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::set<std::string> keys_;
+};
+
+KeysInProgress keys_in_progress;
+
+class KeyInProgress {
+  public:
+    KeyInProgress(std::string key, httplib::Response& response) : key_(std::move(key)) {
+        if (keys_in_progress.enter(key_)) return;
+        response.set_header("Retry-After", "1");
+        throw Problem{409, "/problems/idempotency-in-progress", "In progress",
+                      "a request with this Idempotency-Key is being stored; ask again"};
+    }
+    ~KeyInProgress() { keys_in_progress.leave(key_); }
+    KeyInProgress(const KeyInProgress&) = delete;
+    KeyInProgress& operator=(const KeyInProgress&) = delete;
+
+  private:
+    std::string key_;
+};
+
+std::optional<std::string> idempotency_key(const httplib::Request& request) {
+    if (!request.has_header("Idempotency-Key")) return std::nullopt;
+    const std::string key = request.get_header_value("Idempotency-Key");
+    const bool visible = std::ranges::all_of(key, [](char c) { return c >= '!' && c <= '~'; });
+    if (request.get_header_value_count("Idempotency-Key") > 1 || key.empty() || key.size() > 255 ||
+        !visible)
+        throw bad_request("Idempotency-Key must be one value of 1 to 255 visible ASCII characters");
+    return key;
+}
+
+NewRun run_from(const Study& study) {
+    TaskGraph graph = plan_tasks(study);
+    // What a FEM was asked for on its way does not follow from its scene.
+    if (!study.triggers.empty() && study.snapshot_interval <= 0.0)
+        for (TaskPlan& each : graph.tasks)
+            if (each.phase == "fem_solver") each.recipe.clear();
+    return {.id = new_run_id(),
+            .name = study.name,
+            .title = study.title,
+            .study = study.document.dump(),
+            .scene = study.scene.dump(),
+            .tasks = std::move(graph.tasks),
+            .recipes = std::move(graph.recipes),
+            .triggers = study.triggers,
+            .firing_plan = firing_plan(study),
+            .priority = study.priority,
+            .sweep = study.variants.size() * study.transfer_times.size() > 1};
+}
+
+std::string stored(Service& service, const std::string& body,
+                   const std::function<void(Transaction&, const std::string&)>& besides) {
+    const NewRun run = run_from(read_study(body));
+    service.store.write([&](Transaction& transaction) {
+        transaction.add_run(run);
+        besides(transaction, run.id);
+    });
+    service.dispatcher.wake();
+    return run.id;
+}
+
+std::pair<std::string, std::string> place_of(const std::string& cursor) {
+    const std::size_t split = cursor.find('~');
+    if (split == std::string::npos)
+        throw bad_request("cursor must be the \"next\" of an earlier page");
+    return {cursor.substr(0, split), cursor.substr(split + 1)};
+}
+
+}  // namespace
+
+Accepted accept_study(Service& service, Call& call) {
+    const std::string& body = call.json_body();
+    const auto key = idempotency_key(call.request);
+    if (!key) return {stored(service, body, [](Transaction&, const std::string&) {})};
+    const KeyInProgress seat(*key, call.response);
+    const std::string hash = exchange::sha256_of_text(body);
+    if (const auto known = service.store.run_of_key(*key)) {
+        if (known->body_sha256 != hash)
+            throw Problem{422, "/problems/idempotency-key-reused", "Idempotency-Key reused",
+                          "this key was sent before with another body; use a new key"};
+        call.response.set_header("Idempotent-Replayed", "true");
+        return {known->run};
+    }
+    return {stored(service, body, [&](Transaction& transaction, const std::string& run) {
+        transaction.keep_idempotency_key(*key, hash, run);
+    })};
+}
+
+RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) {
+    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
+    filter.state = call.parameter("state");
+    filter.name = call.parameter("name");
+    if (filter.state && std::ranges::find(run_states, *filter.state) == run_states.end())
+        throw bad_request("state must be queued, running, succeeded, partial, failed or cancelled");
+    if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
+    RunPage page{service.store.runs(filter, limit + 1), nullptr};
+    if (page.runs.size() > limit) {
+        page.runs.pop_back();
+        page.next = page.runs.back().created + "~" + page.runs.back().id;
+    }
+    return page;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,105 @@
+#include "services/orchestrator/recipe.hpp"
+
+#include <cassert>
+#include <map>
+
+#include "core/exchange/provenance.hpp"
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+enum class Regions { whole, names_and_materials };
+
+struct Reading {
+    std::int64_t version;  ///< raised when the phase's numbers change for the same input
+    std::vector<std::string> parts;
+    Regions regions;
+};
+
+const std::map<std::string, Reading> readings{
+    {"lem_tool", {1, {"gravity", "materials", "lem"}, Regions::whole}},
+    {"fem_solver", {1, {"gravity", "thickness", "materials", "fem"}, Regions::whole}},
+    {"transfer_tool", {1, {"gravity", "materials", "transfer"}, Regions::names_and_materials}},
+    {"mpm_solver", {1, {"gravity", "thickness", "materials", "mpm"}, Regions::names_and_materials}},
+};
+
+json section_part(const json& scene, Regions wanted) {
+    if (wanted == Regions::whole) return scene.at("section");
+    json regions = json::array();
+    for (const json& each : scene.at("section").at("regions"))
+        regions.push_back({{"name", each.at("name")}, {"material", each.at("material")}});
+    return {{"regions", std::move(regions)}};
+}
+
+json mesh_content(const std::string& file) {
+    try {
+        return {{"sha256", exchange::sha256_of_file(file)}};
+    } catch (const fault::IoError&) {
+        return file;  // the phase will say what is wrong with it; a failure is never reused
+    }
+}
+
+std::string escaped(const std::string& key) {
+    std::string text;
+    for (const char each : key) {
+        if (each == '~')
+            text += "~0";
+        else if (each == '/')
+            text += "~1";
+        else
+            text += each;
+    }
+    return text;
+}
+
+void collect(const json& a, const json& b, const std::string& at, std::vector<std::string>& found) {
+    if (a == b) return;
+    if (a.is_object() && b.is_object()) {
+        for (const auto& [key, value] : a.items()) {
+            if (b.contains(key)) {
+                collect(value, b.at(key), at + "/" + escaped(key), found);
+            } else {
+                found.push_back(at + "/" + escaped(key));
+            }
+        }
+        for (const auto& [key, value] : b.items())
+            if (!a.contains(key)) found.push_back(at + "/" + escaped(key));
+        return;
+    }
+    if (a.is_array() && b.is_array() && a.size() == b.size()) {
+        for (std::size_t i = 0; i < a.size(); ++i)
+            collect(a[i], b[i], at + "/" + std::to_string(i), found);
+        return;
+    }
+    found.push_back(at);
+}
+
+}  // namespace
+
+Recipe recipe_of(const std::string& phase, const json& scene) {
+    const Reading& reading = readings.at(phase);
+    json part{{"section", section_part(scene, reading.regions)}};
+    for (const std::string& each : reading.parts)
+        if (scene.contains(each)) part[each] = scene.at(each);
+    if (phase == "fem_solver" && part.at("fem").contains("msh_file")) {
+        json& mesh = part["fem"]["msh_file"];
+        if (mesh.is_string()) mesh = mesh_content(mesh.get<std::string>());
+    }
+    Recipe recipe{
+        .hash = {}, .phase = phase, .cache_version = reading.version, .part = part.dump()};
+    recipe.hash = exchange::sha256_of_text(phase + "\n" + std::to_string(reading.version) + "\n" +
+                                           recipe.part);
+    return recipe;
+}
+
+std::vector<std::string> differences(const json& a, const json& b) {
+    std::vector<std::string> found;
+    collect(a, b, "", found);
+    return found;
+}
+
+}  // namespace breach::orchestrator

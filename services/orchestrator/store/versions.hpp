@@ -1,0 +1,11 @@
+// The SQL that leads from one version of the database to the next. Append only: what has been
+// shipped once is never edited, because databases of that version exist.
+#pragma once
+
+namespace breach::orchestrator {
+
+extern const char* const version_1;  ///< runs, tasks, attempts, events, artifacts
+extern const char* const version_2;  ///< variants, cache, queues, idempotency, counts per run
+extern const char* const version_3;  ///< triggers, firings
+
+}  // namespace breach::orchestrator

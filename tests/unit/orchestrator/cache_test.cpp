@@ -1,0 +1,151 @@
+// What is computed once, what is computed again, and what the service says about why.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/faults/service_under_test.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+
+json task_labelled(const json& run, const std::string& label) {
+    for (const json& task : run.at("tasks"))
+        if (task.at("label") == label) return task;
+    throw std::runtime_error("no task " + label + " in " + run.dump());
+}
+
+int count_in_state(const json& run, const std::string& state) {
+    int count = 0;
+    for (const json& task : run.at("tasks")) count += task.at("state") == state ? 1 : 0;
+    return count;
+}
+
+json why(Service& service, const json& run, const std::string& label) {
+    const std::string id = task_labelled(run, label).at("id");
+    return service.get("/v1/tasks/" + id).body.at("why");
+}
+
+TEST(Cache, EqualStudyIsAnsweredWithoutRunningAnything) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json first = service.wait_for_end(service.submit(study("", {0.25, 0.5})));
+    json renamed = study("", {0.25, 0.5});
+    renamed["name"] = "another";
+    renamed["scene"]["name"] = "other_name";
+    renamed["resources"] = {{"mpm_solver", {{"cores", 2}}}};
+    const json second = service.wait_for_end(service.submit(renamed));
+    EXPECT_EQ(second.at("state"), "succeeded");
+    EXPECT_EQ(count_in_state(second, "cached"), 6);
+    EXPECT_EQ(second.at("tasks_done"), 6);
+    json rows = service.table(second.at("id"));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1].at("runout"), 10.25);
+    EXPECT_EQ(rows[1].at("reused"), true);
+    EXPECT_EQ(sandbox.successes().size(), 6u);
+    const json task = task_labelled(second, "mpm_0.500000");
+    EXPECT_EQ(task.at("same_as"), task_labelled(first, "mpm_0.500000").at("id"));
+    EXPECT_EQ(task.at("artifacts"), task_labelled(first, "mpm_0.500000").at("artifacts"));
+    EXPECT_TRUE(std::filesystem::exists(sandbox.data() / "runs" / second.at("id") /
+                                        "mpm_0.500000/output/result.json"));
+    EXPECT_EQ(why(service, second, "fem").at("reason"), "taken from an earlier task");
+}
+
+TEST(Cache, ChangeOfTheMpmRunsTheMpmAloneAndSaysWhy) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json first = service.wait_for_end(service.submit(study("", {0.25})));
+    EXPECT_EQ(why(service, first, "fem").at("reason"), "first of its kind");
+    json changed = study("", {0.25});
+    changed["overrides"] = {"/mpm/duration=10"};
+    const json second = service.wait_for_end(service.submit(changed));
+    EXPECT_EQ(task_labelled(second, "fem").at("state"), "cached");
+    EXPECT_EQ(task_labelled(second, "transfer_0.250000").at("state"), "cached");
+    EXPECT_EQ(task_labelled(second, "mpm_0.250000").at("state"), "succeeded");
+    const json reason = why(service, second, "mpm_0.250000");
+    EXPECT_EQ(reason.at("reason"), "scene part changed");
+    EXPECT_EQ(reason.at("differs"), json::parse(R"(["/mpm/duration"])"));
+    EXPECT_EQ(reason.at("compared_with"), task_labelled(first, "mpm_0.250000").at("id"));
+}
+
+TEST(Cache, AlteredOrMissingOutputIsNeverServed) {
+    for (const bool missing : {false, true}) {
+        const Sandbox sandbox;
+        Service service(sandbox);
+        const std::string first = service.submit(study("", {0.25}));
+        service.wait_for_end(first);
+        const auto file = sandbox.data() / "runs" / first / "mpm_0.250000/output/result.json";
+        if (missing) {
+            std::filesystem::remove(file);
+        } else {
+            std::fstream(file, std::ios::in | std::ios::out) << "!";  // same size, another content
+        }
+        const json second = service.wait_for_end(service.submit(study("", {0.25})));
+        EXPECT_EQ(task_labelled(second, "fem").at("state"), "cached");
+        EXPECT_EQ(task_labelled(second, "mpm_0.250000").at("state"), "succeeded");
+        const json reason = why(service, second, "mpm_0.250000");
+        EXPECT_EQ(reason.at("reason"), "stored outputs are damaged");
+        EXPECT_NE(reason.at("detail").get<std::string>().find("result.json"), std::string::npos);
+        EXPECT_EQ(service.table(second.at("id"))[0].at("runout"), 10.0625);
+    }
+}
+
+TEST(Cache, ResultsOfFailedTasksAreNotReused) {
+    const Sandbox sandbox;
+    Service service(sandbox, {"--tries", "1"});
+    const json first = service.wait_for_end(service.submit(study("always_crash=1", {0.25})));
+    EXPECT_EQ(task_labelled(first, "mpm_0.250000").at("state"), "failed");
+    const json second = service.wait_for_end(service.submit(study("always_crash=1", {0.25})));
+    EXPECT_EQ(task_labelled(second, "mpm_0.250000").at("state"), "failed");
+    EXPECT_EQ(task_labelled(second, "mpm_0.250000").at("attempts").size(), 1u);
+    EXPECT_EQ(why(service, second, "mpm_0.250000").at("reason"), "earlier task did not succeed");
+}
+
+TEST(Cache, IsNotAskedWhenTheStudySaysSo) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    service.wait_for_end(service.submit(study("", {0.25})));
+    json again = study("", {0.25});
+    again["reuse"] = false;
+    const json second = service.wait_for_end(service.submit(again));
+    EXPECT_EQ(count_in_state(second, "cached"), 0);
+    EXPECT_EQ(why(service, second, "fem").at("reason"), "reuse is switched off");
+}
+
+TEST(Variants, ShareWhatDoesNotDiffer) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json wanted = study("", {0.25, 0.5});
+    wanted["variants"] = {{{"name", "long"}},
+                          {{"name", "short"}, {"overrides", {"/mpm/duration=5"}}},
+                          {{"name", "weak"}, {"overrides", {"/materials/slope_soil/law/c_kPa=9"}}}};
+    const json run = service.wait_for_end(service.submit(wanted));
+    ASSERT_EQ(run.at("state"), "succeeded") << run.at("message");
+    // long and short: one FEM, one LEM, two transfers; weak: the same again; and 3 x 2 runouts
+    EXPECT_EQ(run.at("tasks").size(), 2u * 4u + 6u);
+    EXPECT_EQ(task_labelled(run, "mpm_0.250000_short").at("variant"), "short");
+    const json rows = service.table(run.at("id"));
+    ASSERT_EQ(rows.size(), 6u);
+    EXPECT_EQ(rows[0].at("variant"), "long");
+    EXPECT_EQ(rows[5].at("variant"), "weak");
+    EXPECT_EQ(rows[5].at("transfer_time"), 0.5);
+    for (const json& row : rows) EXPECT_EQ(row.at("state"), "succeeded") << row;
+}
+
+TEST(Variants, FaultsNameTheVariant) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json wanted = study("", {0.25});
+    wanted["variants"] = {{{"name", "a"}, {"overrides", {"/mpm/cell_size=-1"}}}, {{"name", "a"}}};
+    const Answer answer = service.post("/v1/runs", wanted.dump());
+    EXPECT_EQ(answer.status, 422);
+    std::string pointers;
+    for (const json& each : answer.body.at("faults"))
+        pointers += each.at("pointer").get<std::string>() + " ";
+    EXPECT_NE(pointers.find("/variants/0/overrides"), std::string::npos) << pointers;
+    EXPECT_NE(pointers.find("/variants/1/name"), std::string::npos) << pointers;
+}
+
+}  // namespace
+}  // namespace breach::testing

@@ -1,0 +1,146 @@
+// Submitting once however often it is sent, and finding runs again.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <thread>
+
+#include "tests/faults/service_under_test.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+
+Answer post_with_key(Service& service, const std::string& key, const json& body) {
+    return service.post("/v1/runs", body.dump(), "application/json", {{"Idempotency-Key", key}});
+}
+
+std::size_t runs_in(Service& service) {
+    return service.get("/v1/runs?limit=500").body.at("runs").size();
+}
+
+TEST(IdempotencyKey, SameBodyGivesTheSameRunAndAnotherBodyIsRefused) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const Answer first = post_with_key(service, "key-1", study("", {0.25}));
+    ASSERT_EQ(first.status, 202) << first.text;
+    const Answer again = post_with_key(service, "key-1", study("", {0.25}));
+    EXPECT_EQ(again.status, 202);
+    EXPECT_EQ(again.body.at("id"), first.body.at("id"));
+    EXPECT_EQ(again.headers.find("Location")->second, first.headers.find("Location")->second);
+    EXPECT_EQ(again.headers.find("Idempotent-Replayed")->second, "true");
+    const Answer other = post_with_key(service, "key-1", study("", {0.5}));
+    EXPECT_EQ(other.status, 422);
+    EXPECT_EQ(other.body.at("type"), "/problems/idempotency-key-reused");
+    EXPECT_EQ(runs_in(service), 1u);
+    EXPECT_EQ(post_with_key(service, std::string(300, 'k'), study("", {0.5})).status, 400);
+    EXPECT_EQ(post_with_key(service, "two words", study("", {0.5})).status, 400);
+}
+
+TEST(IdempotencyKey, RefusedStudyDoesNotUseItsKeyUp) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    EXPECT_EQ(post_with_key(service, "key", {{"name", "bad"}}).status, 422);
+    EXPECT_EQ(post_with_key(service, "key", study("", {0.25})).status, 202);
+}
+
+TEST(IdempotencyKey, SurvivesTheServicesDeath) {
+    const Sandbox sandbox;
+    std::string run;
+    {
+        Service first(sandbox);
+        run = post_with_key(first, "key", study("fem_steps=500", {0.25})).body.at("id");
+        first.kill_at_once();
+    }
+    Service second(sandbox);
+    ASSERT_TRUE(second.valid()) << second.complaint();
+    const Answer again = post_with_key(second, "key", study("fem_steps=500", {0.25}));
+    EXPECT_EQ(again.status, 202);
+    EXPECT_EQ(again.body.at("id"), run);
+    EXPECT_EQ(post_with_key(second, "key", study("", {0.5})).status, 422);
+    second.post("/v1/runs/" + run + "/cancel", "");
+}
+
+TEST(IdempotencyKey, FiftyAtOnceMakeOneRun) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    std::atomic<int> accepted = 0;
+    std::atomic<int> in_progress = 0;
+    std::atomic<int> others = 0;
+    {
+        std::vector<std::jthread> clients;
+        for (int i = 0; i < 50; ++i) {
+            clients.emplace_back([&] {
+                const int status = post_with_key(service, "one", study("", {0.25})).status;
+                ++(status == 202 ? accepted : status == 409 ? in_progress : others);
+            });
+        }
+    }
+    EXPECT_GE(accepted, 1);
+    EXPECT_EQ(others, 0);
+    EXPECT_EQ(accepted + in_progress, 50);
+    EXPECT_EQ(runs_in(service), 1u);
+}
+
+TEST(ListOfRuns, PagesShowEveryRunOnceNewestFirst) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    std::vector<std::string> submitted;
+    for (int i = 0; i < 7; ++i) submitted.push_back(service.submit(study("", {0.25})));
+    std::vector<std::string> listed;
+    std::string path = "/v1/runs?limit=3";
+    for (int pages = 0; pages < 4; ++pages) {
+        const json page = service.get(path).body;
+        for (const json& run : page.at("runs")) listed.push_back(run.at("id"));
+        if (page.at("next").is_null()) break;
+        path = "/v1/runs?limit=3&cursor=" + page.at("next").get<std::string>();
+    }
+    EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()).size(), 7u);
+    EXPECT_EQ(listed.size(), 7u);
+    EXPECT_EQ(listed.front(), submitted.back());
+    EXPECT_EQ(service.get("/v1/runs?cursor=nonsense").status, 400);
+}
+
+TEST(ListOfRuns, IsFilteredByStateAndName) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string good = service.submit(study("", {0.25}));
+    json named = study("entangle_at=0.1", {1.0});
+    named["name"] = "broken";
+    const std::string bad = service.submit(named);
+    service.wait_for_end(good);
+    service.wait_for_end(bad);
+    const auto ids = [&](const std::string& query) {
+        std::vector<std::string> found;
+        for (const json& run : service.get("/v1/runs?" + query).body.at("runs"))
+            found.push_back(run.at("id"));
+        return found;
+    };
+    EXPECT_EQ(ids("state=succeeded"), std::vector<std::string>{good});
+    EXPECT_EQ(ids("state=failed"), std::vector<std::string>{bad});
+    EXPECT_EQ(ids("name=broken"), std::vector<std::string>{bad});
+    EXPECT_TRUE(ids("state=running").empty());
+    EXPECT_TRUE(ids("state=succeeded&name=broken").empty());
+    EXPECT_EQ(service.get("/v1/runs?state=happy").status, 400);
+    EXPECT_EQ(service.get("/v1/runs?colour=red").status, 400);
+}
+
+TEST(Examples, AreStudiesThatCanBeSentAsTheyAre) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json examples = service.get("/v1/examples").body.at("examples");
+    ASSERT_FALSE(examples.empty());
+    for (const json& each : examples) {
+        const std::string name = each.at("name");
+        const Answer whole = service.get("/v1/examples/" + name);
+        ASSERT_EQ(whole.status, 200) << name;
+        EXPECT_TRUE(whole.body.at("scene").is_object()) << name;
+        const Answer accepted = service.post("/v1/runs", whole.text);
+        EXPECT_EQ(accepted.status, 202) << name << " " << accepted.text;
+    }
+    EXPECT_EQ(service.get("/v1/examples/none").status, 404);
+}
+
+}  // namespace
+}  // namespace breach::testing
