@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
 
 #include "soils.hpp"
 
@@ -62,6 +63,10 @@ struct History {
     const char* file;
     const char* material;
     double sigma_v;
+
+    friend std::ostream& operator<<(std::ostream& out, const History& history) {
+        return out << history.file;
+    }
 };
 
 class Parity : public ::testing::TestWithParam<History> {};
