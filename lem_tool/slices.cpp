@@ -357,7 +357,8 @@ Cut check_end(const Strata& strata, const Surface& surface, double x, From beyon
     const CrackAt side = beyond == From::left ? CrackAt::left : CrackAt::right;
     if (surface.crack == side) return Cut::done;
     const double outside = ground_level(strata, x, beyond);
-    if (surface.level(x) >= outside - tolerance) return Cut::done;
+    const Line& floor = strata.strips[strip_at(strata, x)].floor;
+    if (std::max(surface.level(x), floor.at(x)) >= outside - tolerance) return Cut::done;
     const bool vertical =
         std::abs(x - surface.circle.center.x()) > surface.circle.radius - tolerance;
     return vertical ? Cut::overhangs : Cut::leaves_model;

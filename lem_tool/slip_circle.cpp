@@ -41,8 +41,8 @@ std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle
     }
     std::vector<Surface> masses;
     for (const Surface& surface : whole) {
-        const bool falls_left = ground_level(strata, surface.left, From::right) <
-                                ground_level(strata, surface.right, From::left);
+        const bool falls_left =
+            base_level(strata, surface, surface.left) < base_level(strata, surface, surface.right);
         const auto cracked =
             with_crack(strata, surface, falls_left ? UpperEnd::right : UpperEnd::left);
         if (cracked) masses.push_back(*cracked);

@@ -118,6 +118,45 @@ TEST(Extreme, TwoHundredLayersAreCutAtEveryOne) {
     EXPECT_NEAR(same, F, 5e-4 * F);
 }
 
+TEST(Extreme, LayersLiquefiedToNothingLeaveAFactorNearNothing) {
+    json text = small::two_layers(small::some_search());
+    text["lem"]["liquefaction"] = {{{"region", "fill"}}, {{"region", "base"}}};  // s_r = 0
+    const auto scene = small::parsed(text);
+    Model model = make_model(scene);
+    model.soils = liquefied(model, scene.lem->liquefaction, 2);
+    const auto found = search(model, *scene.lem->search);
+    EXPECT_EQ(found.critical.value().bishop.factor_of_safety, 0.0);
+}
+
+TEST(Extreme, LayerWithoutThicknessChangesNothingOrIsRefused) {
+    json text = small::two_layers(small::some_circle());
+    const double F = small::circle_bishop(small::parsed(text)).factor_of_safety;
+    for (const double thickness : {1e-3, 1e-6, 1e-10}) {
+        json thin = text;
+        thin["materials"]["seam"] = small::soil(20, 8, 25);
+        thin["section"]["regions"].push_back(small::region(
+            "seam", "seam", {{0, 10}, {20, 10}, {20, 10 + thickness}, {0, 10 + thickness}}));
+        try {
+            const Bishop with = small::circle_bishop(small::parsed(thin));
+            EXPECT_NEAR(with.factor_of_safety, F, 2e-3 * F) << thickness;
+        } catch (const fault::BadInput& refused) {
+            EXPECT_LT(thickness, 1e-9) << refused.what();
+        }
+    }
+}
+
+TEST(Extreme, GroundDeepUnderWaterHasAFactor) {
+    for (const double level : {10.0, 50.0, 1000.0}) {
+        json text = small::two_layers(small::some_search());
+        text["lem"]["water"] = {{"line", {{0, level}}}};
+        const auto scene = small::parsed(text);
+        const auto found = search(make_model(scene), *scene.lem->search);
+        const double F = found.critical.value().bishop.factor_of_safety;
+        EXPECT_TRUE(std::isfinite(F));
+        EXPECT_GT(F, 1.0) << level;
+    }
+}
+
 TEST(Extreme, SearchWithNothingToFindSaysSo) {
     json text = small::two_layers(small::some_search());
     text["lem"]["search"]["minimum_depth"] = 1000.0;

@@ -87,6 +87,23 @@ TEST(FactorOfSafety, OfASearchIsUnchangedByShiftMirrorAndScale) {
     }
 }
 
+TEST(Search, GivesTheSameAnswerOnOneAndOnManyThreads) {
+    const auto scene = small::parsed(small::two_layers(small::some_search()));
+    const Model model = make_model(scene);
+    const auto one = search(model, *scene.lem->search, 1);
+    for (const int threads : {2, 5}) {
+        const auto many = search(model, *scene.lem->search, threads);
+        EXPECT_EQ(many.critical->bishop.factor_of_safety, one.critical->bishop.factor_of_safety);
+        EXPECT_EQ(many.critical->surface.circle.radius, one.critical->surface.circle.radius);
+        EXPECT_EQ(many.tally.analysed, one.tally.analysed);
+        ASSERT_EQ(many.pairs.size(), one.pairs.size());
+        for (std::size_t i = 0; i < one.pairs.size(); ++i) {
+            EXPECT_EQ(many.pairs[i].critical.bishop.factor_of_safety,
+                      one.pairs[i].critical.bishop.factor_of_safety);
+        }
+    }
+}
+
 TEST(Search, IsDeterministicAndNoWorseThanAFinerGrid) {
     json text = small::two_layers(small::some_search());
     const auto scene = small::parsed(text);

@@ -56,6 +56,16 @@ TEST_F(LemTool, FindsTheCriticalCircleOfTheSlopeScene) {
                 facts.at("surfaces_analysed").get<int>(), facts.at("seconds").get<double>());
 }
 
+TEST_F(LemTool, GivesTheSameResultOnTwoThreads) {
+    ASSERT_EQ(run("--progress none --output " + folder_.string()), 0) << printed();
+    json one = result();
+    ASSERT_EQ(run("--progress none --threads 2 --output " + folder_.string()), 0) << printed();
+    const json two = result();
+    for (const char* fact : {"factor_of_safety", "circle", "surfaces", "entry", "spencer"}) {
+        EXPECT_EQ(one.at(fact), two.at(fact)) << fact;
+    }
+}
+
 TEST_F(LemTool, PlanSaysWhatIsLeftOut) {
     ASSERT_EQ(run("--plan"), 0);
     EXPECT_NE(printed().find("pore pressure"), std::string::npos);

@@ -18,9 +18,8 @@ inline json load(const std::string& id) {
     return json::parse(file);
 }
 
-/// "ymin", a limit for the search, is where the model ends: the lowest soil is cut there. Problems
-/// in feet and pounds keep their feet; their stresses and unit weights are all divided by ten,
-/// which F does not see. g = 10 makes densities round.
+/// Problems in feet and pounds keep their feet; their stresses and unit weights are all divided by
+/// ten, which F does not see. g = 10 makes densities round.
 inline json scene_json(const json& problem) {
     json scene{{"format", "breachline-scene/1"}, {"gravity", 10.0}, {"lem", json::object()}};
     const double stress = problem.at("units") == "m,kN" ? 1.0 : 0.1;
@@ -39,12 +38,11 @@ inline json scene_json(const json& problem) {
               {"c_kPa", soil.at("c").get<double>() * stress},
               {"phi_deg", soil.at("phi")}}}};
         json ring = soil.at("polygon");
-        if (!problem.at("ymin").is_null()) {
-            for (json& vertex : ring) {
-                vertex[1] = std::max(vertex[1].get<double>(), problem.at("ymin").get<double>());
-            }
-        }
         ring.push_back(ring.front());
+        if (soil.at("ru") != 0.0) {
+            scene["lem"]["pore_pressure_ratios"].push_back(
+                {{"region", material}, {"r_u", soil.at("ru")}});
+        }
         scene["section"]["regions"].push_back(
             {{"name", material}, {"material", material}, {"polygon", ring}});
     }
@@ -55,13 +53,11 @@ inline json scene_json(const json& problem) {
     if (!problem.at("search").is_null()) {
         json search = problem.at("search");
         search["minimum_depth"] = problem.at("min_depth");
-        for (const char* range : {"entry", "exit"}) {  // a range may be a point; ours ascend
-            if (search[range][0] == search[range][1]) {
-                search[range][0] = search[range][0].get<double>() - 1e-6;
-            }
-        }
+        if (!problem.at("ymin").is_null()) search["lowest_level"] = problem.at("ymin");
         scene["lem"]["search"] = search;
     }
+    if (!problem.at("floor").is_null()) scene["lem"]["floor"] = problem.at("floor");
+    scene["lem"]["seismic_coefficient"] = problem.at("kh");
     if (!problem.at("water_line").is_null()) {
         scene["lem"]["water"] = {{"line", problem.at("water_line")},
                                  {"density", problem.at("gamma_w").get<double>() * 100.0 * stress}};

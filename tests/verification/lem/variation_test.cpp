@@ -1,0 +1,117 @@
+// Without friction F is proportional to c: what one parameter does, and how likely failure is, can
+// be written down.
+#include "lem_tool/variation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "lem_tool/hypercube.hpp"
+#include "tests/unit/lem/small_scenes.hpp"
+
+namespace breach::lem {
+namespace {
+
+using small::json;
+
+json clay_slope(const json& lem) {
+    json text = small::two_layers(small::some_circle());
+    text["materials"]["fill"] = small::soil(20, 25, 0);
+    text["materials"]["base"] = small::soil(20, 25, 0);
+    text["lem"].update(lem);
+    return text;
+}
+
+double Phi(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+TEST(Hypercube, HasOneValueInEveryIntervalAndTheSameOnesForTheSameSeed) {
+    const auto column = hypercube_column(500, 7, 2);
+    std::set<int> intervals;
+    for (const double x : column) intervals.insert(static_cast<int>(500.0 * x));
+    EXPECT_EQ(intervals.size(), 500u);
+    EXPECT_EQ(column, hypercube_column(500, 7, 2));
+    EXPECT_NE(column, hypercube_column(500, 7, 1));
+    EXPECT_NE(column, hypercube_column(500, 8, 2));
+}
+
+TEST(NormalQuantile, InvertsTheDistribution) {
+    EXPECT_NEAR(standard_normal_quantile(0.975), 1.959963984540054, 1e-12);
+    EXPECT_NEAR(standard_normal_quantile(0.5), 0.0, 1e-12);
+    for (const double z : {-6.0, -3.0, 1.0, 4.0}) {
+        EXPECT_NEAR(standard_normal_quantile(Phi(z)), z, 1e-9);
+    }
+}
+
+TEST(Sensitivity, OfTheCohesionIsProportionalWithoutFriction) {
+    json result;
+    add_sensitivity(small::parsed(clay_slope({{"sensitivity", {{"change", 0.2}}}})), 1, result);
+    const json& facts = result.at("sensitivity");
+    const double F = facts.at("factor_of_safety");
+    ASSERT_EQ(facts.at("parameters").size(), 2u);
+    double lower = 0.0;
+    double higher = 0.0;
+    for (const json& each : facts.at("parameters")) {
+        lower += each.at("lower").get<double>() - F;
+        higher += each.at("higher").get<double>() - F;
+    }
+    EXPECT_NEAR(lower, -0.2 * F, 1e-9);  // both layers together: all of F
+    EXPECT_NEAR(higher, 0.2 * F, 1e-9);
+}
+
+TEST(ProbabilityOfFailure, IsThatOfTheCohesionWithoutFriction) {
+    for (const char* distribution : {"normal", "lognormal"}) {
+        json text = small::scene(
+            {{"clay", small::soil(20, 25, 0)}},
+            json::array({small::region("clay", "clay",
+                                       {{0, -5}, {60, -5}, {60, 0}, {40, 0}, {20, 10}, {0, 10}})}),
+            small::some_circle());
+        text["lem"]["probability"] = {{"samples", 2000},
+                                      {"seed", 3},
+                                      {"variables",
+                                       {{{"parameter", "cohesion"},
+                                         {"of", "clay"},
+                                         {"distribution", distribution},
+                                         {"coefficient_of_variation", 0.3}}}}};
+        json result;
+        const Samples samples = add_probability(small::parsed(text), 2, result);
+        const json& facts = result.at("probability");
+        const double F = facts.at("factor_of_safety");
+        const double s = std::sqrt(std::log(1.09));
+        const double expected = std::string(distribution) == "normal"
+                                    ? Phi((1.0 / F - 1.0) / 0.3)
+                                    : Phi((std::log(1.0 / F) + 0.5 * s * s) / s);
+        const double computed = facts.at("probability_of_failure");
+        std::printf("%s: F %.4f, P_f %.4f, closed form %.4f, allowed 1/2000\n", distribution, F,
+                    computed, expected);
+        // one stratified variable: the empirical distribution is exact to one interval
+        EXPECT_NEAR(computed, expected, 1.0 / 2000.0);
+        EXPECT_NEAR(facts.at("mean").get<double>() / F, 1.0, 1e-3);
+        EXPECT_NEAR(facts.at("standard_deviation").get<double>() / F, 0.3, 3e-3);
+        json again;
+        EXPECT_EQ(add_probability(small::parsed(text), 1, again).factor_of_safety,
+                  samples.factor_of_safety);
+        EXPECT_EQ(again, result) << "as many threads as you like";
+    }
+}
+
+TEST(ProbabilityOfFailure, RefusesWhatTheSceneDoesNotHave) {
+    json text = clay_slope(json::object());
+    text["lem"]["probability"] = {
+        {"variables",
+         {{{"parameter", "cohesion"}, {"of", "granite"}, {"coefficient_of_variation", 0.1}},
+          {{"parameter", "residual_strength"},
+           {"of", "fill"},
+           {"coefficient_of_variation", 0.1}}}}};
+    try {
+        (void)small::parsed(text);
+        FAIL() << "accepted";
+    } catch (const fault::BadInput& bad) {
+        const std::string what = bad.what();
+        EXPECT_NE(what.find("/lem/probability/variables/0/of"), std::string::npos) << what;
+        EXPECT_NE(what.find("/lem/probability/variables/1/of"), std::string::npos) << what;
+    }
+}
+
+}  // namespace
+}  // namespace breach::lem
