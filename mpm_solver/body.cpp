@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mpm_solver/step.hpp"
+#include "mpm_solver/viscosity.hpp"
 
 namespace breach::mpm {
 
@@ -35,6 +36,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .gravity = {0.0, -scene.gravity},
               .gimp_half_size = mpm.gimp_half_size,
               .blending_rate = mpm.blending_rate,
+              .overlap_rate = mpm.overlap_correction.rate,
               .verbs = choose_verbs(mpm),
               .averages = {},
               .drift_x = {},
@@ -71,7 +73,11 @@ double wave_speed(const Body& body) {
 }
 
 double courant_step(const Body& body, double cfl) {
-    return cfl * body.grid.h / (wave_speed(body) + body.tally.fastest);
+    double damping = 0.0;
+    for (const Zone& zone : body.zones) {
+        damping = std::max(damping, viscous_speed(zone, body.grid.h));
+    }
+    return cfl * body.grid.h / (wave_speed(body) + body.tally.fastest + damping);
 }
 
 }  // namespace breach::mpm

@@ -27,8 +27,10 @@ struct CellAverages {
 };
 
 struct Tally {
-    double plastic = 0.0;   ///< work dissipated by plastic strain so far [J]
-    double friction = 0.0;  ///< work dissipated by the floor's friction so far [J]
+    double plastic = 0.0;    ///< work dissipated by plastic strain so far [J]
+    double friction = 0.0;   ///< work dissipated by the floor's friction so far [J]
+    double viscous = 0.0;    ///< work dissipated by viscosity so far [J]
+    double pushed_in = 0.0;  ///< work that the overlap correction put in so far [J]
     double kinetic =
         0.0;  ///< of the points at the end of the step; not finite when any velocity is not [J]
     double fastest = 0.0;  ///< largest speed of a point [m/s]
@@ -54,6 +56,7 @@ struct Body {
     Vec2 gravity;           ///< [m/s2]
     double gimp_half_size;  ///< [cells]
     double blending_rate;   ///< beta [1/s]
+    double overlap_rate;    ///< of the overlap correction [1/s]
     Verbs verbs;
     std::vector<CellAverages> averages;  ///< per zone; empty when anti-locking is off
     std::vector<double> drift_x,
@@ -71,6 +74,10 @@ Kernel kernel_of(const Body& body);
 template <>
 inline GimpKernel kernel_of(const Body& body) {
     return GimpKernel(body.gimp_half_size);
+}
+template <>
+inline BSplineKernel kernel_of(const Body&) {
+    return {};
 }
 template <>
 inline LinearKernel kernel_of(const Body&) {

@@ -9,7 +9,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 1;
+constexpr int version = 2;
 constexpr const char* history_prefix = "history.";
 
 /// The numbers of the run that are not per point. Calls visit(name, value).
@@ -23,6 +23,7 @@ void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& 
     visit("start_elastic", start.energy.elastic);
     visit("start_mobile_volume", start.mobile_volume);
     visit("plastic", tally.plastic), visit("friction", tally.friction);
+    visit("viscous", tally.viscous), visit("pushed_in", tally.pushed_in);
     visit("kinetic", tally.kinetic), visit("fastest", tally.fastest);
 }
 

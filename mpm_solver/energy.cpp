@@ -6,7 +6,8 @@ Energy energy_of(const Body& body) {
     const Points& points = body.points;
     Energy energy{.kinetic = body.tally.kinetic,
                   .plastic = body.tally.plastic,
-                  .friction = body.tally.friction};
+                  .friction = body.tally.friction,
+                  .viscous = body.tally.viscous};
     for (const Zone& zone : body.zones) {
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
             const mechanics::Voigt sigma{points.sxx[p], points.syy[p], points.szz[p],
@@ -27,7 +28,8 @@ double released(const Energy& start, const Energy& now) {
 double numerical_loss(const Energy& start, const Energy& now) {
     const double gone = start.kinetic - now.kinetic + start.gravitational - now.gravitational +
                         start.elastic - now.elastic;
-    return gone - (now.plastic - start.plastic) - (now.friction - start.friction);
+    return gone - (now.plastic - start.plastic) - (now.friction - start.friction) -
+           (now.viscous - start.viscous);
 }
 
 double numerical_share(const Energy& start, const Energy& now) {

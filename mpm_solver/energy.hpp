@@ -12,6 +12,7 @@ struct Energy {
     double elastic = 0.0;
     double plastic = 0.0;   ///< dissipated by plastic strain
     double friction = 0.0;  ///< dissipated by the floor's friction
+    double viscous = 0.0;   ///< dissipated by viscosity
 };
 
 Energy energy_of(const Body& body);

@@ -132,16 +132,46 @@ FilledSection fill_section(const scene::Scene& scene) {
         const scene::Material& material = scene.materials[region.material];
         filled.state.regions.push_back(region.name);
         filled.state.materials_of_regions.push_back(material.name);
-        SampledRegion sampled{region.name, scene::area(region.polygon), 0.0, 0};
         for (const auto& [place, patch] :
              sample(region.polygon, origin, mpm.cell_size / mpm.fill_points)) {
             add_point(filled.state, patch, material.density, r);
-            sampled.sampled_area += patch.area;
+        }
+    }
+    filled.regions = sampling_of(scene, filled.state);
+    return filled;
+}
+
+bool is_faithful(const SampledRegion& region) {
+    constexpr double tolerance = 0.01;
+    return std::abs(region.sampled_area - region.polygon_area) <= tolerance * region.polygon_area &&
+           std::abs(region.sampled_level - region.polygon_level) <= tolerance * region.height;
+}
+
+std::vector<SampledRegion> sampling_of(const scene::Scene& scene,
+                                       const exchange::ParticleState& state) {
+    std::vector<SampledRegion> result;
+    for (const scene::Region& region : scene.section.regions) {
+        const Box box = scene::bounding_box(region.polygon);
+        const Patch drawn = patch_of(region.polygon);
+        SampledRegion sampled{.name = region.name,
+                              .polygon_area = scene::area(region.polygon),
+                              .sampled_area = 0.0,
+                              .polygon_level = drawn.centroid.y(),
+                              .sampled_level = 0.0,
+                              .height = box.high.y() - box.low.y(),
+                              .points = 0};
+        for (std::size_t p = 0; p < state.size(); ++p) {
+            if (state.regions[state.region[p]] != region.name) continue;
+            const double area = state.volume[p] / state.thickness;
+            sampled.sampled_area += area;
+            sampled.sampled_level += area * state.position[p].y();
             ++sampled.points;
         }
-        filled.regions.push_back(sampled);
+        if (sampled.points == 0) continue;
+        sampled.sampled_level /= sampled.sampled_area;
+        result.push_back(sampled);
     }
-    return filled;
+    return result;
 }
 
 }  // namespace breach::mpm

@@ -179,13 +179,19 @@ template void grid_to_particle<GimpKernel, usl, AntiLocking::on>(Body&, double);
 template void grid_to_particle<GimpKernel, usl, AntiLocking::off>(Body&, double);
 template void grid_to_particle<GimpKernel, musl, AntiLocking::on>(Body&, double);
 template void grid_to_particle<GimpKernel, musl, AntiLocking::off>(Body&, double);
+template void grid_to_particle<BSplineKernel, usl, AntiLocking::on>(Body&, double);
 template void grid_to_particle<LinearKernel, usl, AntiLocking::on>(Body&, double);
+template void grid_to_particle<BSplineKernel, usl, AntiLocking::off>(Body&, double);
 template void grid_to_particle<LinearKernel, usl, AntiLocking::off>(Body&, double);
+template void grid_to_particle<BSplineKernel, musl, AntiLocking::on>(Body&, double);
 template void grid_to_particle<LinearKernel, musl, AntiLocking::on>(Body&, double);
+template void grid_to_particle<BSplineKernel, musl, AntiLocking::off>(Body&, double);
 template void grid_to_particle<LinearKernel, musl, AntiLocking::off>(Body&, double);
 template void map_again<GimpKernel, AntiLocking::on>(Body&, double);
 template void map_again<GimpKernel, AntiLocking::off>(Body&, double);
+template void map_again<BSplineKernel, AntiLocking::on>(Body&, double);
 template void map_again<LinearKernel, AntiLocking::on>(Body&, double);
+template void map_again<BSplineKernel, AntiLocking::off>(Body&, double);
 template void map_again<LinearKernel, AntiLocking::off>(Body&, double);
 
 }  // namespace breach::mpm

@@ -21,10 +21,12 @@ struct Row {
     double elastic_energy = 0.0;
     double plastic_dissipation = 0.0;
     double friction_dissipation = 0.0;
+    double viscous_dissipation = 0.0;
     double energy_numerical = 0.0;
     double energy_numerical_share = 0.0;
     double volume_ratio = 0.0;
     double overlap = 0.0;
+    double overlap_energy = 0.0;  ///< put in by the overlap correction, part of the numerical
     double fastest = 0.0;
 };
 
@@ -39,9 +41,11 @@ void for_each_column(AnyRow& row, Visit&& visit) {
     visit("elastic_energy", "J", row.elastic_energy);
     visit("plastic_dissipation", "J", row.plastic_dissipation);
     visit("friction_dissipation", "J", row.friction_dissipation);
+    visit("viscous_dissipation", "J", row.viscous_dissipation);
     visit("energy_numerical", "J", row.energy_numerical);
     visit("energy_numerical_share", "1", row.energy_numerical_share);
     visit("volume_ratio", "1", row.volume_ratio), visit("overlap", "1", row.overlap);
+    visit("overlap_energy", "J", row.overlap_energy);
     visit("fastest", "m/s", row.fastest);
 }
 

@@ -65,6 +65,25 @@ class GimpKernel {
     double quarter_over_l_;
 };
 
+/// Quadratic B-spline. Within half a cell of a wall the row beyond it is the linear continuation of
+/// the two before (v_-1 = 2 v_0 - v_1), which makes the weights the hat functions: no row outside
+/// is needed, value and slope go over smoothly, linear fields stay exact.
+class BSplineKernel {
+  public:
+    Stencil operator()(double xi, const WallRows& walls) const {
+        const auto nearest = static_cast<std::int32_t>(xi + 0.5);
+        const double d = xi - nearest;
+        if (nearest == walls.low) return {nearest - 1, {0.0, 1.0 - d, d}, {0.0, -1.0, 1.0}, xi};
+        if (nearest == walls.high) return {nearest - 1, {-d, 1.0 + d, 0.0}, {-1.0, 1.0, 0.0}, xi};
+        const double to_right = 0.5 + d;
+        const double to_left = 0.5 - d;
+        return {nearest - 1,
+                {0.5 * to_left * to_left, 0.75 - d * d, 0.5 * to_right * to_right},
+                {-to_left, -2.0 * d, to_right},
+                xi};
+    }
+};
+
 /// Hat functions: for tests. Points on a node belong to the cell above it, except at the far wall.
 class LinearKernel {
   public:

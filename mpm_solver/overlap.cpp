@@ -7,7 +7,6 @@ namespace breach::mpm {
 namespace {
 
 /// Integral of every node's weight over the places a point can take, by the midpoint rule.
-
 std::vector<double> capacities(const GimpKernel& kernel, const WallRows& walls, std::int32_t rows,
                                double h) {
     constexpr int samples = 200;  // per cell; the weights are quadratic
@@ -44,7 +43,7 @@ OverlapMeter::OverlapMeter(const Body& body, double thickness)
       thickness_(thickness),
       filled_(body.grid.mass.size(), 0.0) {}
 
-double OverlapMeter::measure(const Body& body) {
+void OverlapMeter::fill_nodes(const Body& body) {
     std::fill(filled_.begin(), filled_.end(), 0.0);
     const Points& points = body.points;
     const std::int32_t rows = body.grid.rows;
@@ -53,18 +52,37 @@ double OverlapMeter::measure(const Body& body) {
             filled_[i * rows + j] += points.V[p] * N;
         });
     }
+}
+
+double OverlapMeter::fill_at(std::int32_t i, std::int32_t j) const {
+    const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
+    const auto rows = static_cast<std::int32_t>(capacity_y_.size());
+    return capacity > 0.0 ? filled_[i * rows + j] / capacity : 0.0;
+}
+
+double OverlapMeter::measure(const Body& body) {
+    fill_nodes(body);
+    const Points& points = body.points;
     double excess = 0.0;
     double volume = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {
         for_each_weight(body, p, [&](std::int32_t i, std::int32_t j, double N) {
-            if (N <= 0.0) return;
-            const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
-            const double fill = capacity > 0.0 ? filled_[i * rows + j] / capacity : 0.0;
-            excess += points.V[p] * N * std::max(fill - 1.0, 0.0);
+            if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(i, j) - 1.0, 0.0);
         });
         volume += points.V[p];
     }
     return volume > 0.0 ? excess / volume : 0.0;
+}
+
+void OverlapMeter::mark(Body& body, double tolerance) {
+    fill_nodes(body);
+    for (std::size_t p = 0; p < body.points.size(); ++p) {
+        double excess = 0.0;
+        for_each_weight(body, p, [&](std::int32_t i, std::int32_t j, double N) {
+            if (N > 0.0) excess += N * std::max(fill_at(i, j) - 1.0 - tolerance, 0.0);
+        });
+        body.points.excess[p] = excess;
+    }
 }
 
 }  // namespace breach::mpm

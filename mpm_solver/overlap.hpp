@@ -8,6 +8,9 @@
 
 namespace breach::mpm {
 
+/// Steps between two marks of the correction: soil crosses a small part of a cell in them.
+constexpr std::int64_t steps_between_marks = 8;
+
 class OverlapMeter {
   public:
     explicit OverlapMeter(const Body& body, double thickness);
@@ -16,7 +19,13 @@ class OverlapMeter {
     /// capacity_i [-].
     double measure(const Body& body);
 
+    /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
+    void mark(Body& body, double tolerance);
+
   private:
+    void fill_nodes(const Body& body);
+    double fill_at(std::int32_t i, std::int32_t j) const;
+
     std::vector<double>
         capacity_x_;  ///< integral of the nodal weight over the domain, per column [m]
     std::vector<double> capacity_y_;

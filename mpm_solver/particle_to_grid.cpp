@@ -1,4 +1,5 @@
 #include "mpm_solver/step.hpp"
+#include "mpm_solver/viscosity.hpp"
 
 namespace breach::mpm {
 
@@ -14,7 +15,7 @@ struct Given {
     double fxx, fyy, fxy;  ///< -V sigma / h [N]
 };
 
-Given given(const Points& points, std::size_t p, const Grid& grid) {
+Given given(const Points& points, std::size_t p, const Grid& grid, const InPlane& sigma) {
     const double h = grid.h;
     const double m = points.m[p];
     const double share = -points.V[p] * grid.per_h;
@@ -25,9 +26,9 @@ Given given(const Points& points, std::size_t p, const Grid& grid) {
             .mLxy = m * h * points.Lxy[p],
             .mLyx = m * h * points.Lyx[p],
             .mLyy = m * h * points.Lyy[p],
-            .fxx = share * points.sxx[p],
-            .fyy = share * points.syy[p],
-            .fxy = share * points.sxy[p]};
+            .fxx = share * sigma.xx,
+            .fyy = share * sigma.yy,
+            .fxy = share * sigma.xy};
 }
 
 void scatter(Grid& grid, const Stencil& sx, const Stencil& sy, const Given& g) {
@@ -56,23 +57,44 @@ void scatter(Grid& grid, const Stencil& sx, const Stencil& sy, const Given& g) {
     }
 }
 
+/// stress(p) is the stress that the force of point p comes from.
+template <class Kernel, class Stress>
+void scatter_zone(Body& body, const Zone& zone, const Stress& stress) {
+    Grid& grid = body.grid;
+    const Points& points = body.points;
+    const Kernel kernel = kernel_of<Kernel>(body);
+    for (std::size_t p = zone.begin; p < zone.end; ++p) {
+        const Stencil sx = kernel(grid.xi(points.x[p]), grid.walls_x);
+        const Stencil sy = kernel(grid.eta(points.y[p]), grid.walls_y);
+        grid.use_stencil(sx.first * grid.rows + sy.first);
+        scatter(grid, sx, sy, given(points, p, grid, stress(p)));
+    }
+}
+
 }  // namespace
 
 template <class Kernel>
 void particle_to_grid(Body& body) {
-    Grid& grid = body.grid;
     const Points& points = body.points;
-    const Kernel kernel = kernel_of<Kernel>(body);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const Stencil sx = kernel(grid.xi(points.x[p]), grid.walls_x);
-        const Stencil sy = kernel(grid.eta(points.y[p]), grid.walls_y);
-        grid.use_stencil(sx.first * grid.rows + sy.first);
-        scatter(grid, sx, sy, given(points, p, grid));
+    for (const Zone& zone : body.zones) {
+        const auto of_the_law = [&points](std::size_t p) -> InPlane {
+            return {points.sxx[p], points.syy[p], points.sxy[p]};
+        };
+        const auto with_viscosity = [&, eta = zone.viscosity](std::size_t p) -> InPlane {
+            const InPlane tau = viscous_stress(points, p, eta);
+            return {points.sxx[p] + tau.xx, points.syy[p] + tau.yy, points.sxy[p] + tau.xy};
+        };
+        if (zone.viscosity > 0.0) {
+            scatter_zone<Kernel>(body, zone, with_viscosity);
+        } else {
+            scatter_zone<Kernel>(body, zone, of_the_law);
+        }
     }
-    find_active_nodes(grid);
+    find_active_nodes(body.grid);
 }
 
 template void particle_to_grid<GimpKernel>(Body&);
+template void particle_to_grid<BSplineKernel>(Body&);
 template void particle_to_grid<LinearKernel>(Body&);
 
 }  // namespace breach::mpm

@@ -17,9 +17,35 @@ std::string text_of(double value) {
     return text.str();
 }
 
+void plan_softening(const scene::Scene& scene, const std::string& name,
+                    const materials::MohrCoulomb& law, Plan& plan) {
+    const std::string pointer = "/materials/" + name + "/law/softening";
+    if (!law.softening) {
+        plan.push_back({"softening of " + name, Use::left_out,
+                        "the law has none: its strength is constant", pointer});
+        return;
+    }
+    const auto& length = scene.mpm->softening_length;
+    plan.push_back({"softening of " + name, Use::on, "strength falls with epsilon_q", pointer});
+    plan.push_back({"softening strains of " + name + " scaled to the cell",
+                    length ? Use::on : Use::left_out,
+                    length ? "factor " + text_of(*length / scene.mpm->cell_size)
+                           : "taken as they stand: bands narrow with the cells and dissipate less",
+                    "/mpm/softening_length"});
+}
+
+void plan_viscosity(const scene::Material& material, Plan& plan) {
+    const bool flows = material.viscosity > 0.0;
+    plan.push_back({"viscosity of " + material.name, flows ? Use::on : Use::left_out,
+                    flows ? text_of(material.viscosity) + " Pa s beside the law's stress"
+                          : "0: nothing but the law and the scheme dissipates",
+                    "/materials/" + material.name + "/viscosity"});
+}
+
 void plan_laws(const scene::Scene& scene, Plan& plan) {
     for (const scene::Material& material : scene.materials) {
         const std::string pointer = "/materials/" + material.name + "/law";
+        plan_viscosity(material, plan);
         const auto* mohr_coulomb = std::get_if<materials::MohrCoulomb>(&material.law);
         if (!mohr_coulomb) {
             plan.push_back({"law of " + material.name, Use::on, "linear elastic", pointer});
@@ -27,11 +53,7 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
         }
         plan.push_back(
             {"law of " + material.name, Use::on, "Mohr-Coulomb with tension cut-off", pointer});
-        plan.push_back({"softening of " + material.name,
-                        mohr_coulomb->softening ? Use::on : Use::left_out,
-                        mohr_coulomb->softening ? "strength falls with epsilon_q"
-                                                : "the law has none: its strength is constant",
-                        pointer + "/softening"});
+        plan_softening(scene, material.name, *mohr_coulomb, plan);
     }
     plan.push_back({"dispatch of laws", scene.materials.size() > 1 ? Use::on : Use::left_out,
                     scene.materials.size() > 1
@@ -41,13 +63,23 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
     plan.push_back({"pore pressure", Use::left_out, "no law of this scene uses it", "/materials"});
 }
 
+process::PlanLine plan_kernel(const scene::Mpm& mpm) {
+    switch (mpm.kernel) {
+        case scene::Kernel::gimp:
+            return {
+                "GIMP kernel", Use::on,
+                "half size " + text_of(mpm.gimp_half_size) + " cells, clipped at walls and floor",
+                "/mpm/kernel"};
+        case scene::Kernel::b_spline:
+            return {"quadratic B-spline kernel", Use::on, "hat functions beside walls and floor",
+                    "/mpm/kernel"};
+        default:
+            return {"linear kernel", Use::on, "asked for: tests only", "/mpm/kernel"};
+    }
+}
+
 void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
-    const bool gimp = mpm.kernel == scene::Kernel::gimp;
-    plan.push_back(
-        {gimp ? "GIMP kernel" : "linear kernel", Use::on,
-         gimp ? "half size " + text_of(mpm.gimp_half_size) + " cells, clipped at walls and floor"
-              : "asked for: tests only",
-         "/mpm/kernel"});
+    plan.push_back(plan_kernel(mpm));
     const bool musl = mpm.order == scene::UpdateOrder::musl;
     plan.push_back({"second momentum mapping (MUSL)", musl ? Use::on : Use::left_out,
                     musl ? "asked for" : "usl: the gradient comes from the nodes' new velocities",
@@ -59,6 +91,12 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
                     averages ? "volumetric increment and mean stress averaged per cell and material"
                              : "switched off",
                     "/mpm/anti_locking"});
+    const bool corrects = mpm.overlap_correction.rate > 0.0;
+    plan.push_back({"overlap correction", corrects ? Use::on : Use::left_out,
+                    corrects ? "rate " + text_of(mpm.overlap_correction.rate) + " 1/s beyond " +
+                                   text_of(mpm.overlap_correction.tolerance)
+                             : "rate 0: overlap is measured only",
+                    "/mpm/overlap_correction/rate"});
     plan.push_back({"stiffness scaling", mpm.stiffness_scale != 1.0 ? Use::on : Use::left_out,
                     "factor " + text_of(mpm.stiffness_scale) + " on every E",
                     "/mpm/stiffness_scale"});

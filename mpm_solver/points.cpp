@@ -12,10 +12,21 @@ mechanics::Elasticity scaled(mechanics::Elasticity elasticity, double scale) {
     return elasticity;
 }
 
-ReadyLaw ready_law(const materials::Law& law, double stiffness_scale) {
+/// A band of shear is about a cell wide: with strains in proportion to 1 / h it dissipates the same
+/// whatever the cells.
+void scale_softening(materials::MohrCoulomb& law, const scene::Mpm& mpm) {
+    if (!law.softening || !mpm.softening_length) return;
+    const double scale = *mpm.softening_length / mpm.cell_size;
+    law.softening->epsilon_q_start *= scale;
+    law.softening->epsilon_q_end *= scale;
+}
+void scale_softening(materials::LinearElastic&, const scene::Mpm&) {}
+
+ReadyLaw ready_law(const materials::Law& law, const scene::Mpm& mpm) {
     return std::visit(
         [&](auto each) -> ReadyLaw {
-            each.elasticity = scaled(each.elasticity, stiffness_scale);
+            each.elasticity = scaled(each.elasticity, mpm.stiffness_scale);
+            scale_softening(each, mpm);
             return materials::ready(each);
         },
         law);
@@ -36,9 +47,10 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
     const bool opens = std::holds_alternative<materials::MohrCoulomb>(soil.law);
     Zone zone{
         .material = soil.name,
-        .law = ready_law(soil.law, mpm.stiffness_scale),
+        .law = ready_law(soil.law, mpm),
         .elasticity = scaled(materials::elasticity(soil.law), mpm.stiffness_scale),
         .volume_rule = opens && mpm.gap_closure ? VolumeRule::from_stress : VolumeRule::tracked,
+        .viscosity = soil.viscosity,
         .begin = begin,
         .end = end};
     zone.largest_specific_volume = largest_specific_volume(points, zone);

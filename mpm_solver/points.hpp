@@ -25,9 +25,10 @@ struct Points {
     std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
     std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
     std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
-    std::vector<std::int32_t> region;        ///< index into Section::regions
-    std::vector<std::int32_t> number;        ///< place in the input: outputs keep its order
-    std::vector<std::int32_t> cell;          ///< cell at the start of the step
+    std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-]
+    std::vector<std::int32_t> region;  ///< index into Section::regions
+    std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
+    std::vector<std::int32_t> cell;    ///< cell at the start of the step
 
     std::size_t size() const { return x.size(); }
     void resize(std::size_t n);
@@ -45,7 +46,7 @@ void for_each_real(AnyPoints& points, Visit&& visit) {
     visit("sxx", points.sxx), visit("syy", points.syy);
     visit("szz", points.szz), visit("sxy", points.sxy);
     visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
-    visit("gap", points.gap);
+    visit("gap", points.gap), visit("excess", points.excess);
 }
 
 template <class AnyPoints, class Visit>
@@ -67,6 +68,7 @@ struct Zone {
     ReadyLaw law;  ///< E already scaled
     mechanics::Elasticity elasticity;
     VolumeRule volume_rule;
+    double viscosity;  ///< eta [Pa s]
     std::size_t begin;
     std::size_t end;
     double largest_specific_volume = 0.0;  ///< max V / m, for the wave speed [m3/kg]

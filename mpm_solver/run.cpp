@@ -20,26 +20,12 @@ constexpr const char* checkpoint_name = "checkpoint.h5";
 
 void log_sampling(const std::vector<SampledRegion>& regions) {
     for (const SampledRegion& region : regions) {
-        spdlog::info("region {}: {} points sample {:.6f} m2 of the polygon's {:.6f} m2",
-                     region.name, region.points, region.sampled_area, region.polygon_area);
-    }
-}
-
-void log_input(const scene::Scene& scene, const exchange::ParticleState& state) {
-    for (std::size_t r = 0; r < state.regions.size(); ++r) {
-        double volume = 0.0;
-        std::size_t points = 0;
-        for (std::size_t p = 0; p < state.size(); ++p) {
-            if (static_cast<std::size_t>(state.region[p]) != r) continue;
-            volume += state.volume[p];
-            ++points;
-        }
-        double area = 0.0;
-        for (const scene::Region& region : scene.section.regions) {
-            if (region.name == state.regions[r]) area = scene::area(region.polygon);
-        }
-        spdlog::info("region {}: {} points hold {:.6f} m2, its polygon had {:.6f} m2",
-                     state.regions[r], points, volume / state.thickness, area);
+        spdlog::log(
+            is_faithful(region) ? spdlog::level::info : spdlog::level::warn,
+            "region {}: {} points hold {:.6f} m2 of the polygon's {:.6f} m2, their centroid "
+            "lies at {:.4f} m, the polygon's at {:.4f} m",
+            region.name, region.points, region.sampled_area, region.polygon_area,
+            region.sampled_level, region.polygon_level);
     }
 }
 
@@ -53,7 +39,7 @@ Simulation begin(const Session& session) {
     }
     const exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
     const std::string source = session.input().string();
-    log_input(scene, state);
+    log_sampling(sampling_of(scene, state));
     return {scene, make_body(scene, zoned_points(scene, state, source), source),
             state.transfer_time};
 }
@@ -138,6 +124,8 @@ json energy_json(const Simulation& simulation, const Row& row) {
             {"elastic_change", entry(now.elastic - start.elastic)},
             {"plastic", entry(now.plastic)},
             {"friction", entry(now.friction)},
+            {"viscous", entry(now.viscous)},
+            {"overlap_correction", entry(row.overlap_energy)},
             {"numerical", entry(row.energy_numerical)}};
 }
 

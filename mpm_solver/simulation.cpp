@@ -42,6 +42,9 @@ void Simulation::advance() {
     if (body_.points.size() >= least_points_to_sort && clock_.step % steps_between_sorts == 0) {
         sorter_.sort(body_);
     }
+    if (mpm_.overlap_correction.rate > 0.0 && clock_.step % steps_between_marks == 0) {
+        overlap_.mark(body_, mpm_.overlap_correction.tolerance);
+    }
     const double dt = next_step();
     step(body_, dt);
     clock_.dt_min = clock_.step == 0 ? dt : std::min(clock_.dt_min, dt);
@@ -79,10 +82,12 @@ const Row& Simulation::look() {
          .elastic_energy = now.elastic,
          .plastic_dissipation = now.plastic,
          .friction_dissipation = now.friction,
+         .viscous_dissipation = now.viscous,
          .energy_numerical = numerical_loss(start_.energy, now),
          .energy_numerical_share = numerical_share(start_.energy, now),
          .volume_ratio = start_.mobile_volume > 0.0 ? volume / start_.mobile_volume : 1.0,
          .overlap = overlap_.measure(body_),
+         .overlap_energy = body_.tally.pushed_in,
          .fastest = body_.tally.fastest});
     const Row& row = history_.back();
     if (const auto complaint = budget_complaint(limits_, start_.energy, now, row.volume_ratio)) {

@@ -27,8 +27,11 @@ void grid_to_particle(Body& body, double dt);
 template <class Kernel, scene::AntiLocking anti_locking>
 void map_again(Body& body, double dt);
 
+/// Is the points' `excess` overlap pushed apart?
+enum class Overlap { left_alone, corrected };
+
 /// Strain increment, rotation, law, anti-locking and volume of every zone.
-template <scene::AntiLocking anti_locking>
+template <scene::AntiLocking anti_locking, Overlap overlap>
 void update_stress(Body& body, double dt);
 
 }  // namespace breach::mpm

@@ -3,6 +3,7 @@
 
 #include "mpm_solver/step.hpp"
 #include "mpm_solver/turn.hpp"
+#include "mpm_solver/viscosity.hpp"
 
 namespace breach::mpm {
 
@@ -57,17 +58,25 @@ void turn_rates_to_averages(CellAverages& averages) {
     }
 }
 
-/// The law at every point of the zone; returns the plastic work [J].
-template <AntiLocking anti_locking, class Law>
-double integrate_zone(Points& points, const Zone& zone, CellAverages* averages, const Law& law,
-                      double dt) {
+/// The law at every point of the zone; adds to the tally what it dissipates.
+template <AntiLocking anti_locking, Overlap overlap, class Law>
+void integrate_zone(Body& body, const Zone& zone, CellAverages* averages, const Law& law,
+                    double dt) {
+    Points& points = body.points;
     constexpr bool opens = std::is_same_v<Law, materials::ReadyMohrCoulomb>;
     const bool closes_gaps = zone.volume_rule == VolumeRule::from_stress;
     double plastic_work = 0.0;
+    double pushed_in = 0.0;
     for (std::size_t p = zone.begin; p < zone.end; ++p) {
         double d_epsilon_v = (points.Lxx[p] + points.Lyy[p]) * dt;
         if constexpr (anti_locking == AntiLocking::on) {
             d_epsilon_v = averages->sums[points.cell[p]].trD * dt;
+        }
+        // The law is told of a compression that the soil's points do not show.
+        if constexpr (overlap == Overlap::corrected) {
+            const double hidden = body.overlap_rate * points.excess[p] * dt;
+            d_epsilon_v -= hidden;
+            pushed_in -= points.V[p] * mean_stress(points, p) * hidden;
         }
         points.volume[p] *= 1.0 + d_epsilon_v;
         if (opens && closes_gaps) d_epsilon_v = close_gap(points.gap[p], d_epsilon_v);
@@ -88,7 +97,8 @@ double integrate_zone(Points& points, const Zone& zone, CellAverages* averages, 
             }
         }
     }
-    return plastic_work;
+    body.tally.plastic += plastic_work;
+    body.tally.pushed_in += pushed_in;
 }
 
 void average_mean_stress(Points& points, const Zone& zone, CellAverages& averages) {
@@ -125,7 +135,7 @@ void update_volumes(Points& points, Zone& zone) {
 
 }  // namespace
 
-template <AntiLocking anti_locking>
+template <AntiLocking anti_locking, Overlap overlap>
 void update_stress(Body& body, double dt) {
     for (std::size_t z = 0; z < body.zones.size(); ++z) {
         Zone& zone = body.zones[z];
@@ -134,9 +144,10 @@ void update_stress(Body& body, double dt) {
             averages = &body.averages[z];
             turn_rates_to_averages(*averages);
         }
-        body.tally.plastic += std::visit(
+        if (zone.viscosity > 0.0) body.tally.viscous += viscous_work(body.points, zone, dt);
+        std::visit(
             [&](const auto& law) {
-                return integrate_zone<anti_locking>(body.points, zone, averages, law, dt);
+                integrate_zone<anti_locking, overlap>(body, zone, averages, law, dt);
             },
             zone.law);
         if constexpr (anti_locking == AntiLocking::on) {
@@ -146,7 +157,9 @@ void update_stress(Body& body, double dt) {
     }
 }
 
-template void update_stress<AntiLocking::on>(Body&, double);
-template void update_stress<AntiLocking::off>(Body&, double);
+template void update_stress<AntiLocking::on, Overlap::left_alone>(Body&, double);
+template void update_stress<AntiLocking::off, Overlap::left_alone>(Body&, double);
+template void update_stress<AntiLocking::on, Overlap::corrected>(Body&, double);
+template void update_stress<AntiLocking::off, Overlap::corrected>(Body&, double);
 
 }  // namespace breach::mpm

@@ -412,6 +412,11 @@ void read_transfer(Reader& reader, Scene& scene) {
 void read_mpm(Reader& reader, Scene& scene) {
     if (!reader.sound("/mpm")) return;
     const json& mpm = reader.document().at("mpm");
+Kernel kernel_from(const std::string& text) {
+    if (text == "gimp") return Kernel::gimp;
+    return text == "b_spline" ? Kernel::b_spline : Kernel::linear;
+}
+
     Mpm result{};
     result.cell_size = mpm.at("cell_size");
     result.domain_x = range_from(mpm.at("domain_x"));
@@ -427,7 +432,7 @@ void read_mpm(Reader& reader, Scene& scene) {
         reader.add("/mpm/floor/friction/" + std::to_string(result.floor.friction.size() - 1),
                    "ends before it begins", "give from < to");
     }
-    result.kernel = mpm.at("kernel") == "gimp" ? Kernel::gimp : Kernel::linear;
+    result.kernel = kernel_from(mpm.at("kernel"));
     result.gimp_half_size = mpm.at("gimp_half_size");
     result.order = mpm.at("order") == "usl" ? UpdateOrder::usl : UpdateOrder::musl;
     result.blending_rate = mpm.at("blending_rate");
@@ -436,6 +441,11 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.stiffness_scale = mpm.at("stiffness_scale");
     if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
     result.cfl = mpm.at("cfl");
+    result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
+                                 mpm.at("overlap_correction").at("tolerance")};
+    if (mpm.contains("softening_length")) {
+        result.softening_length = mpm.at("softening_length").get<double>();
+    }
     result.duration = mpm.at("duration");
     result.rest_change = mpm.at("rest_change");
     result.rest_window = mpm.at("rest_window");

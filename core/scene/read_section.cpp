@@ -172,7 +172,8 @@ void read_materials(Reader& reader, Scene& scene) {
         if (!reader.sound(pointer)) continue;
         scene.materials.push_back({.name = name,
                                    .density = material.at("density"),
-                                   .law = law_from(reader, material.at("law"), pointer + "/law")});
+                                   .law = law_from(reader, material.at("law"), pointer + "/law"),
+                                   .viscosity = material.at("viscosity")});
     }
 }
 

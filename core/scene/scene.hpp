@@ -20,6 +20,7 @@ struct Material {
     std::string name;
     double density;  ///< [kg/m3]
     materials::Law law;
+    double viscosity = 0.0;  ///< mpm: Newtonian stress beside the law's, 2 eta dev D [Pa s]
 };
 
 /// How a region is meshed: a block mapped between four of its vertices, or unstructured quads.
@@ -220,7 +221,7 @@ struct Transfer {
 
 // ---------------------------------------------------------------- mpm_solver
 
-enum class Kernel { gimp, linear };
+enum class Kernel { gimp, b_spline, linear };
 enum class UpdateOrder { usl, musl };
 enum class AntiLocking { on, off };
 enum class Wall { roller, fixed, open };
@@ -244,6 +245,13 @@ struct Runout {
 
 struct Mpm {
     double cell_size;                ///< [m]
+/// Soil that lies on soil is pushed apart: the volume rate of a point gets -rate max(0, fill - 1 -
+/// tolerance).
+struct OverlapCorrection {
+    double rate = 0.0;       ///< 0: none [1/s]
+    double tolerance = 0.1;  ///< [-]
+};
+
     std::array<double, 2> domain_x;  ///< [m]
     std::array<double, 2> domain_y;  ///< [m]
     Wall left;
@@ -262,6 +270,9 @@ struct Mpm {
     double rest_change;               ///< the front moved less than this over rest_window: stop [m]
     double rest_window;               ///< [s]
     double rest_earliest;             ///< never stop before [s]
+    OverlapCorrection overlap_correction{};
+    std::optional<double>
+        softening_length{};           ///< softening strains are those of cells this long [m]
     Runout runout;
     double snapshot_interval;    ///< [s]
     double telemetry_interval;   ///< [s]

@@ -27,6 +27,21 @@ TEST(Fill, AreaAndCentroidAreThePolygons) {
     }
 }
 
+TEST(Fill, LevelsAreCheckedAgainstThePolygon) {
+    const scene::Polygon pond{{0.0, 0.0}, {8.0, 0.0}, {8.0, 5.88}, {0.0, 5.88}};
+    const scene::Scene scene = one_soil(elastic(1e6, 0.3), 1000.0, pond, 1.0, 8.0, 8.0);
+    FilledSection filled = fill_section(scene);
+    EXPECT_NEAR(filled.regions.at(0).polygon_level, 2.94, 1e-12);
+    EXPECT_NEAR(filled.regions.at(0).sampled_level, 2.94, 1e-12);
+    EXPECT_TRUE(is_faithful(filled.regions.at(0)));
+    for (auto& x : filled.state.position)
+        x.y() *= 1.03;  // 3 % of the head, half of it at the centroid
+    EXPECT_FALSE(is_faithful(sampling_of(scene, filled.state).at(0)));
+    for (auto& x : filled.state.position) x.y() /= 1.03;
+    for (double& volume : filled.state.volume) volume *= 0.98;
+    EXPECT_FALSE(is_faithful(sampling_of(scene, filled.state).at(0)));
+}
+
 TEST(Fill, CellsOfARectangleGetTheirGaussLikeLattice) {
     const scene::Scene scene =
         one_soil(elastic(1e6, 0.3), 2000.0, rectangle(1, 0, 3, 1), 1.0, 4.0, 2.0);

@@ -41,6 +41,28 @@ TEST(Kernel, GimpSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
     for (const double l : {0.1, 0.25, 0.5}) expect_complete(GimpKernel(l));
 }
 
+TEST(Kernel, BSplineSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
+    expect_complete(BSplineKernel{});
+}
+
+TEST(Kernel, BSplineAndItsSlopeAreContinuousUpToTheWalls) {
+    const BSplineKernel kernel;
+    const auto at = [&](double xi, int node, auto part) {
+        const Stencil s = kernel(xi, walls);
+        const int i = node - s.first;
+        return i >= 0 && i < 3 ? part(s, i) : 0.0;
+    };
+    const auto weight = [](const Stencil& s, int i) { return s.N[i]; };
+    const auto slope = [](const Stencil& s, int i) { return s.dN[i]; };
+    for (int node = 1; node <= 7; ++node) {
+        for (int k = 0; k < 6000; ++k) {
+            const double xi = 1.0 + k / 1000.0;
+            EXPECT_NEAR(at(xi, node, weight), at(xi + 1e-3, node, weight), 1.1e-3) << xi;
+            EXPECT_NEAR(at(xi, node, slope), at(xi + 1e-3, node, slope), 2.1e-3) << xi;
+        }
+    }
+}
+
 TEST(Kernel, LinearSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
     expect_complete(LinearKernel{});
 }

@@ -35,6 +35,8 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
     EXPECT_EQ(a.clock().dt_min, b.clock().dt_min);
     EXPECT_EQ(a.body().tally.plastic, b.body().tally.plastic);
     EXPECT_EQ(a.body().tally.friction, b.body().tally.friction);
+    EXPECT_EQ(a.body().tally.viscous, b.body().tally.viscous);
+    EXPECT_EQ(a.body().tally.pushed_in, b.body().tally.pushed_in);
     std::vector<const std::vector<double>*> arrays;
     for_each_real(a.body().points,
                   [&](const char*, const auto& values) { arrays.push_back(&values); });
@@ -51,6 +53,8 @@ class Resume : public testing::TestWithParam<scene::UpdateOrder> {};
 TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
     scene::Scene scene = heap();
     scene.mpm->order = GetParam();
+    scene.materials[0].viscosity = 100.0;
+    scene.mpm->overlap_correction = {.rate = 5.0, .tolerance = 0.0};
     const exchange::Provenance provenance{
         .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
     const auto file = std::filesystem::temp_directory_path() /

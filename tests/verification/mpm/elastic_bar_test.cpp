@@ -62,6 +62,13 @@ TEST(ElasticBar, KeepsItsEnergyWithGimpUsl) {
 TEST(ElasticBar, KeepsItsEnergyWithGimpMusl) {
     expect_swing("gimp musl", bar(scene::Kernel::gimp, scene::UpdateOrder::musl, 0.1), 0.05);
 }
+TEST(ElasticBar, KeepsItsEnergyWithBSplineUsl) {
+    expect_swing("b_spline usl", bar(scene::Kernel::b_spline, scene::UpdateOrder::usl, 0.1), 0.05);
+}
+TEST(ElasticBar, KeepsItsEnergyWithBSplineMusl) {
+    expect_swing("b_spline musl", bar(scene::Kernel::b_spline, scene::UpdateOrder::musl, 0.1),
+                 0.05);
+}
 TEST(ElasticBar, KeepsItsEnergyWithLinearUsl) {
     expect_swing("linear usl", bar(scene::Kernel::linear, scene::UpdateOrder::usl, 0.1), 0.05);
 }

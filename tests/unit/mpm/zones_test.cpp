@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/mpm/bodies.hpp"
+
+namespace breach::mpm::test {
+namespace {
+
+scene::Scene softening_soil() {
+    scene::Scene scene =
+        one_soil(sand(1e7, 0.3, 20e3, 30.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 8.0, 6.0);
+    std::get<materials::MohrCoulomb>(scene.materials[0].law).softening = materials::Softening{
+        .epsilon_q_start = 0.02, .epsilon_q_end = 0.1, .c_residual = 2e3, .tan_phi_residual = 0.1};
+    return scene;
+}
+
+materials::Softening softening_of(const scene::Scene& scene) {
+    const Body body = filled_body(scene);
+    return *std::get<materials::ReadyMohrCoulomb>(body.zones.at(0).law).law.softening;
+}
+
+TEST(Zones, SofteningStrainsAreTakenAsTheyStandWithoutALength) {
+    EXPECT_EQ(softening_of(softening_soil()).epsilon_q_start, 0.02);
+    EXPECT_EQ(softening_of(softening_soil()).epsilon_q_end, 0.1);
+}
+
+TEST(Zones, SofteningStrainsGrowAsTheCellsShrink) {
+    scene::Scene scene = softening_soil();
+    scene.mpm->softening_length = 1.25;  // cells of 0.5 m: 2.5 times the strain
+    EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_start, 0.05);
+    EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end, 0.25);
+    EXPECT_EQ(softening_of(scene).c_residual, 2e3);
+    // At any strain the displacement across a band one cell wide is the same: epsilon h.
+    scene.mpm->cell_size = 0.25;
+    EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end * 0.25, 0.25 * 0.5);
+}
+
+TEST(Zones, ViscosityIsTheMaterialsAndShortensTheStep) {
+    scene::Scene scene = softening_soil();
+    const double dt = courant_step(filled_body(scene), 0.4);
+    scene.materials[0].viscosity = 3e4;
+    const Body body = filled_body(scene);
+    EXPECT_EQ(body.zones.at(0).viscosity, 3e4);
+    // 1 / dt grows by 16 eta / (3 rho h^2) / cfl.
+    EXPECT_NEAR(1.0 / courant_step(body, 0.4) - 1.0 / dt, 16.0 * 3e4 / (3.0 * 1800.0 * 0.25) / 0.4,
+                1e-6);
+}
+
+}  // namespace
+}  // namespace breach::mpm::test
