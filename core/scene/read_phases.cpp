@@ -409,14 +409,14 @@ void read_transfer(Reader& reader, Scene& scene) {
     };
 }
 
-void read_mpm(Reader& reader, Scene& scene) {
-    if (!reader.sound("/mpm")) return;
-    const json& mpm = reader.document().at("mpm");
 Kernel kernel_from(const std::string& text) {
     if (text == "gimp") return Kernel::gimp;
     return text == "b_spline" ? Kernel::b_spline : Kernel::linear;
 }
 
+void read_mpm(Reader& reader, Scene& scene) {
+    if (!reader.sound("/mpm")) return;
+    const json& mpm = reader.document().at("mpm");
     Mpm result{};
     result.cell_size = mpm.at("cell_size");
     result.domain_x = range_from(mpm.at("domain_x"));
@@ -438,14 +438,14 @@ Kernel kernel_from(const std::string& text) {
     result.blending_rate = mpm.at("blending_rate");
     result.anti_locking = mpm.at("anti_locking") == "on" ? AntiLocking::on : AntiLocking::off;
     result.gap_closure = mpm.at("gap_closure");
-    result.stiffness_scale = mpm.at("stiffness_scale");
-    if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
-    result.cfl = mpm.at("cfl");
     result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
                                  mpm.at("overlap_correction").at("tolerance")};
     if (mpm.contains("softening_length")) {
         result.softening_length = mpm.at("softening_length").get<double>();
     }
+    result.stiffness_scale = mpm.at("stiffness_scale");
+    if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
+    result.cfl = mpm.at("cfl");
     result.duration = mpm.at("duration");
     result.rest_change = mpm.at("rest_change");
     result.rest_window = mpm.at("rest_window");

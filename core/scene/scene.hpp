@@ -238,13 +238,6 @@ struct Floor {
     std::vector<FrictionZone> friction;  ///< ascending in x, empty: fixed (no slip)
 };
 
-struct Runout {
-    Vec2 toe;
-    std::vector<std::string> regions;  ///< mobile regions that count; empty: all
-};
-
-struct Mpm {
-    double cell_size;                ///< [m]
 /// Soil that lies on soil is pushed apart: the volume rate of a point gets -rate max(0, fill - 1 -
 /// tolerance).
 struct OverlapCorrection {
@@ -252,6 +245,13 @@ struct OverlapCorrection {
     double tolerance = 0.1;  ///< [-]
 };
 
+struct Runout {
+    Vec2 toe;
+    std::vector<std::string> regions;  ///< mobile regions that count; empty: all
+};
+
+struct Mpm {
+    double cell_size;                ///< [m]
     std::array<double, 2> domain_x;  ///< [m]
     std::array<double, 2> domain_y;  ///< [m]
     Wall left;
@@ -263,6 +263,9 @@ struct OverlapCorrection {
     double blending_rate;  ///< affine PIC rate beta [1/s]
     AntiLocking anti_locking;
     bool gap_closure;
+    OverlapCorrection overlap_correction{};
+    std::optional<double>
+        softening_length{};           ///< softening strains are those of cells this long [m]
     double stiffness_scale;           ///< factor on E, reported [-]
     std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
     double cfl;                       ///< [-]
@@ -270,9 +273,6 @@ struct OverlapCorrection {
     double rest_change;               ///< the front moved less than this over rest_window: stop [m]
     double rest_window;               ///< [s]
     double rest_earliest;             ///< never stop before [s]
-    OverlapCorrection overlap_correction{};
-    std::optional<double>
-        softening_length{};           ///< softening strains are those of cells this long [m]
     Runout runout;
     double snapshot_interval;    ///< [s]
     double telemetry_interval;   ///< [s]
