@@ -81,11 +81,12 @@ void TriggerWatch::load_open_triggers() {
     const auto is_open = [&](const Armed& armed) {
         return std::ranges::find(open, armed.trigger.id, &Trigger::id) != open.end();
     };
-    std::erase_if(fems_, [&](auto& entry) {
-        std::erase_if(entry.second.armed, [&](const Armed& each) { return !is_open(each); });
-        if (!entry.second.armed.empty()) return false;
-        watch_.remove(entry.second.watch);
-        return true;
+    for (auto& [id, fem] : fems_)
+        std::erase_if(fem.armed, [&](const Armed& each) { return !is_open(each); });
+    std::erase_if(fems_, [&](const auto& entry) {
+        const Fem& fem = entry.second;
+        if (fem.armed.empty()) watch_.remove(fem.watch);
+        return fem.armed.empty();
     });
     for (const Trigger& trigger : open) {
         auto found = fems_.find(trigger.fem_task);

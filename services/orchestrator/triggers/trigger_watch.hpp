@@ -48,11 +48,11 @@ class TriggerWatch {
         std::filesystem::path output;
         TelemetryTail tail;
         int watch = -1;
-        std::vector<nlohmann::json> lines;  ///< all so far, for triggers that come later
-        std::vector<Armed> armed;
+        std::vector<nlohmann::json> lines = {};  ///< all so far, for triggers that come later
+        std::vector<Armed> armed = {};
         bool ended = false;
         bool regular = false;  ///< takes snapshots at an interval
-        std::vector<Snapshot> snapshots;
+        std::vector<Snapshot> snapshots = {};
         std::chrono::steady_clock::time_point asked{};
     };
 
