@@ -110,6 +110,7 @@ void Analysis::begin_stage(const Stage& stage) {
         position_.moving = true;
         motion_.u.setZero();
         std::ranges::fill(motion_.strain, Voigt::Zero());
+        for (Hourglass& each : motion_.hourglass) each.energy = 0.0;
     }
     start_motion(*newton_, model_, laws_, motion_, trial_);
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);

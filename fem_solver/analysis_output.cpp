@@ -114,6 +114,33 @@ void Analysis::give_up(const std::string& cause) {
                            " s in " + snapshot_name(position_.time));
 }
 
+namespace {
+
+/// Energy and stress that the stabilisation of single-point quads carries. The stress is the
+/// largest nodal hourglass force per side length, of the worst element.
+nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double internal_work) {
+    double energy = 0.0, largest = 0.0;
+    std::size_t worst = 0;
+    for (std::size_t e = 0; e < motion.hourglass.size(); ++e) {
+        const Hourglass& each = motion.hourglass[e];
+        energy += each.energy;
+        const double force = model.hourglass[e].gamma.cwiseAbs().maxCoeff() * each.force.norm();
+        const double stress = force / std::sqrt(model.volume[e] * model.thickness);
+        if (stress <= largest) continue;
+        largest = stress;
+        worst = e;
+    }
+    const double mean_stress = motion.points[worst].sigma.head<3>().sum() / 3.0;
+    return {{"energy", energy},
+            {"energy_over_internal_work",
+             internal_work != 0.0 ? energy / std::abs(internal_work) : 0.0},
+            {"largest_stress", largest},
+            {"mean_stress_there", mean_stress},
+            {"element", worst}};
+}
+
+}  // namespace
+
 void Analysis::report_facts(const std::string& end) {
     const Quality quality = quality_of(model_.mesh);
     double largest = 0.0;
@@ -137,6 +164,9 @@ void Analysis::report_facts(const std::string& end) {
                      {"smallest_angle_deg", quality.smallest_angle * 180.0 / std::numbers::pi},
                      {"largest_aspect", quality.largest_aspect},
                      {"least_jacobian", quality.least_jacobian}};
+    if (!motion_.hourglass.empty()) {
+        facts["hourglass"] = hourglass_facts(model_, motion_, position_.internal_work);
+    }
     facts["seconds"] = {{"assembly", seconds_.assembly},
                         {"law", seconds_.law},
                         {"solve", seconds_.solve},

@@ -56,6 +56,11 @@ void put(exchange::Archive& archive, const Motion& motion) {
     archive.reals["stress"] = std::move(stress);
     archive.reals["epsilon_q"] = std::move(epsilon_q);
     archive.reals["strain"] = std::move(strain);
+    if (motion.hourglass.empty()) return;
+    Reals& hourglass = archive.reals["hourglass"];
+    for (const Hourglass& h : motion.hourglass) {
+        hourglass.insert(hourglass.end(), {h.force.x(), h.force.y(), h.c_s, h.energy});
+    }
 }
 
 Motion motion_from(const exchange::Archive& archive) {
@@ -70,6 +75,11 @@ Motion motion_from(const exchange::Archive& archive) {
     for (std::size_t p = 0; p < epsilon_q.size(); ++p) {
         motion.points.push_back({Voigt(&stress.at(4 * p)), epsilon_q[p]});
         motion.strain.push_back(Voigt(&strain.at(4 * p)));
+    }
+    if (!archive.reals.contains("hourglass")) return motion;
+    const Reals& h = archive.reals.at("hourglass");
+    for (std::size_t i = 0; i + 3 < h.size(); i += 4) {
+        motion.hourglass.push_back({Vec2(h[i], h[i + 1]), h[i + 2], h[i + 3]});
     }
     return motion;
 }

@@ -1,6 +1,8 @@
 #include "fem_solver/internal_force.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -43,18 +45,28 @@ Stopwatch::Stopwatch(double& total) : total_(total), began_(now()) {}
 Stopwatch::~Stopwatch() { total_ += now() - began_; }
 
 InternalForce::InternalForce(const Model& model, Seconds& seconds)
-    : model_(model), seconds_(seconds) {
+    : model_(model), points_(model.points_per_element), seconds_(seconds) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     if (model.kinematics == scene::Kinematics::updated_lagrangian) {
         half_angle_.resize(model.points());
         current_.resize(model.mesh.quads.size());
         gradients_.resize(model.mesh.quads.size());
+        hourglass_ = model.hourglass;
+    }
+    d_q_.resize(model.hourglass.size());
+    for (const Zone& zone : model.zones) {
+        const double G = materials::elasticity(zone.law).shear_modulus();
+        elastic_c_s_.insert(elastic_c_s_.end(), d_q_.empty() ? 0 : zone.count, 4.0 * G);
     }
 }
 
 const Quadrature& InternalForce::quadrature(std::size_t element) const {
     return current_.empty() ? model_.reference[element] : current_[element];
+}
+
+const SspGeometry& InternalForce::hourglass(std::size_t element) const {
+    return hourglass_.empty() ? model_.hourglass[element] : hourglass_[element];
 }
 
 Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
@@ -68,9 +80,10 @@ Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
     for (std::size_t e = 0; e < elements; ++e) {
         const Quad& quad = model_.mesh.quads[e];
         const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
-        for (std::size_t g = 0; g < gauss_points; ++g) {
-            d_epsilon_[e * gauss_points + g] = strain_of(model_.reference[e].B[g], d_u);
+        for (std::size_t g = 0; g < points_; ++g) {
+            d_epsilon_[e * points_ + g] = strain_of(model_.reference[e].B[g], d_u);
         }
+        if (!d_q_.empty()) d_q_[e] = hourglass_amplitude(model_.hourglass[e], d_u);
     }
     return Geometry::sound;
 }
@@ -86,33 +99,41 @@ Geometry InternalForce::moving_strains(std::size_t element, const Motion& old,
     const Corners middle = end - 0.5 * Eigen::Map<const Corners>(d_u.data());
     Gradients& gradients = gradients_[element];
     Quadrature& current = current_[element];
-    evaluate_gradients(middle, model_.thickness, gradients);
-    for (const double weight : gradients.weight) {
-        if (!(weight > 0.0)) return Geometry::degenerate;
-    }
-    evaluate_quadrature(gradients, current);
-    for (std::size_t g = 0; g < gauss_points; ++g) {
-        const std::size_t p = element * gauss_points + g;
+    if (evaluate_element(element, middle) == Geometry::degenerate) return Geometry::degenerate;
+    if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(hourglass_[element], d_u);
+    for (std::size_t g = 0; g < points_; ++g) {
+        const std::size_t p = element * points_ + g;
         d_epsilon_[p] = strain_of(current.B[g], d_u);
         const Matrix2 L = Eigen::Map<const Corners>(d_u.data()) * gradients.dN[g].transpose();
         const Matrix2 half = 0.5 * L;
         const Matrix2 F = (Matrix2::Identity() - half).inverse() * (Matrix2::Identity() + half);
         half_angle_[p] = 0.5 * mechanics::rotation_angle(F);
     }
-    evaluate_gradients(end, model_.thickness, gradients);
+    return evaluate_element(element, end);
+}
+
+/// Gradients and quadrature on the moving mesh.
+Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) {
+    Gradients& gradients = gradients_[element];
+    evaluate_gradients(x, model_.thickness, gradients);
     for (const double weight : gradients.weight) {
         if (!(weight > 0.0)) return Geometry::degenerate;
     }
-    evaluate_quadrature(gradients, current);
+    if (hourglass_.empty()) {
+        evaluate_quadrature(gradients, current_[element]);
+    } else {
+        evaluate_ssp(x, model_.thickness, hourglass_[element]);
+        use_centre_only(hourglass_[element], gradients, current_[element]);
+    }
     return Geometry::sound;
 }
 
 template <typename Law>
 void InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
                                    Motion& trial) {
-    const std::size_t end = (zone.first + zone.count) * gauss_points;
+    const std::size_t end = (zone.first + zone.count) * points_;
     const bool turns = !half_angle_.empty();
-    for (std::size_t p = zone.first * gauss_points; p < end; ++p) {
+    for (std::size_t p = zone.first * points_; p < end; ++p) {
         if (!turns) {
             trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
             continue;
@@ -128,10 +149,10 @@ void InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motio
 template <typename Law>
 void InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
                                                 Motion& trial) {
-    const std::size_t end = (zone.first + zone.count) * gauss_points;
+    const std::size_t end = (zone.first + zone.count) * points_;
     const bool turns = !half_angle_.empty();
     Matrix4 D;
-    for (std::size_t p = zone.first * gauss_points; p < end; ++p) {
+    for (std::size_t p = zone.first * points_; p < end; ++p) {
         State start = old.points[p];
         if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
         State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
@@ -155,16 +176,53 @@ void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
     }
 }
 
+/// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
+/// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
+/// element. H of the end configuration stands for that of the middle, as in the tangent.
+void InternalForce::hourglass_pass(const Motion& old, Motion& trial) const {
+    for (std::size_t e = 0; e < d_q_.size(); ++e) {
+        const Hourglass& before = old.hourglass[e];
+        Hourglass& after = trial.hourglass[e];
+        Matrix2 half = Matrix2::Identity();
+        if (!half_angle_.empty()) half = Eigen::Rotation2Dd(half_angle_[e]).toRotationMatrix();
+        const Vec2 start = half * before.force;
+        const Vec2 end = start + before.c_s * (hourglass(e).H * d_q_[e]);
+        after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
+        after.force = half * end;
+        after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
+    }
+}
+
+/// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stresses s
+/// = (s_xx - s_yy, 2 s_xy) that go with it. A step without shear tells nothing and keeps the
+/// modulus. A floor of 2 % of the elastic one keeps the modes controlled in flowing soil.
+double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Motion& old,
+                                             const Motion& trial) const {
+    if (model_.hourglass_modulus == HourglassModulus::elastic) return now;
+    constexpr double floor = 0.02, no_strain = 1e-12;
+    const Vec2 d(d_epsilon_[e][0] - d_epsilon_[e][1], d_epsilon_[e][3]);
+    if (d.squaredNorm() < no_strain * no_strain) return now;
+    Voigt d_sigma = trial.points[e].sigma - old.points[e].sigma;
+    if (!half_angle_.empty()) {
+        d_sigma = mechanics::rotated_stress(trial.points[e].sigma, -half_angle_[e]) -
+                  mechanics::rotated_stress(old.points[e].sigma, half_angle_[e]);
+    }
+    const Vec2 s(d_sigma[0] - d_sigma[1], 2.0 * d_sigma[3]);
+    const double elastic = elastic_c_s_[e];
+    return std::clamp(2.0 * s.dot(d) / d.squaredNorm(), floor * elastic, elastic);
+}
+
 void InternalForce::force_pass(Motion& trial) const {
     trial.force.setZero();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
         const Quadrature& q = quadrature(e);
         Dofs8 f = Dofs8::Zero();
-        for (std::size_t g = 0; g < gauss_points; ++g) {
-            const Voigt& s = trial.points[e * gauss_points + g].sigma;
+        for (std::size_t g = 0; g < points_; ++g) {
+            const Voigt& s = trial.points[e * points_ + g].sigma;
             const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
             f.noalias() += q.B[g].transpose() * sigma;
         }
+        if (!d_q_.empty()) f += hourglass_forces(hourglass(e), trial.hourglass[e].force);
         for (int k = 0; k < 4; ++k) {
             const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
             trial.force.segment<2>(d) += f.segment<2>(2 * k);
@@ -172,13 +230,13 @@ void InternalForce::force_pass(Motion& trial) const {
     }
 }
 
-void InternalForce::stiffness_pass(const Motion& trial, LinearSystem& A) const {
+void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
     const bool symmetric = A.symmetry() == Symmetry::symmetric;
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
         const Quadrature& q = quadrature(e);
         Stiffness K = Stiffness::Zero();
-        for (std::size_t g = 0; g < gauss_points; ++g) {
-            const std::size_t p = e * gauss_points + g;
+        for (std::size_t g = 0; g < points_; ++g) {
+            const std::size_t p = e * points_ + g;
             Tangent C = q.weight[g] * tangent_[p];
             if (symmetric) C = (0.5 * (C + C.transpose())).eval();
             const StrainOperator CB = C * q.B[g];
@@ -196,6 +254,7 @@ void InternalForce::stiffness_pass(const Motion& trial, LinearSystem& A) const {
                 }
             }
         }
+        if (!d_q_.empty()) K += hourglass_stiffness(hourglass(e), old.hourglass[e].c_s);
         A.add_element(e, K);
     }
 }
@@ -215,6 +274,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
     }
     const Stopwatch watch(seconds_.assembly);
     accumulate_strain(old, trial);
+    hourglass_pass(old, trial);
     force_pass(trial);
     return Geometry::sound;
 }
@@ -237,8 +297,9 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
     }
     const Stopwatch watch(seconds_.assembly);
     accumulate_strain(old, trial);
+    hourglass_pass(old, trial);
     force_pass(trial);
-    stiffness_pass(trial, A);
+    stiffness_pass(old, trial, A);
     return Geometry::sound;
 }
 
@@ -251,11 +312,20 @@ Stiffness elastic_stiffness(const Quadrature& quadrature, const mechanics::Elast
     return K;
 }
 
+Stiffness elastic_stiffness(const Model& model, std::size_t element,
+                            const mechanics::Elasticity& elasticity) {
+    Stiffness K = elastic_stiffness(model.reference[element], elasticity);
+    if (!model.hourglass.empty()) {
+        K += hourglass_stiffness(model.hourglass[element], 4.0 * elasticity.shear_modulus());
+    }
+    return K;
+}
+
 void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const {
     for (const Zone& zone : model_.zones) {
         const mechanics::Elasticity& elasticity = materials::elasticity(zone.law);
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
-            A.add_element(e, factor * elastic_stiffness(model_.reference[e], elasticity));
+            A.add_element(e, factor * elastic_stiffness(model_, e, elasticity));
         }
     }
 }

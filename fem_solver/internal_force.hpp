@@ -53,27 +53,39 @@ class InternalForce {
 
     Geometry strain_pass(const Motion& old, const Motion& trial);
     Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
+    Geometry evaluate_element(std::size_t element, const Corners& x);
     template <typename Law>
     void integrate_zone(const Law& law, const Zone& zone, const Motion& old, Motion& trial);
     template <typename Law>
     void integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
                                      Motion& trial);
     void accumulate_strain(const Motion& old, Motion& trial) const;
+    void hourglass_pass(const Motion& old, Motion& trial) const;
+    double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
+                                  const Motion& trial) const;
     void force_pass(Motion& trial) const;
-    void stiffness_pass(const Motion& trial, LinearSystem& A) const;
+    void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
     const Quadrature& quadrature(std::size_t element) const;
+    const SspGeometry& hourglass(std::size_t element) const;
 
     const Model& model_;
+    const std::size_t points_;  ///< per element
     Seconds& seconds_;
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     std::vector<double>
         half_angle_;  ///< updated Lagrangian: [points] half the rotation of the step [rad]
-    std::vector<Quadrature> current_;   ///< updated Lagrangian: [elements]
-    std::vector<Gradients> gradients_;  ///< updated Lagrangian: [elements]
+    std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]
+    std::vector<Gradients> gradients_;    ///< updated Lagrangian: [elements]
+    std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
+    std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
+    std::vector<Vec2> d_q_;               ///< single point: [elements] amplitude of the step [m]
 };
 
 /// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].
 Stiffness elastic_stiffness(const Quadrature& quadrature, const mechanics::Elasticity& elasticity);
+/// The same with the hourglass part of a single-point quad.
+Stiffness elastic_stiffness(const Model& model, std::size_t element,
+                            const mechanics::Elasticity& elasticity);
 
 }  // namespace breach::fem

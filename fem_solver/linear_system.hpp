@@ -42,6 +42,9 @@ class LinearSystem {
         return {A_.valuePtr(), static_cast<std::size_t>(A_.nonZeros())};
     }
 
+    /// Lower triangle of a symmetric system, all of a general one.
+    const Eigen::SparseMatrix<double>& matrix() const { return A_; }
+
   private:
     using Sparse = Eigen::SparseMatrix<double>;
 

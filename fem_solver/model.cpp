@@ -69,12 +69,24 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
     model.nodal_mass.assign(mesh.nodes.size(), 0.0);
     model.reference.resize(mesh.quads.size());
     model.volume.resize(mesh.quads.size());
+    if (fem.element == scene::ElementKind::ssp) {
+        model.points_per_element = 1;
+        model.hourglass.resize(mesh.quads.size());
+        model.hourglass_modulus = fem.hourglass == scene::HourglassKind::elastic
+                                      ? HourglassModulus::elastic
+                                      : HourglassModulus::current;
+    }
     for (const Zone& zone : model.zones) {
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
             const Corners x = corners_of(mesh, e);
             Gradients gradients;
             evaluate_gradients(x, scene.thickness, gradients);
-            evaluate_quadrature(gradients, model.reference[e]);
+            if (fem.element == scene::ElementKind::ssp) {
+                evaluate_ssp(x, scene.thickness, model.hourglass[e]);
+                use_centre_only(model.hourglass[e], gradients, model.reference[e]);
+            } else {
+                evaluate_quadrature(gradients, model.reference[e]);
+            }
             const Eigen::Vector4d shares = nodal_volumes(x, scene.thickness);
             model.volume[e] = shares.sum();
             for (int k = 0; k < 4; ++k) {
@@ -111,6 +123,11 @@ Motion at_rest(const Model& model) {
     motion.u = motion.v = motion.a = motion.force = Eigen::VectorXd::Zero(model.dofs());
     motion.points.assign(model.points(), State{Voigt::Zero(), 0.0});
     motion.strain.assign(model.points(), Voigt::Zero());
+    for (const Zone& zone : model.zones) {
+        if (model.hourglass.empty()) break;
+        const double G = materials::elasticity(zone.law).shear_modulus();
+        motion.hourglass.insert(motion.hourglass.end(), zone.count, {Vec2::Zero(), 4.0 * G, 0.0});
+    }
     return motion;
 }
 

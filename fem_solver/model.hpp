@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene/scene.hpp"
-#include "fem_solver/element.hpp"
+#include "fem_solver/ssp_quad.hpp"
 
 namespace breach::fem {
 
@@ -33,20 +33,29 @@ struct Rayleigh {
     double stiffness = 0.0;  ///< [s]
 };
 
+/// How the hourglass force of the single-point quad follows the soil.
+enum class HourglassModulus {
+    current,  ///< c_s from the secant shear modulus of the last step, force continuous
+    elastic,  ///< c_s = 4 G for ever, as in OpenSees
+};
+
 struct Model {
     Mesh mesh;
     std::vector<Zone> zones;
     double thickness;  ///< [m]
     Unknowns unknowns;
-    std::vector<double> nodal_mass;     ///< lumped by row sums [kg]
-    Eigen::VectorXd mass;               ///< the same, one entry per dof [kg]
-    Eigen::VectorXd external_force;     ///< weight and any other constant load, per dof [N]
-    std::vector<Quadrature> reference;  ///< of the undeformed elements
-    std::vector<double> volume;         ///< of the undeformed elements [m3]
+    std::vector<double> nodal_mass;  ///< lumped by row sums [kg]
+    Eigen::VectorXd mass;            ///< the same, one entry per dof [kg]
+    Eigen::VectorXd external_force;  ///< weight and any other constant load, per dof [N]
+    std::size_t points_per_element = gauss_points;
+    std::vector<Quadrature> reference;   ///< of the undeformed elements
+    std::vector<SspGeometry> hourglass;  ///< the same of single-point quads; otherwise empty
+    HourglassModulus hourglass_modulus = HourglassModulus::current;
+    std::vector<double> volume;  ///< of the undeformed elements [m3]
     scene::Kinematics kinematics = scene::Kinematics::small_strain;
     Rayleigh rayleigh;
 
-    std::size_t points() const { return mesh.quads.size() * gauss_points; }
+    std::size_t points() const { return mesh.quads.size() * points_per_element; }
     Eigen::Index dofs() const { return static_cast<Eigen::Index>(2 * mesh.nodes.size()); }
 };
 
@@ -56,14 +65,22 @@ Model build_model(const scene::Scene& scene, Mesh mesh);
 /// The zones' laws with every region linear elastic (its own E and nu), or the scene's.
 std::vector<materials::Law> laws_for(const Model& model, scene::StageLaws laws);
 
+/// Hourglass state of a single-point quad.
+struct Hourglass {
+    Vec2 force;     ///< Q, work-conjugate to the amplitude q [N]
+    double c_s;     ///< modulus for the next increment: dQ = c_s H dq [Pa]
+    double energy;  ///< integral of Q dq [J]
+};
+
 /// All that a time step changes.
 struct Motion {
-    Eigen::VectorXd u;          ///< displacement [m], per dof
-    Eigen::VectorXd v;          ///< velocity [m/s]
-    Eigen::VectorXd a;          ///< acceleration [m/s2]
-    Eigen::VectorXd force;      ///< internal force of the stresses [N]
-    std::vector<State> points;  ///< element by element, Gauss point by Gauss point
-    std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
+    Eigen::VectorXd u;                 ///< displacement [m], per dof
+    Eigen::VectorXd v;                 ///< velocity [m/s]
+    Eigen::VectorXd a;                 ///< acceleration [m/s2]
+    Eigen::VectorXd force;             ///< internal force of the stresses [N]
+    std::vector<State> points;         ///< element by element, Gauss point by Gauss point
+    std::vector<Voigt> strain;         ///< total, accumulated over the increments [-]
+    std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 
 Motion at_rest(const Model& model);

@@ -32,12 +32,13 @@ const std::vector<Column>& columns() {
     return all;
 }
 
-double element_epsilon_q(const Motion& motion, std::size_t element) {
+double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element) {
+    const std::size_t points = model.points_per_element;
     double sum = 0.0;
-    for (std::size_t g = 0; g < gauss_points; ++g) {
-        sum += mechanics::epsilon_q(motion.strain[element * gauss_points + g]);
+    for (std::size_t g = 0; g < points; ++g) {
+        sum += mechanics::epsilon_q(motion.strain[element * points + g]);
     }
-    return sum / gauss_points;
+    return sum / static_cast<double>(points);
 }
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold) {
@@ -50,7 +51,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
             result.least = ratio.least;
             result.worst_element = e;
         }
-        if (element_epsilon_q(motion, e) <= strain_threshold) continue;
+        if (element_epsilon_q(model, motion, e) <= strain_threshold) continue;
         volume += model.volume[e];
         centre += model.volume[e] * ratio.centre;
         least += model.volume[e] * ratio.least;
@@ -77,8 +78,8 @@ Softened softened_volume(const Model& model, const Motion& motion) {
         if (soil == nullptr || !soil->softening) continue;
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
             volume.possible += model.volume[e];
-            for (std::size_t g = 0; g < gauss_points; ++g) {
-                const double reached = motion.points[e * gauss_points + g].epsilon_q;
+            for (std::size_t g = 0; g < model.points_per_element; ++g) {
+                const double reached = motion.points[e * model.points_per_element + g].epsilon_q;
                 if (reached <= soil->softening->epsilon_q_start) continue;
                 volume.done += model.reference[e].weight[g];
             }
@@ -102,7 +103,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     r.jacobian_ratio_min = r.jacobian_least_min = distortion.least;
     double strained = 0.0, weighted = 0.0, all = 0.0;
     for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
-        const double epsilon_q = element_epsilon_q(motion, e);
+        const double epsilon_q = element_epsilon_q(model, motion, e);
         all += model.volume[e];
         r.epsilon_q_max = std::max(r.epsilon_q_max, epsilon_q);
         if (epsilon_q <= strain_threshold) continue;

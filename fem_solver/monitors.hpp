@@ -54,7 +54,7 @@ const std::vector<Column>& columns();
 
 /// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
 /// [-].
-double element_epsilon_q(const Motion& motion, std::size_t element);
+double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element);
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold);
 

@@ -81,6 +81,11 @@ process::Plan plan(const scene::Scene& scene) {
               "/fem/stages"),
         on_if(large, "moving mesh (updated Lagrangian)", "asked for", "small strains",
               "/fem/kinematics"),
+        on_if(fem.element == scene::ElementKind::ssp, "single-point quads, stabilised",
+              fem.hourglass == scene::HourglassKind::elastic
+                  ? "asked for; the stabilisation stays elastic"
+                  : "asked for; the stabilisation follows the soil's shear modulus",
+              "2 x 2 Gauss points, mean dilatation", "/fem/element"),
         on_if(damped, "Rayleigh damping", "asked for", "both coefficients are zero",
               "/fem/rayleigh_mass"),
         on_if(meshes, "gmsh", "meshes " + unstructured, "regions are mapped blocks or a .msh file",

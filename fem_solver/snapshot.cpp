@@ -34,8 +34,12 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
     s.region_of_element = model.mesh.region_of_element;
     for (const Zone& zone : model.zones)
         s.density.insert(s.density.end(), zone.count, zone.density);
-    s.gauss_per_element = gauss_points;
-    s.gauss_positions.assign(gauss_positions().begin(), gauss_positions().end());
+    s.gauss_per_element = static_cast<decltype(s.gauss_per_element)>(model.points_per_element);
+    if (model.points_per_element == 1) {
+        s.gauss_positions = {Vec2::Zero()};
+    } else {
+        s.gauss_positions.assign(gauss_positions().begin(), gauss_positions().end());
+    }
     s.strain = motion.strain;
     for (std::size_t p = 0; p < motion.points.size(); ++p) {
         s.stress.push_back(motion.points[p].sigma);

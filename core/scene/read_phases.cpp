@@ -366,6 +366,9 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     Fem result{};
     result.kinematics = fem.at("kinematics") == "small_strain" ? Kinematics::small_strain
                                                                : Kinematics::updated_lagrangian;
+    result.element = fem.at("element") == "ssp" ? ElementKind::ssp : ElementKind::bbar;
+    result.hourglass =
+        fem.at("hourglass") == "elastic" ? HourglassKind::elastic : HourglassKind::current;
     if (fem.contains("msh_file")) {
         result.mesh.msh_file =
             std::filesystem::absolute(folder / fem.at("msh_file").get<std::string>());

@@ -160,6 +160,11 @@ struct Lem {
 
 enum class Kinematics { small_strain, updated_lagrangian };
 
+/// bbar: 2 x 2 Gauss points, mean dilatation. ssp: one point, stabilised.
+enum class ElementKind { bbar, ssp };
+/// Modulus of the ssp quad's stabilisation: the soil's current one, or the elastic one for ever.
+enum class HourglassKind { current, elastic };
+
 struct MeshSource {
     std::optional<std::filesystem::path> msh_file;  ///< absolute; otherwise meshed from the regions
 };
@@ -188,6 +193,8 @@ struct Stage {
 
 struct Fem {
     Kinematics kinematics;
+    ElementKind element;
+    HourglassKind hourglass;  ///< ssp only
     MeshSource mesh;
     std::vector<Support> supports;
     std::vector<Stage> stages;
