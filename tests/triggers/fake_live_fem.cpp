@@ -1,0 +1,94 @@
+// Stands for fem_solver where the triggers' tests need one that takes its time: 56 steps of 0.05 s
+// simulated and 20 ms real, telemetry written in two halves, snapshots at times, at an interval and
+// on request. While a file `gate` lies in the folder of the ledger, requests are not heard.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double dt = 0.05;
+constexpr int steps = 56;
+
+std::string spelt(double time) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6f", time);
+    return text;
+}
+
+void publish(const fs::path& file, const std::string& text) {
+    const fs::path temporary = file.string() + ".part";
+    std::ofstream(temporary) << text;
+    fs::rename(temporary, file);
+}
+
+struct Wish {
+    fs::path output;
+    std::vector<double> times;
+    double interval = 0.0;
+};
+
+Wish wish_from(int argc, char** argv) {
+    Wish wish;
+    for (int i = 1; i + 1 < argc; ++i) {
+        const std::string word = argv[i], next = argv[i + 1];
+        if (word == "--output") wish.output = next;
+        const auto value = [&](const std::string& key) {
+            return word == "--set" && next.starts_with(key) ? json::parse(next.substr(key.size()))
+                                                            : json();
+        };
+        if (const json times = value("/fem/snapshot_times="); !times.is_null())
+            wish.times = times.get<std::vector<double>>();
+        if (const json interval = value("/fem/snapshot_interval="); !interval.is_null())
+            wish.interval = interval;
+    }
+    return wish;
+}
+
+/// jacobian_least_avg falls below 0.97 after 0.6 s; epsilon_q_max is up from 0.5 to 0.6 s only.
+json line_at(int step) {
+    const double t = dt * step;
+    return {{"time", t},
+            {"step", step},
+            {"jacobian_least_avg", 1 - 0.05 * t},
+            {"crest_displacement", t * t},
+            {"epsilon_q_max", step >= 10 && step <= 12 ? 1.0 : 0.0},
+            {"kinetic_energy", std::exp(2 * t)}};
+}
+
+bool take_request(const fs::path& output) {
+    const fs::path gate = fs::path(std::getenv("FAKE_PHASE_LEDGER")).parent_path() / "gate";
+    return !fs::exists(gate) && fs::remove(output / "snapshot_request");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Wish wish = wish_from(argc, argv);
+    std::ofstream telemetry(wish.output / "telemetry.jsonl");
+    const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
+    for (int step = 1; step <= steps; ++step) {
+        const double t = dt * step;
+        const std::string line = line_at(step).dump() + "\n";
+        telemetry << line.substr(0, line.size() / 2) << std::flush;  // torn
+        pause();
+        telemetry << line.substr(line.size() / 2) << std::flush;
+        bool due = step == steps || take_request(wish.output);
+        for (const double each : wish.times) due = due || std::abs(each - t) < 0.5 * dt;
+        const auto count = [&](double time) { return std::floor(time / wish.interval + 1e-9); };
+        due = due || (wish.interval > 0.0 && count(t) > count(t - dt));
+        if (due) publish(wish.output / ("snapshot_" + spelt(t) + ".vtkhdf"), spelt(t));
+        pause();
+    }
+    publish(wish.output / "result.json", R"({"phase":"fem_solver"})");
+    return 0;
+}

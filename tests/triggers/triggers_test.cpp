@@ -1,0 +1,251 @@
+// Triggers against a real service, a fake FEM that takes its time, and fake phases behind it (the
+// fake MPM's runout is 10 + t_T^2).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include "tests/faults/service_under_test.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+
+/// The sandbox with the patient FEM.
+struct Live {
+    Live() {
+        std::filesystem::remove(sandbox.bin() / "fem_solver");
+        std::filesystem::create_symlink(std::filesystem::path(BREACH_BIN) / "fake_live_fem",
+                                        sandbox.bin() / "fem_solver");
+    }
+    void close_gate() const { std::ofstream(sandbox.root() / "gate") << "closed"; }
+    void open_gate() const { std::filesystem::remove(sandbox.root() / "gate"); }
+    Sandbox sandbox;
+};
+
+json with_triggers(const json& triggers) {
+    json made = study("mpm_steps=2", {1.0});
+    made.erase("transfer_times");
+    made["triggers"] = triggers;
+    made["stability"] = false;
+    return made;
+}
+
+json triggers_of(Service& service, const std::string& run) {
+    return service.get("/v1/runs/" + run + "/triggers").body.at("triggers");
+}
+
+/// Every trigger is in a final state and the run is over.
+json settled(Service& service, const std::string& run) {
+    const json end = service.wait_for_end(run, 60);
+    EXPECT_EQ(end.value("state", ""), "succeeded") << end.dump();
+    return triggers_of(service, run);
+}
+
+int count_tasks(Service& service, const std::string& run, const std::string& phase) {
+    int count = 0;
+    const json body = service.get("/v1/runs/" + run).body;
+    for (const json& each : body.at("tasks")) count += each.at("phase") == phase ? 1 : 0;
+    return count;
+}
+
+TEST(Trigger, CriterionFiresWhileTheFemRunsOnASnapshotItWasAskedFor) {
+    const Live live;
+    Service service(live.sandbox);
+    const std::string run = service.submit(with_triggers({{{"kind", "criterion"},
+                                                           {"name", "flat"},
+                                                           {"when", "jacobian_least_avg < 0.97"},
+                                                           {"within_s", 2.0}}}));
+    const json trigger = settled(service, run).at(0);
+    EXPECT_EQ(trigger.at("state"), "fired") << trigger;
+    ASSERT_EQ(trigger.at("firings").size(), 1u);
+    const json& firing = trigger.at("firings")[0];
+    EXPECT_NEAR(firing.at("wanted_time"), 0.65, 1e-9);
+    EXPECT_EQ(firing.at("fem_step"), 13);
+    EXPECT_NEAR(firing.at("crossed").at("jacobian_least_avg"), 0.9675, 1e-12);
+    EXPECT_GE(firing.at("transfer_time"), 0.65 - 1e-9);
+    EXPECT_LT(firing.at("transfer_time"), 2.75);  // not the end: it was asked for
+    EXPECT_EQ(firing.at("sha256").get<std::string>().size(), 64u);
+    EXPECT_TRUE(firing.at("start_ms").is_number()) << firing;
+    std::cout << "lag " << firing.at("lag_s") << " s simulated; snapshot after "
+              << firing.at("snapshot_ms") << " ms, fired " << firing.at("fired_ms")
+              << " ms, transfer started " << firing.at("start_ms") << " ms\n";
+    const json rows = service.table(run);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].at("trigger"), "flat");
+    EXPECT_EQ(rows[0].at("transfer_time"), firing.at("transfer_time"));
+    EXPECT_EQ(rows[0].at("state"), "succeeded");
+}
+
+TEST(Trigger, CrossedAndUncrossedInsideTheHoldDoesNotFire) {
+    const Live live;
+    Service service(live.sandbox);
+    const std::string run = service.submit(
+        with_triggers({{{"kind", "criterion"}, {"when", "epsilon_q_max > 0.5"}, {"hold_s", 0.2}}}));
+    const json trigger = settled(service, run).at(0);
+    EXPECT_EQ(trigger.at("state"), "expired");
+    EXPECT_EQ(trigger.at("reason"), "the FEM ended and the condition was not true");
+    EXPECT_TRUE(service.table(run).empty());
+}
+
+TEST(Trigger, SeveralOnOneStepShareOneTransfer) {
+    const Live live;
+    Service service(live.sandbox);
+    const json criterion{
+        {"kind", "criterion"}, {"when", "jacobian_least_avg < 0.97"}, {"snapshot_interval_s", 0.1}};
+    const std::string run = service.submit(with_triggers({criterion, criterion, criterion}));
+    for (const json& each : settled(service, run)) {
+        ASSERT_EQ(each.at("firings").size(), 1u) << each;
+        EXPECT_NEAR(each.at("firings")[0].at("transfer_time"), 0.7, 1e-9);
+    }
+    ASSERT_EQ(service.table(run).size(), 1u);
+    EXPECT_EQ(service.table(run)[0].at("trigger"), "criterion_1 criterion_2 criterion_3");
+}
+
+TEST(Trigger, WindowPicksAmongRegularSnapshots) {
+    const Live live;
+    Service service(live.sandbox);
+    const auto window = [](const char* pick) {
+        return json{{"kind", "window"},           {"name", pick},
+                    {"lower", "time >= 0.5"},     {"upper", "time >= 1.5"},
+                    {"snapshot_interval_s", 0.1}, {"pick", pick}};
+    };
+    json open = window("midpoint");
+    open["name"] = "open";
+    open["upper"] = "time > 1000";  // never: the FEM's end closes it at 2.8
+    const std::string run = service.submit(
+        with_triggers({window("first"), window("midpoint"), window("last_before"), open}));
+    const double expected[] = {0.5, 1.0, 1.4, 1.6};
+    const json triggers = settled(service, run);
+    for (std::size_t i = 0; i < 4; ++i) {
+        ASSERT_EQ(triggers[i].at("firings").size(), 1u) << triggers[i];
+        EXPECT_NEAR(triggers[i].at("firings")[0].at("transfer_time"), expected[i], 0.0501) << i;
+    }
+}
+
+TEST(Trigger, ManualFiresNowAndIsRefusedAfterTheEnd) {
+    const Live live;
+    Service service(live.sandbox);
+    json plain = study("mpm_steps=2", {0.5});
+    plain["stability"] = false;
+    const std::string run = service.submit(plain);
+    ASSERT_TRUE(eventually([&] {
+        const json body = service.get("/v1/runs/" + run + "/telemetry?phase=fem_solver").body;
+        return body.is_object() && body.value("next", 0) > 15;
+    }));
+    const Answer accepted = service.post("/v1/runs/" + run + "/triggers", R"({"kind":"manual"})");
+    EXPECT_EQ(accepted.status, 202) << accepted.text;
+    const json trigger = settled(service, run).at(0);
+    EXPECT_EQ(trigger.at("state"), "fired") << trigger;
+    const double time = trigger.at("firings")[0].at("transfer_time");
+    EXPECT_GE(time, 0.7);
+    EXPECT_LT(time, 2.75);
+    EXPECT_EQ(service.table(run).size(), 2u);
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/triggers", R"({"kind":"manual"})").status, 409);
+}
+
+TEST(Trigger, AfterTheFemEndedIsServedFromWhatExistsOrExpires) {
+    const Live live;
+    Service service(live.sandbox);
+    json plain = study("mpm_steps=2", {0.5, 0.65});
+    plain["stability"] = false;
+    const std::string run = service.submit(plain);
+    service.wait_for_end(run);
+    const auto post = [&](const char* name, const char* when) {
+        const json body{{"kind", "criterion"}, {"name", name}, {"when", when}};
+        EXPECT_EQ(service.post("/v1/runs/" + run + "/triggers", body.dump()).status, 202);
+    };
+    post("served", "jacobian_least_avg < 0.97");  // at 0.65, where a snapshot is
+    post("late", "time > 1");                     // the next snapshot is the end
+    const json triggers = settled(service, run);
+    EXPECT_EQ(triggers[0].at("state"), "fired") << triggers[0];
+    EXPECT_EQ(triggers[1].at("state"), "expired") << triggers[1];
+    EXPECT_NE(triggers[1].at("reason").get<std::string>().find("within_s"), std::string::npos);
+    EXPECT_EQ(service.table(run).size(), 2u);  // the transfer at 0.65 was there already
+}
+
+TEST(Trigger, BisectFindsTheEdgeWithFewerRunsThanSnapshots) {
+    const Live live;
+    Service service(live.sandbox);
+    const std::string run = service.submit(with_triggers(
+        {{{"kind", "bisect"}, {"share", 0.75}, {"tolerance_s", 0.05}, {"seeds", 3}}}));
+    const json trigger = settled(service, run).at(0);
+    ASSERT_EQ(trigger.at("state"), "fired") << trigger;
+    const json& result = trigger.at("result");
+    // 0.75 (10 + 2.8^2) = 13.38 is reached at 1.838 s.
+    EXPECT_NEAR(result.at("lower").at("off"), 1.80, 1e-6);
+    EXPECT_NEAR(result.at("lower").at("on"), 1.85, 1e-6);
+    EXPECT_TRUE(result.at("upper").at("off").is_null());
+    EXPECT_EQ(result.at("uniform_runs"), 56);
+    EXPECT_LE(result.at("runs"), 9);
+    EXPECT_EQ(service.table(run).size(), result.at("runs").get<std::size_t>());
+}
+
+TEST(Trigger, KilledBetweenCrossingAndFiringMakesExactlyOneTransfer) {
+    const Live live;
+    live.close_gate();
+    std::string run;
+    {
+        Service first(live.sandbox);
+        run = first.submit(with_triggers(
+            {{{"kind", "criterion"}, {"when", "jacobian_least_avg < 0.97"}, {"within_s", 3.0}}}));
+        ASSERT_TRUE(
+            eventually([&] { return triggers_of(first, run)[0].at("state") == "holding"; }));
+        EXPECT_TRUE(triggers_of(first, run)[0].at("firings").empty());
+        first.kill_at_once();
+    }
+    live.open_gate();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // nobody sees the snapshot appear
+    for (int kills = 0; kills < 2; ++kills) {
+        Service again(live.sandbox);
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        again.kill_at_once();
+    }
+    Service last(live.sandbox);
+    const json trigger = settled(last, run).at(0);
+    EXPECT_EQ(trigger.at("state"), "fired") << trigger;
+    EXPECT_EQ(trigger.at("firings").size(), 1u);
+    EXPECT_NEAR(trigger.at("firings")[0].at("wanted_time"), 0.65, 1e-9);
+    EXPECT_EQ(count_tasks(last, run, "transfer_tool"), 1);
+    EXPECT_EQ(count_tasks(last, run, "mpm_solver"), 1);
+    for (const auto& [output, count] : live.sandbox.successes()) EXPECT_EQ(count, 1) << output;
+    int firings = 0;
+    const json events = last.get("/v1/events?after=0&wait=0").body.at("events");
+    for (const json& each : events)
+        firings += each.at("detail").value("event", "") == "firing" ? 1 : 0;
+    EXPECT_EQ(firings, 1);
+}
+
+TEST(Trigger, CancelDisarms) {
+    const Live live;
+    Service service(live.sandbox);
+    const std::string run =
+        service.submit(with_triggers({{{"kind", "criterion"}, {"when", "time > 2.5"}}}));
+    ASSERT_TRUE(eventually([&] { return !phases_alive(live.sandbox, "fem_solver").empty(); }));
+    service.post("/v1/runs/" + run + "/cancel", "");
+    EXPECT_EQ(service.wait_for_end(run).at("state"), "cancelled");
+    EXPECT_EQ(triggers_of(service, run)[0].at("state"), "disarmed");
+}
+
+TEST(Trigger, MistakesAreNamedWithPointerAndColumn) {
+    const Live live;
+    Service service(live.sandbox);
+    const auto faults = [&](const json& triggers) {
+        const Answer answer = service.post("/v1/runs", with_triggers(triggers).dump());
+        EXPECT_EQ(answer.status, 422) << answer.text;
+        return answer.body.at("faults")[0];
+    };
+    const json typo = faults({{{"kind", "criterion"}, {"when", "jacobain < 1"}}});
+    EXPECT_EQ(typo.at("pointer"), "/triggers/0/when");
+    EXPECT_EQ(typo.at("cause"), "column 1: there is no telemetry field 'jacobain'");
+    EXPECT_EQ(faults({{{"kind", "window"}, {"lower", "time > 1"}}}).at("pointer"),
+              "/triggers/0/upper");
+    EXPECT_EQ(faults({{{"kind", "manual"}, {"when", "time > 1"}}}).at("pointer"),
+              "/triggers/0/when");
+    EXPECT_EQ(faults(json::array()).at("pointer"), "/transfer_times");
+}
+
+}  // namespace
+}  // namespace breach::testing
