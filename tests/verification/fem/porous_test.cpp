@@ -131,7 +131,7 @@ TEST(Terzaghi, IsMetWithinOnePercentOfTheLoadFromTimeFactor02) {
                     c.p_at(0.0) / p_0, terzaghi(0.0, column.H, T_v), largest);
         if (T_v > 0.15) worst = std::max(worst, largest);
     }
-    // Before, the steps that follow the ramp still carry its rate of pressure (1.08 % at 0.05).
+    // Before, the error is larger (1.08 % at 0.05); its cause is not known yet.
     expect_error("largest |p - Terzaghi| / p_0 from T_v = 0.2", worst, 0.01);
 }
 
