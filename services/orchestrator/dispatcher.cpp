@@ -127,6 +127,7 @@ void Dispatcher::wait_for_something() {
         const auto left = std::chrono::milliseconds(*retry - epoch_ms());
         wait = std::clamp(left, std::chrono::milliseconds(0), longest_wait);
     }
+    wait = std::min(wait, triggers_.patience());
     pollfd wanted[] = {{watch_.descriptor(), POLLIN, 0},
                        {triggers_.descriptor(), POLLIN, 0},
                        {wake_descriptor_, POLLIN, 0}};

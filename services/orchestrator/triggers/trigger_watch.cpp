@@ -21,7 +21,8 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr double slack = 1e-6;  // names of snapshots carry six decimals [s]
-constexpr auto reload_interval = std::chrono::seconds(1);
+constexpr auto reload_interval = std::chrono::milliseconds(1000);
+constexpr auto look_for_telemetry = std::chrono::milliseconds(20);
 constexpr auto ask_again_after = std::chrono::seconds(1);
 constexpr const char* request_file = "snapshot_request";
 
@@ -69,6 +70,13 @@ void TriggerWatch::look() {
         read_on(fem);
         for (Armed& each : fem.armed) settle(fem, each);
     }
+}
+
+std::chrono::milliseconds TriggerWatch::patience() const {
+    if (store_.last_event() != seen_event_) return std::chrono::milliseconds(0);
+    const bool blind = std::ranges::any_of(
+        fems_, [](const auto& entry) { return !entry.second.ended && entry.second.watch < 0; });
+    return blind ? look_for_telemetry : reload_interval;
 }
 
 /// Only when something was stored since the last time, or a second has passed.

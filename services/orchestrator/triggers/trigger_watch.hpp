@@ -26,6 +26,9 @@ class TriggerWatch {
 
     /// Readable when a watched telemetry file has grown.
     int descriptor() const { return watch_.descriptor(); }
+    /// How long it can do without another look: no time when something was stored since the last, a
+    /// moment while a FEM has not begun its telemetry.
+    std::chrono::milliseconds patience() const;
     /// Looks at everything that may have moved on; cheap when nothing is open.
     void look();
 
