@@ -38,15 +38,14 @@ class Planner {
         for (const char* phase : {"fem_solver", "lem_tool", "transfer_tool", "mpm_solver"})
             if (phase != std::string("lem_tool") || study_.stability)
                 recipes_of_variant_[phase] = recipe(phase, scene);
-        const std::size_t fem =
-            add({.phase = "fem_solver",
-                 .label = "fem",
-                 .transfer_time = {},
-                 .parent = {},
-                 .release = Release::at_once,
-                 .input = {},
-                 .overrides = std::move(wishes)},
-                Sharing::wanted);
+        const std::size_t fem = add({.phase = "fem_solver",
+                                     .label = "fem",
+                                     .transfer_time = {},
+                                     .parent = {},
+                                     .release = Release::at_once,
+                                     .input = {},
+                                     .overrides = std::move(wishes)},
+                                    Sharing::wanted);
         if (study_.stability) {
             add({.phase = "lem_tool",
                  .label = "lem",

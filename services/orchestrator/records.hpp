@@ -54,8 +54,8 @@ struct NewRun {
     std::vector<Recipe> recipes = {};
     std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
     std::string firing_plan = {};            ///< tasks of one more transfer, JSON (graph.hpp)
-    std::int64_t priority = 0;  ///< higher goes first
-    bool sweep = false;         ///< several points, or asked for as a sweep
+    std::int64_t priority = 0;               ///< higher goes first
+    bool sweep = false;                      ///< several points, or asked for as a sweep
 };
 
 struct Run {
