@@ -1,6 +1,8 @@
 #include "services/orchestrator/answers.hpp"
 
+#include <algorithm>
 #include <array>
+#include <ctime>
 
 namespace breach::orchestrator {
 
@@ -22,6 +24,16 @@ json as_json(const Attempt& attempt) {
             {"signal", or_null(attempt.signal)},
             {"wall_seconds", or_null(attempt.wall_seconds)},
             {"cpu_seconds", or_null(attempt.cpu_seconds)}};
+}
+
+/// As if the rest went like what has been done since the start; null until that says something.
+json seconds_left(const Run& run, double progress) {
+    constexpr double too_early = 0.02;
+    if (run.finished || !run.started || run.paused || progress < too_early) return nullptr;
+    std::tm begin{};
+    if (strptime(run.started->c_str(), "%Y-%m-%dT%H:%M:%S", &begin) == nullptr) return nullptr;
+    const double elapsed = std::difftime(std::time(nullptr), timegm(&begin));
+    return std::max(0.0, elapsed) * (1.0 - progress) / progress;
 }
 
 constexpr std::array columns{
@@ -61,6 +73,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"tasks_done", run.tasks_done},
             {"tasks_failed", run.tasks_failed},
             {"paused", run.paused},
+            {"seconds_left", seconds_left(run, progress)},
             {"message", run.message}};
 }
 

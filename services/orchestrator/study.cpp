@@ -132,7 +132,7 @@ void read_triggers(const json& document, const scene::Fem& fem, Study& study,
     study.snapshot_interval = checked.snapshot_interval;
     if (fem.snapshot_interval > 0.0 && study.snapshot_interval > fem.snapshot_interval)
         study.snapshot_interval = 0.0;  // the scene's own are finer
-    if (study.transfer_times.empty() && document["triggers"].empty()) {
+    if (faults.empty() && study.transfer_times.empty() && document["triggers"].empty()) {
         faults.push_back({"/transfer_times", "nothing says when to transfer",
                           "give \"transfer_times\", \"triggers\" or both"});
     }

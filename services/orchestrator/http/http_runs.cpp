@@ -21,7 +21,7 @@ json task_json(const Service& service, const Task& task) {
 /// 202 only when the run is on the disk.
 void submit(Service& service, Call& call) {
     call.allow_parameters({});
-    const Accepted accepted = accept_study(service, call);
+    const Accepted accepted = accept_study(service, call, Ask::run);
     call.response.set_header("Location", "/v1/runs/" + accepted.run);
     reply(call.response, run_json(service, accepted.run), 202);
 }
@@ -95,6 +95,56 @@ void results(const Service& service, Call& call) {
     reply(call.response, {{"run", call.parts[0]}, {"rows", list}});
 }
 
+// ---------------------------------------------------------------- sweeps
+
+/// A sweep is a run seen as a table: variants x transfer times. Both have the same id, and every
+/// run can be read so; the list holds those with several points.
+json sweep_json(const Service& service, const Run& run) {
+    std::int64_t points = 0;
+    std::int64_t done = 0;
+    for (const SweepRow& row : service.store.results(run.id)) {
+        ++points;
+        done += row.state == "succeeded" ? 1 : 0;
+    }
+    json body = as_json(run, service.board);
+    body["run"] = run.id;
+    body["points_total"] = points;
+    body["points_done"] = done;
+    return body;
+}
+
+Run wanted_sweep(const Service& service, const std::string& id) {
+    auto run = service.store.run(id);
+    if (!run) throw not_found("sweep " + id);
+    return std::move(*run);
+}
+
+void submit_sweep(Service& service, Call& call) {
+    call.allow_parameters({});
+    const Accepted accepted = accept_study(service, call, Ask::sweep);
+    call.response.set_header("Location", "/v1/sweeps/" + accepted.run);
+    reply(call.response, sweep_json(service, wanted_run(service, accepted.run)), 202);
+}
+
+void list_sweeps(const Service& service, Call& call) {
+    call.allow_parameters({"limit", "cursor", "state", "name"});
+    RunFilter filter;
+    filter.sweeps_only = true;
+    const RunPage page = wanted_page(service, call, filter);
+    json sweeps = json::array();
+    for (const Run& each : page.runs) sweeps.push_back(as_json(each, service.board));
+    reply(call.response, {{"sweeps", sweeps}, {"next", page.next}});
+}
+
+void show_sweep(const Service& service, Call& call) {
+    call.allow_parameters({});
+    const Run run = wanted_sweep(service, call.parts[0]);
+    json body = sweep_json(service, run);
+    body["transfer_times"] = service.store.study_of(run.id)->at("transfer_times");
+    body["variants"] = service.store.study_of(run.id)->value("variants", json::array());
+    reply(call.response, body);
+}
+
 }  // namespace
 
 Task wanted_task(const Service& service, const std::string& id) {
@@ -110,6 +160,17 @@ Run wanted_run(const Service& service, const std::string& id) {
 }
 
 void add_run_routes(Router& router, Service& service) {
+    router.post("/v1/sweeps", [&](Call& call) { submit_sweep(service, call); });
+    router.get("/v1/sweeps", [&](Call& call) { list_sweeps(service, call); });
+    router.get("/v1/sweeps/{id}", [&](Call& call) { show_sweep(service, call); });
+    router.get("/v1/sweeps/{id}/results", [&](Call& call) {
+        wanted_sweep(service, call.parts[0]);
+        results(service, call);
+    });
+    router.post("/v1/sweeps/{id}/cancel", [&](Call& call) {
+        wanted_sweep(service, call.parts[0]);
+        cancel(service, call);
+    });
     router.post("/v1/runs", [&](Call& call) { submit(service, call); });
     router.get("/v1/runs", [&](Call& call) { list(service, call); });
     router.get("/v1/runs/{id}", [&](Call& call) { show(service, call); });

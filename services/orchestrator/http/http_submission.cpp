@@ -81,9 +81,10 @@ NewRun run_from(const Study& study) {
             .sweep = study.variants.size() * study.transfer_times.size() > 1};
 }
 
-std::string stored(Service& service, const std::string& body,
+std::string stored(Service& service, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    const NewRun run = run_from(read_study(body));
+    NewRun run = run_from(read_study(body));
+    if (ask == Ask::sweep) run.sweep = true;
     service.store.write([&](Transaction& transaction) {
         transaction.add_run(run);
         besides(transaction, run.id);
@@ -101,10 +102,10 @@ std::pair<std::string, std::string> place_of(const std::string& cursor) {
 
 }  // namespace
 
-Accepted accept_study(Service& service, Call& call) {
+Accepted accept_study(Service& service, Call& call, Ask ask) {
     const std::string& body = call.json_body();
     const auto key = idempotency_key(call.request);
-    if (!key) return {stored(service, body, [](Transaction&, const std::string&) {})};
+    if (!key) return {stored(service, body, ask, [](Transaction&, const std::string&) {})};
     const KeyInProgress seat(*key, call.response);
     const std::string hash = exchange::sha256_of_text(body);
     if (const auto known = service.store.run_of_key(*key)) {
@@ -114,7 +115,7 @@ Accepted accept_study(Service& service, Call& call) {
         call.response.set_header("Idempotent-Replayed", "true");
         return {known->run};
     }
-    return {stored(service, body, [&](Transaction& transaction, const std::string& run) {
+    return {stored(service, body, ask, [&](Transaction& transaction, const std::string& run) {
         transaction.keep_idempotency_key(*key, hash, run);
     })};
 }

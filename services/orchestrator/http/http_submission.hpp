@@ -5,6 +5,8 @@
 
 namespace breach::orchestrator {
 
+enum class Ask { run, sweep };
+
 struct Accepted {
     std::string run;
 };
@@ -16,7 +18,7 @@ struct Accepted {
 /// /problems/idempotency-key-reused; while the first is still being stored: 409
 /// /problems/idempotency-in-progress. A request that was refused does not use its key up. Keys are
 /// kept for as long as their runs.
-Accepted accept_study(Service& service, Call& call);
+Accepted accept_study(Service& service, Call& call, Ask ask);
 
 struct RunPage {
     std::vector<Run> runs;

@@ -69,10 +69,9 @@ std::vector<std::pair<std::string, Recipe>> Store::earlier_recipes(const Task& t
     read([&](Connection& database) {
         database.query(
             "SELECT last, hash, phase, cache_version, part FROM (SELECT recipe, max(id) AS last "
-            "FROM tasks WHERE phase=? AND recipe IS NOT NULL AND id<? GROUP BY recipe ORDER BY "
-            "last "
+            "FROM tasks WHERE phase=? AND recipe<>? AND id<? GROUP BY recipe ORDER BY last "
             "DESC LIMIT ?) JOIN recipes ON hash=recipe ORDER BY last DESC",
-            {task.phase, task.id, static_cast<std::int64_t>(most)},
+            {task.phase, *task.recipe, task.id, static_cast<std::int64_t>(most)},
             [&](const Row& row) { found.emplace_back(row.text(0), recipe_from(row, 1)); });
     });
     return found;

@@ -114,7 +114,8 @@ TEST(Queue, OutputsOfAFailedTaskAreHashedToo) {
     const json end = service.wait_for_end(service.submit(study("entangle_at=1.6", {0.25, 2.0})));
     const std::string fem = task_labelled(end, "fem").at("id");
     EXPECT_TRUE(eventually([&] {
-        for (const json& each : service.get("/v1/tasks/" + fem).body.at("artifacts"))
+        const json artifacts = service.get("/v1/tasks/" + fem).body.at("artifacts");
+        for (const json& each : artifacts)
             if (each.at("name") == "snapshot_0.250000.vtkhdf") return true;
         return false;
     }));

@@ -8,6 +8,7 @@
 
 #include "services/orchestrator/identity.hpp"
 #include "services/orchestrator/store/migrations.hpp"
+#include "services/orchestrator/store/versions.hpp"
 
 namespace breach::orchestrator {
 namespace {
@@ -213,6 +214,80 @@ TEST_F(StoreTest, DatabaseOfANewerProgramIsRefused) {
     { const Store store(file()); }
     Connection(file(), Access::read_write).script("PRAGMA user_version=99");
     EXPECT_THROW(Store{file()}, StoreError);
+}
+
+/// A database as the first released program left it, with a run half done.
+void make_version_1(const std::filesystem::path& file) {
+    Connection database(file, Access::read_write);
+    database.script(version_1);
+    database.script(
+        "INSERT INTO runs VALUES ('r', 'old', '', '2026-01-01T00:00:00.000Z', '{}', '{}');"
+        "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state, started, "
+        "finished, result) VALUES ('r-00000', 'r', 'fem_solver', 'fem', 'at_once', '', '[]', "
+        "'succeeded', '1', '2', '{}');"
+        "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state) VALUES "
+        "('r-00001', 'r', 'mpm_solver', 'mpm', 'at_once', '', '[]', 'ready');"
+        "PRAGMA user_version=1");
+}
+
+TEST_F(StoreTest, DatabaseOfAnOlderProgramIsMigratedAndItsStateIsKept) {
+    make_version_1(file());
+    Store store(file());
+    const auto run = store.run("r");
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->state, "running");
+    EXPECT_EQ(run->tasks_total, 2);
+    EXPECT_EQ(run->tasks_done, 1);
+    EXPECT_EQ(store.tasks_to_start({}, 10).at(0).id, "r-00001");
+    EXPECT_TRUE(store.tasks_to_start({"mpm_solver"}, 10).empty());
+    bool backed_up = false;
+    for (const auto& entry : std::filesystem::directory_iterator(file().parent_path()))
+        backed_up |= entry.path().string().find(".before_version_") != std::string::npos;
+    EXPECT_TRUE(backed_up);
+}
+
+TEST_F(StoreTest, MigrationThatFailsHalfWayLeavesTheOldDatabase) {
+    make_version_1(file());
+    Connection(file(), Access::read_write).script("CREATE TABLE run_counts (in_the_way TEXT)");
+    EXPECT_THROW(Store{file()}, StoreError);
+    Connection again(file(), Access::read_write);
+    again.query("PRAGMA user_version", {}, [](const Row& row) { EXPECT_EQ(row.integer(0), 1); });
+    int columns = 0;
+    again.query("SELECT count(*) FROM pragma_table_info('tasks') WHERE name='recipe'", {},
+                [&](const Row& row) { columns = static_cast<int>(row.integer(0)); });
+    EXPECT_EQ(columns, 0);
+    again.script("DROP TABLE run_counts");
+    EXPECT_EQ(Store(file()).run("r")->tasks_total, 2);
+}
+
+TEST_F(StoreTest, CountsOfARunAreThoseOfItsTasksWhateverHappens) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    const auto agrees = [&] {
+        Connection database(file(), Access::read_only);
+        bool equal = false;
+        database.query(
+            "SELECT total=count(*) AND ended=count(tasks.finished) AND reached=sum(state IN "
+            "('succeeded','cached')) AND failed=sum(state IN ('failed','skipped')) AND "
+            "run_counts.cancelled=sum(state='cancelled') AND runouts=sum(phase='mpm_solver' AND "
+            "state IN ('succeeded','cached')) FROM run_counts JOIN tasks USING (run)",
+            {}, [&](const Row& row) { equal = row.integer(0) == 1; });
+        return equal;
+    };
+    EXPECT_TRUE(agrees());
+    store.write([&](Transaction& t) { t.cancel_run(run.id, "test"); });
+    EXPECT_TRUE(agrees());
+    EXPECT_EQ(store.run(run.id)->state, "cancelled");
+    store.write([&](Transaction& t) { EXPECT_EQ(t.retry_run(run.id), 3u); });
+    EXPECT_TRUE(agrees());
+    EXPECT_EQ(store.run(run.id)->state, "queued");
+    for (const Task& task : store.tasks_of(run.id)) {
+        bring_to_success(store, task.id, {{"runout", 1.0}});
+        EXPECT_TRUE(agrees());
+    }
+    EXPECT_EQ(store.run(run.id)->state, "succeeded");
+    EXPECT_EQ(store.run(run.id)->tasks_done, 3);
 }
 
 TEST_F(StoreTest, ReaderWokenByANewEventSeesIt) {

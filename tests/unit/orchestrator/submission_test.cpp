@@ -113,8 +113,8 @@ TEST(ListOfRuns, IsFilteredByStateAndName) {
     service.wait_for_end(bad);
     const auto ids = [&](const std::string& query) {
         std::vector<std::string> found;
-        for (const json& run : service.get("/v1/runs?" + query).body.at("runs"))
-            found.push_back(run.at("id"));
+        const json list = service.get("/v1/runs?" + query).body.at("runs");
+        for (const json& run : list) found.push_back(run.at("id"));
         return found;
     };
     EXPECT_EQ(ids("state=succeeded"), std::vector<std::string>{good});
@@ -124,6 +124,32 @@ TEST(ListOfRuns, IsFilteredByStateAndName) {
     EXPECT_TRUE(ids("state=succeeded&name=broken").empty());
     EXPECT_EQ(service.get("/v1/runs?state=happy").status, 400);
     EXPECT_EQ(service.get("/v1/runs?colour=red").status, 400);
+}
+
+TEST(Sweeps, AreRunsSeenAsTables) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string single = service.submit(study("", {0.25}));
+    json wanted = study("", {0.25, 0.5});
+    wanted["variants"] = {{{"name", "a"}}, {{"name", "b"}, {"overrides", {"/mpm/duration=5"}}}};
+    const Answer accepted = service.post("/v1/sweeps", wanted.dump());
+    ASSERT_EQ(accepted.status, 202) << accepted.text;
+    const std::string id = accepted.body.at("id");
+    EXPECT_EQ(accepted.headers.find("Location")->second, "/v1/sweeps/" + id);
+    EXPECT_EQ(accepted.body.at("points_total"), 4);
+    service.wait_for_end(id);
+    const json sweep = service.get("/v1/sweeps/" + id).body;
+    EXPECT_EQ(sweep.at("state"), "succeeded");
+    EXPECT_EQ(sweep.at("points_done"), 4);
+    EXPECT_EQ(sweep.at("variants").size(), 2u);
+    const json list = service.get("/v1/sweeps").body.at("sweeps");
+    ASSERT_EQ(list.size(), 1u);  // not the single run
+    EXPECT_EQ(list[0].at("id"), id);
+    EXPECT_EQ(service.get("/v1/sweeps/" + id + "/results").body.at("rows").size(), 4u);
+    const std::string csv = service.get("/v1/sweeps/" + id + "/results?format=csv").text;
+    EXPECT_NE(csv.find("numerical_share,overlap,cpu_seconds"), std::string::npos) << csv;
+    EXPECT_EQ(service.post("/v1/sweeps/" + id + "/cancel", "").status, 202);
+    EXPECT_EQ(service.get("/v1/sweeps/nobody").status, 404);
 }
 
 TEST(Examples, AreStudiesThatCanBeSentAsTheyAre) {
