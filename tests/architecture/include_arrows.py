@@ -27,13 +27,14 @@ arrows = {
     "mpm_solver": every_core_room,
     "services/orchestrator": {"core/criteria", "core/fault", "core/scene", "core/exchange"},
     "services/cli": {"core/fault", "core/scene", "core/exchange"},
+    "services/report": {"core/fault", "core/exchange"},
 }
 # outside header -> places (folder or file prefix) that may include it
 owners = {
     "hdf5.h": ["core/exchange/"],
     "sqlite3.h": ["services/orchestrator/store/"],
     "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],
-    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/"],
+    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/", "services/report/"],
     "openssl/": ["core/exchange/", "services/orchestrator/"],
 }
 include = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

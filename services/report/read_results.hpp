@@ -1,0 +1,12 @@
+// Opens what phases left behind.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace breach::report {
+
+/// Throws IoError if the file cannot be read, BadInput if it is not JSON.
+nlohmann::json read_json(const std::filesystem::path& path);
+
+}  // namespace breach::report

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "core/fault/fault.hpp"
+#include "services/report/element_test_figures.hpp"
+#include "services/report/stability_figures.hpp"
+
+namespace breach::report {
+namespace {
+
+Chart sample() {
+    return {"a < b & c",
+            {"N [-]", Scale::logarithmic},
+            {"CSR [-]"},
+            {{"one", {1, 10, 100}, {0.3, 0.2, 0.1}, Style::line_and_points}}};
+}
+
+TEST(Ticks, AreRoundAndInside) {
+    EXPECT_EQ(linear_ticks({0, 10}), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+    EXPECT_EQ(log_ticks({1, 100}).size(), 7u);
+}
+
+TEST(LogAxis, HasEqualDecades) { EXPECT_NEAR(place(10, {1, 100}, Scale::logarithmic), 0.5, 1e-15); }
+
+TEST(Chart, EscapesTextAndDrawsEachPoint) {
+    const std::string svg = as_svg(sample());
+    EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
+    std::size_t circles = 0;
+    for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at) ++circles;
+    EXPECT_EQ(circles, 3u);
+}
+
+TEST(Chart, RefusesWhatHasNoPlace) {
+    Chart chart = sample();
+    chart.series[0].x[0] = 0.0;
+    EXPECT_THROW(as_svg(chart), std::invalid_argument);
+    chart.series[0].x[0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(as_svg(chart), std::invalid_argument);
+}
+
+TEST(FigureData, EqualsTheSeries) {
+    EXPECT_EQ(as_csv(sample()),
+              "series,\"N [-]\",\"CSR [-]\"\n\"one\",1,0.3\n\"one\",10,0.2\n\"one\",100,0.1\n");
+}
+
+TEST(Report, MissingFolderIsAnIoError) {
+    EXPECT_THROW(stability_figures("/nonexistent"), fault::IoError);
+    EXPECT_THROW(element_test_figures("/nonexistent"), fault::IoError);
+}
+
+}  // namespace
+}  // namespace breach::report
