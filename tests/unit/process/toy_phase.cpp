@@ -1,5 +1,5 @@
-// The smallest real phase, for testing the door: counts to 20, one telemetry line each, and fails as the scene's
-// title tells it to.
+// The smallest real phase, for testing the door: counts to 20, one telemetry line each, and fails
+// as the scene's title tells it to.
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -18,7 +18,8 @@ process::Outcome count(process::Session& session) {
     for (; n < last; ++n) {
         if (session.stop_requested()) return process::Outcome::stopped;
         if (title == "slow") std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        if (title == "breakdown" && n == 5) throw fault::Breakdown("element 7 is entangled at t = 5 s");
+        if (title == "breakdown" && n == 5)
+            throw fault::Breakdown("element 7 is entangled at t = 5 s");
         if (title == "io") throw fault::IoError("/disk: full");
         if (title == "bug") throw std::logic_error("impossible");
         session.telemetry({{"n", n}});
@@ -32,16 +33,16 @@ process::Outcome count(process::Session& session) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return process::run_phase(
-        argc, argv,
-        {.name = "toy_phase",
-         .purpose = "Counts to twenty",
-         .inputs = {0, 1, "nothing"},
-         .plan =
-             [](const scene::Scene& scene) {
-                 return process::Plan{{"counting", process::Use::on, "always", "/name"},
-                                      {"pore pressure", process::Use::left_out,
-                                       scene.name + " has no water", "/section/regions"}};
-             },
-         .run = count});
+    return process::run_phase(argc, argv,
+                              {.name = "toy_phase",
+                               .purpose = "Counts to twenty",
+                               .inputs = {0, 1, "nothing"},
+                               .plan =
+                                   [](const scene::Scene& scene) {
+                                       return process::Plan{
+                                           {"counting", process::Use::on, "always", "/name"},
+                                           {"pore pressure", process::Use::left_out,
+                                            scene.name + " has no water", "/section/regions"}};
+                                   },
+                               .run = count});
 }
