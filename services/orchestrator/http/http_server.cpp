@@ -67,6 +67,14 @@ Problem problem_of(int status) {
     return {status, "/problems/bad-request", "Bad request", "the request cannot be understood"};
 }
 
+/// Debian's httplib listens with a backlog of 5: of fifty clients that knock at once, some would
+/// wait a second for their connection, or give up. Linux lets a listening socket's backlog be
+/// raised.
+class WideServer : public httplib::Server {
+  public:
+    void widen_backlog() const { ::listen(svr_sock_, 512); }
+};
+
 }  // namespace
 
 class HttpServer::Implementation {
@@ -189,13 +197,14 @@ class HttpServer::Implementation {
                 settings_.host + ":" + std::to_string(settings_.port) +
                 ": cannot be bound; is the port in use? choose another with --port");
         }
+        server_.widen_backlog();
     }
 
     HttpSettings settings_;
     Router router_;
     std::atomic<bool> stopping_ = false;
     int port_ = -1;
-    httplib::Server server_;
+    WideServer server_;
 };
 
 HttpServer::HttpServer(Service& service, HttpSettings settings)
