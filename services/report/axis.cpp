@@ -6,8 +6,8 @@
 
 namespace breach::report {
 
-std::vector<double> linear_ticks(const Range& range) {
-    const double rough = (range.high - range.low) / 6.0;
+std::vector<double> linear_ticks(const Range& range, double wanted) {
+    const double rough = (range.high - range.low) / wanted;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     const double share = rough / power;
     const double step = power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);

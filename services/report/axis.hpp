@@ -13,8 +13,9 @@ struct Range {
     double high;
 };
 
-/// Multiples of 1, 2 or 5 times a power of ten within the range; high > low.
-std::vector<double> linear_ticks(const Range& range);
+/// Multiples of 1, 2 or 5 times a power of ten within the range, about `wanted` of them; high >
+/// low.
+std::vector<double> linear_ticks(const Range& range, double wanted = 6.0);
 /// Powers of ten within the range, and their 2 and 5 folds; high > low > 0.
 std::vector<double> log_ticks(const Range& range);
 /// Share of the axis' length at which the value stands: 0 at low, 1 at high.

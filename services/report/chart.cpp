@@ -15,6 +15,7 @@ constexpr double left = 80, top = 50, width = 560, legend_width = 240, bottom = 
 // colours that stay apart for colour-blind eyes (Okabe and Ito)
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                 "#e69f00", "#56b4e9", "#555555", "#000000"};
+constexpr std::array earths = {"#b08d57", "#d9c9a5", "#8c8c7a", "#c2b280", "#a3a380"};
 
 std::string escaped(const std::string& text) {
     std::string out;
@@ -74,14 +75,15 @@ struct Frame {
 
 void draw_axes(std::ostream& svg, const Frame& f) {
     const double base = top + f.height;
-    const auto ticks = [](const Range& r, Scale s) {
-        return s == Scale::linear ? linear_ticks(r) : log_ticks(r);
+    const auto ticks = [](const Range& r, Scale s, double length) {
+        return s == Scale::linear ? linear_ticks(r, std::clamp(length / 60.0, 1.5, 6.0))
+                                  : log_ticks(r);
     };
-    for (const double t : ticks(f.x, f.chart.x.scale)) {
+    for (const double t : ticks(f.x, f.chart.x.scale, width)) {
         svg << "<path d=\"M" << f.px(t) << ' ' << base << "V" << top << "\" stroke=\"#ddd\"/>\n"
             << text_at(f.px(t), base + 20, short_number(t), "text-anchor=\"middle\"");
     }
-    for (const double t : ticks(f.y, f.chart.y.scale)) {
+    for (const double t : ticks(f.y, f.chart.y.scale, f.height)) {
         svg << "<path d=\"M" << left << ' ' << f.py(t) << "h" << width << "\" stroke=\"#ddd\"/>\n"
             << text_at(left - 8, f.py(t) + 5, short_number(t), "text-anchor=\"end\"");
     }
@@ -101,7 +103,7 @@ void draw_series(std::ostream& svg, const Frame& f, const Series& s, const std::
             svg << (i == 0 ? 'M' : 'L') << f.px(s.x[i]) << ' ' << f.py(s.y[i]);
         }
         if (s.style == Style::area) {
-            svg << "Z\" fill=\"" << colour << "\" fill-opacity=\"0.2\" stroke=\"#777\"/>\n";
+            svg << "Z\" fill=\"" << colour << "\" fill-opacity=\"0.55\" stroke=\"#777\"/>\n";
         } else {
             svg << "\" fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.8\"/>\n";
         }
@@ -138,8 +140,14 @@ std::string as_svg(const Chart& chart) {
         << "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n"
         << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
     draw_axes(svg, f);
+    std::size_t areas = 0;
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
-        const std::string colour = colours[i % colours.size()];
+        // Areas have earth colours of their own, so that a line never looks like the ground it
+        // crosses.
+        const bool area = chart.series[i].style == Style::area;
+        const std::string colour =
+            area ? earths[areas % earths.size()] : colours[(i - areas) % colours.size()];
+        areas += area ? 1 : 0;
         draw_series(svg, f, chart.series[i], colour);
         const double y = top + 12 + 22.0 * static_cast<double>(i);
         svg << "<path d=\"M" << left + width + 14 << ' ' << y << "h20\" stroke=\"" << colour
