@@ -1,31 +1,13 @@
-// What each phase does with the scene: /lem, /fem, /transfer, /mpm.
-#include <algorithm>
-#include <cmath>
+// What lem_tool, fem_solver and transfer_tool do with the scene: /lem, /fem, /transfer.
+#include <functional>
 
-#include "core/scene/reader.hpp"
+#include "core/scene/checks.hpp"
 
 namespace breach::scene {
 
 using nlohmann::json;
 
 namespace {
-
-void check_ascending(Reader& reader, const std::array<double, 2>& range,
-                     const std::string& pointer) {
-    if (range[0] >= range[1])
-        reader.add(pointer, "is not ascending", "write [from, to] with from < to");
-}
-
-/// Needed when a list's own entries are sound but their order is not.
-template <class List, class Before>
-void check_order(Reader& reader, const List& list, Before before, const std::string& pointer,
-                 const std::string& remedy) {
-    for (std::size_t i = 1; i < list.size(); ++i) {
-        if (!before(list[i - 1], list[i])) {
-            reader.add(pointer + "/" + std::to_string(i), "is out of order", remedy);
-        }
-    }
-}
 
 Stage stage_from(const json& stage) {
     const StageLaws laws = stage.at("laws") == "elastic" ? StageLaws::elastic : StageLaws::scene;
@@ -83,65 +65,6 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
         reader.add(pointer, "lacks \"mesh\", which the FEM needs",
                    "add a block or unstructured mesh, or give /fem/msh_file");
     }
-}
-
-void check_grid(Reader& reader, const Mpm& mpm) {
-    const auto whole = [&](double from, double to) {
-        const double cells = (to - from) / mpm.cell_size;
-        return std::abs(cells - std::nearbyint(cells)) < 1e-6;
-    };
-    if (!whole(mpm.domain_x[0], mpm.domain_x[1])) {
-        reader.add("/mpm/domain_x", "is not a whole number of cells",
-                   "make its length a multiple of cell_size");
-    }
-    if (!whole(mpm.domain_y[0], mpm.domain_y[1])) {
-        reader.add("/mpm/domain_y", "is not a whole number of cells",
-                   "make its length a multiple of cell_size");
-    }
-    const double level = mpm.floor.level;
-    if (level < mpm.domain_y[0] - 1e-9 || level > mpm.domain_y[1] ||
-        !whole(mpm.domain_y[0], level)) {
-        reader.add("/mpm/floor/level", "is not a grid line inside domain_y",
-                   "move it or domain_y by less than a cell");
-    }
-}
-
-void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
-    check_grid(reader, mpm);
-    check_order(
-        reader, mpm.floor.friction,
-        [](const FrictionZone& a, const FrictionZone& b) { return a.to <= b.from + 1e-9; },
-        "/mpm/floor/friction", "list the zones from left to right without overlap");
-    for (std::size_t i = 0; i < mpm.runout.regions.size(); ++i) {
-        const auto& regions = scene.section.regions;
-        const auto same = [&](const Region& r) { return r.name == mpm.runout.regions[i]; };
-        if (std::any_of(regions.begin(), regions.end(), same)) continue;
-        reader.add("/mpm/runout/regions/" + std::to_string(i),
-                   "names \"" + mpm.runout.regions[i] + "\", which is no region of the section",
-                   "use a name from /section/regions");
-    }
-    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
-        const Polygon& polygon = scene.section.regions[i].polygon;
-        if (polygon.empty()) continue;
-        const Box box = bounding_box(polygon);
-        const bool inside =
-            box.low.x() >= mpm.domain_x[0] - 1e-9 && box.high.x() <= mpm.domain_x[1] + 1e-9 &&
-            box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;
-        if (inside) continue;
-        reader.add("/section/regions/" + std::to_string(i) + "/polygon",
-                   "reaches outside the MPM grid or below its floor",
-                   "enlarge /mpm/domain_x, /mpm/domain_y or lower /mpm/floor/level");
-    }
-}
-
-/// Points from left to right, no two above each other.
-std::vector<Vec2> line_from(Reader& reader, const json& points, const std::string& pointer) {
-    std::vector<Vec2> line;
-    for (const json& vertex : points) line.push_back(point_from(vertex));
-    check_order(
-        reader, line, [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); }, pointer,
-        "give points from left to right, no two with the same x");
-    return line;
 }
 
 /// Index of a region or material by its name; a fault when there is none.
@@ -320,11 +243,6 @@ SlipSearch search_from(Reader& reader, const json& search) {
     return result;
 }
 
-Wall wall_from(const std::string& text) {
-    if (text == "roller") return Wall::roller;
-    return text == "fixed" ? Wall::fixed : Wall::open;
-}
-
 }  // namespace
 
 void read_lem(Reader& reader, Scene& scene) {
@@ -410,58 +328,6 @@ void read_transfer(Reader& reader, Scene& scene) {
         .largest_mass_loss = transfer.at("largest_mass_loss"),
         .largest_momentum_loss = transfer.at("largest_momentum_loss"),
     };
-}
-
-Kernel kernel_from(const std::string& text) {
-    if (text == "gimp") return Kernel::gimp;
-    return text == "b_spline" ? Kernel::b_spline : Kernel::linear;
-}
-
-void read_mpm(Reader& reader, Scene& scene) {
-    if (!reader.sound("/mpm")) return;
-    const json& mpm = reader.document().at("mpm");
-    Mpm result{};
-    result.cell_size = mpm.at("cell_size");
-    result.domain_x = range_from(mpm.at("domain_x"));
-    result.domain_y = range_from(mpm.at("domain_y"));
-    check_ascending(reader, result.domain_x, "/mpm/domain_x");
-    check_ascending(reader, result.domain_y, "/mpm/domain_y");
-    result.left = wall_from(mpm.at("left"));
-    result.right = wall_from(mpm.at("right"));
-    result.floor.level = mpm.at("floor").at("level");
-    for (const json& zone : mpm.at("floor").at("friction")) {
-        result.floor.friction.push_back({zone.at("from"), zone.at("to"), zone.at("coefficient")});
-        if (zone.at("from") < zone.at("to")) continue;
-        reader.add("/mpm/floor/friction/" + std::to_string(result.floor.friction.size() - 1),
-                   "ends before it begins", "give from < to");
-    }
-    result.kernel = kernel_from(mpm.at("kernel"));
-    result.gimp_half_size = mpm.at("gimp_half_size");
-    result.order = mpm.at("order") == "usl" ? UpdateOrder::usl : UpdateOrder::musl;
-    result.blending_rate = mpm.at("blending_rate");
-    result.anti_locking = mpm.at("anti_locking") == "on" ? AntiLocking::on : AntiLocking::off;
-    result.gap_closure = mpm.at("gap_closure");
-    result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
-                                 mpm.at("overlap_correction").at("tolerance")};
-    if (mpm.contains("softening_length")) {
-        result.softening_length = mpm.at("softening_length").get<double>();
-    }
-    result.stiffness_scale = mpm.at("stiffness_scale");
-    if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
-    result.cfl = mpm.at("cfl");
-    result.duration = mpm.at("duration");
-    result.rest_change = mpm.at("rest_change");
-    result.rest_window = mpm.at("rest_window");
-    result.rest_earliest = mpm.at("rest_earliest");
-    result.runout.toe = point_from(mpm.at("runout").at("toe"));
-    result.runout.regions = mpm.at("runout").at("regions").get<std::vector<std::string>>();
-    result.snapshot_interval = mpm.at("snapshot_interval");
-    result.telemetry_interval = mpm.at("telemetry_interval");
-    result.checkpoint_interval = mpm.at("checkpoint_interval");
-    result.largest_energy_gain = mpm.at("largest_energy_gain");
-    result.fill_points = mpm.at("fill_points");
-    check_mpm(reader, scene, result);
-    scene.mpm = std::move(result);
 }
 
 }  // namespace breach::scene

@@ -1,0 +1,121 @@
+// What mpm_solver does with the scene: /mpm.
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/checks.hpp"
+
+namespace breach::scene {
+
+using nlohmann::json;
+
+namespace {
+
+void check_grid(Reader& reader, const Mpm& mpm) {
+    const auto whole = [&](double from, double to) {
+        const double cells = (to - from) / mpm.cell_size;
+        return std::abs(cells - std::nearbyint(cells)) < 1e-6;
+    };
+    if (!whole(mpm.domain_x[0], mpm.domain_x[1])) {
+        reader.add("/mpm/domain_x", "is not a whole number of cells",
+                   "make its length a multiple of cell_size");
+    }
+    if (!whole(mpm.domain_y[0], mpm.domain_y[1])) {
+        reader.add("/mpm/domain_y", "is not a whole number of cells",
+                   "make its length a multiple of cell_size");
+    }
+    const double level = mpm.floor.level;
+    if (level < mpm.domain_y[0] - 1e-9 || level > mpm.domain_y[1] ||
+        !whole(mpm.domain_y[0], level)) {
+        reader.add("/mpm/floor/level", "is not a grid line inside domain_y",
+                   "move it or domain_y by less than a cell");
+    }
+}
+
+void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
+    check_grid(reader, mpm);
+    check_order(
+        reader, mpm.floor.friction,
+        [](const FrictionZone& a, const FrictionZone& b) { return a.to <= b.from + 1e-9; },
+        "/mpm/floor/friction", "list the zones from left to right without overlap");
+    for (std::size_t i = 0; i < mpm.runout.regions.size(); ++i) {
+        const auto& regions = scene.section.regions;
+        const auto same = [&](const Region& r) { return r.name == mpm.runout.regions[i]; };
+        if (std::any_of(regions.begin(), regions.end(), same)) continue;
+        reader.add("/mpm/runout/regions/" + std::to_string(i),
+                   "names \"" + mpm.runout.regions[i] + "\", which is no region of the section",
+                   "use a name from /section/regions");
+    }
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        const Polygon& polygon = scene.section.regions[i].polygon;
+        if (polygon.empty()) continue;
+        const Box box = bounding_box(polygon);
+        const bool inside =
+            box.low.x() >= mpm.domain_x[0] - 1e-9 && box.high.x() <= mpm.domain_x[1] + 1e-9 &&
+            box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;
+        if (inside) continue;
+        reader.add("/section/regions/" + std::to_string(i) + "/polygon",
+                   "reaches outside the MPM grid or below its floor",
+                   "enlarge /mpm/domain_x, /mpm/domain_y or lower /mpm/floor/level");
+    }
+}
+
+Wall wall_from(const std::string& text) {
+    if (text == "roller") return Wall::roller;
+    return text == "fixed" ? Wall::fixed : Wall::open;
+}
+
+Kernel kernel_from(const std::string& text) {
+    if (text == "gimp") return Kernel::gimp;
+    return text == "b_spline" ? Kernel::b_spline : Kernel::linear;
+}
+
+}  // namespace
+
+void read_mpm(Reader& reader, Scene& scene) {
+    if (!reader.sound("/mpm")) return;
+    const json& mpm = reader.document().at("mpm");
+    Mpm result{};
+    result.cell_size = mpm.at("cell_size");
+    result.domain_x = range_from(mpm.at("domain_x"));
+    result.domain_y = range_from(mpm.at("domain_y"));
+    check_ascending(reader, result.domain_x, "/mpm/domain_x");
+    check_ascending(reader, result.domain_y, "/mpm/domain_y");
+    result.left = wall_from(mpm.at("left"));
+    result.right = wall_from(mpm.at("right"));
+    result.floor.level = mpm.at("floor").at("level");
+    for (const json& zone : mpm.at("floor").at("friction")) {
+        result.floor.friction.push_back({zone.at("from"), zone.at("to"), zone.at("coefficient")});
+        if (zone.at("from") < zone.at("to")) continue;
+        reader.add("/mpm/floor/friction/" + std::to_string(result.floor.friction.size() - 1),
+                   "ends before it begins", "give from < to");
+    }
+    result.kernel = kernel_from(mpm.at("kernel"));
+    result.gimp_half_size = mpm.at("gimp_half_size");
+    result.order = mpm.at("order") == "usl" ? UpdateOrder::usl : UpdateOrder::musl;
+    result.blending_rate = mpm.at("blending_rate");
+    result.anti_locking = mpm.at("anti_locking") == "on" ? AntiLocking::on : AntiLocking::off;
+    result.gap_closure = mpm.at("gap_closure");
+    result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
+                                 mpm.at("overlap_correction").at("tolerance")};
+    if (mpm.contains("softening_length")) {
+        result.softening_length = mpm.at("softening_length").get<double>();
+    }
+    result.stiffness_scale = mpm.at("stiffness_scale");
+    if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
+    result.cfl = mpm.at("cfl");
+    result.duration = mpm.at("duration");
+    result.rest_change = mpm.at("rest_change");
+    result.rest_window = mpm.at("rest_window");
+    result.rest_earliest = mpm.at("rest_earliest");
+    result.runout.toe = point_from(mpm.at("runout").at("toe"));
+    result.runout.regions = mpm.at("runout").at("regions").get<std::vector<std::string>>();
+    result.snapshot_interval = mpm.at("snapshot_interval");
+    result.telemetry_interval = mpm.at("telemetry_interval");
+    result.checkpoint_interval = mpm.at("checkpoint_interval");
+    result.largest_energy_gain = mpm.at("largest_energy_gain");
+    result.fill_points = mpm.at("fill_points");
+    check_mpm(reader, scene, result);
+    scene.mpm = std::move(result);
+}
+
+}  // namespace breach::scene
