@@ -20,6 +20,9 @@ void check_sizes(const MeshSnapshot& s) {
     const bool agree = s.displacement.size() == nodes && s.velocity.size() == nodes &&
                        s.acceleration.size() == nodes && s.nodal_mass.size() == nodes &&
                        (s.pore_pressure.empty() || s.pore_pressure.size() == nodes) &&
+                       (s.sigma_v0.empty() || s.sigma_v0.size() == nodes) &&
+                       s.pore_pressure_0.size() == s.sigma_v0.size() &&
+                       (s.sigma_v0.empty() || !s.pore_pressure.empty()) &&
                        s.region_of_element.size() == elements && s.density.size() == elements &&
                        s.gauss_positions.size() == static_cast<std::size_t>(s.gauss_per_element) &&
                        s.stress.size() == points && s.strain.size() == points &&
@@ -55,6 +58,10 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(nodal + "acceleration", as_3d(s.acceleration), 3, "m/s2");
     image.array(nodal + "mass", s.nodal_mass, 0, "kg");
     if (!s.pore_pressure.empty()) image.array(nodal + "pore_pressure", s.pore_pressure, 0, "Pa");
+    if (!s.sigma_v0.empty()) {
+        image.array(nodal + "sigma_v0", s.sigma_v0, 0, "Pa");
+        image.array(nodal + "pore_pressure_0", s.pore_pressure_0, 0, "Pa");
+    }
 
     const std::string cell = "/VTKHDF/CellData/";
     const auto gauss = static_cast<std::size_t>(s.gauss_per_element);
@@ -108,6 +115,11 @@ void read_nodes(Hdf5Reader& reader, MeshSnapshot& s, std::size_t nodes, bool has
     read_3d(reader, nodal + "acceleration", s.acceleration);
     reader.array(nodal + "mass", s.nodal_mass, 0);
     if (has_pore_pressure) reader.array(nodal + "pore_pressure", s.pore_pressure, 0);
+    if (!has_pore_pressure || !reader.exists(nodal + "sigma_v0")) return;
+    s.sigma_v0.resize(nodes);
+    s.pore_pressure_0.resize(nodes);
+    reader.array(nodal + "sigma_v0", s.sigma_v0, 0);
+    reader.array(nodal + "pore_pressure_0", s.pore_pressure_0, 0);
 }
 
 void read_elements(Hdf5Reader& reader, MeshSnapshot& s, std::size_t elements, std::size_t gauss) {

@@ -28,7 +28,13 @@ struct MeshSnapshot {
     std::vector<mechanics::Vec2> velocity;      ///< [m/s]
     std::vector<mechanics::Vec2> acceleration;  ///< [m/s2]
     std::vector<double> nodal_mass;             ///< lumped, for the ledger [kg]
-    std::vector<double> pore_pressure;          ///< [Pa]; empty in a scene without water
+    std::vector<double> pore_pressure;          ///< u [Pa]; empty in a scene without water
+    /// Vertical effective stress of the ground before the shaking, that is when the first dynamic
+    /// stage begins, and the pore pressure there and then; compression positive [Pa]. Both or none;
+    /// a FEM with water writes them, from its Gauss points averaged at the nodes, so that r_u = (u
+    /// - u_0) / sigma'_v0 can be formed; without them nothing can be called liquefied.
+    std::vector<double> sigma_v0;
+    std::vector<double> pore_pressure_0;
 
     // elements [n_elements]
     std::vector<std::array<std::int32_t, 4>> quads;  ///< corners counter-clockwise

@@ -11,14 +11,18 @@ namespace {
 
 const Kind kind{"particle_state", 1};
 const std::string at_points = "/VTKHDF/PointData/";
+const std::string stress_of_regions = "/breachline/stress_of_regions";
 
 void check_sizes(const ParticleState& s) {
     const std::size_t n = s.size();
-    const bool agree = s.velocity.size() == n && s.velocity_gradient.size() == n &&
-                       s.mass.size() == n && s.volume_0.size() == n && s.volume.size() == n &&
-                       s.stress.size() == n && s.epsilon_q.size() == n &&
-                       s.epsilon_q_plastic.size() == n && s.gap.size() == n &&
-                       s.region.size() == n && s.regions.size() == s.materials_of_regions.size();
+    const bool agree =
+        s.velocity.size() == n && s.velocity_gradient.size() == n && s.mass.size() == n &&
+        s.volume_0.size() == n && s.volume.size() == n && s.stress.size() == n &&
+        s.epsilon_q.size() == n && s.epsilon_q_plastic.size() == n && s.gap.size() == n &&
+        s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
+        (s.stress_of_regions.empty() || s.stress_of_regions.size() == s.regions.size()) &&
+        (s.pore_pressure.empty() || s.pore_pressure.size() == n) &&
+        (s.r_u.empty() || s.r_u.size() == n);
     if (!agree) throw std::logic_error("particle state: arrays of different lengths");
 }
 
@@ -40,6 +44,31 @@ void write_points(Hdf5Image& image, const ParticleState& s) {
     image.array(at_points + "epsilon_q_plastic", s.epsilon_q_plastic, 0, "1");
     image.array(at_points + "gap", s.gap, 0, "1");
     image.array(at_points + "region", std::span<const std::int32_t>(s.region));
+    if (!s.pore_pressure.empty())
+        image.array(at_points + "pore_pressure", s.pore_pressure, 0, "Pa");
+    if (!s.r_u.empty()) image.array(at_points + "r_u", s.r_u, 0, "1");
+}
+
+void write_stress_measures(Hdf5Image& image, const std::vector<StressMeasure>& measures) {
+    if (measures.empty()) return;
+    std::vector<std::string> names;
+    for (const StressMeasure each : measures)
+        names.emplace_back(each == StressMeasure::total ? "total" : "effective");
+    image.strings(stress_of_regions, names);
+}
+
+std::vector<StressMeasure> read_stress_measures(Hdf5Reader& reader, std::size_t regions) {
+    std::vector<StressMeasure> measures;
+    if (!reader.exists(stress_of_regions)) return measures;
+    for (const std::string& name : reader.strings(stress_of_regions)) {
+        if (name != "total" && name != "effective")
+            reader.fault(stress_of_regions, "\"" + name + "\" is neither total nor effective");
+        measures.push_back(name == "total" ? StressMeasure::total : StressMeasure::effective);
+    }
+    if (measures.size() != regions)
+        reader.fault(stress_of_regions, std::to_string(measures.size()) + " entries for " +
+                                            std::to_string(regions) + " regions");
+    return measures;
 }
 
 void write_ledger(Hdf5Image& image, const Ledger& ledger) {
@@ -106,6 +135,12 @@ void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n) {
     reader.array(at_points + "epsilon_q_plastic", s.epsilon_q_plastic, 0);
     reader.array(at_points + "gap", s.gap, 0);
     reader.array(at_points + "region", s.region);
+    for (const auto& [name, field] :
+         {std::pair{"pore_pressure", &s.pore_pressure}, std::pair{"r_u", &s.r_u}}) {
+        if (!reader.exists(at_points + name)) continue;
+        field->resize(n);
+        reader.array(at_points + name, *field, 0);
+    }
 }
 
 void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
@@ -131,6 +166,7 @@ void write_particle_state(const std::filesystem::path& path, const ParticleState
     image.attribute(here, "points", std::span(&points, 1));
     write_points(image, state);
     write_regions(image, state.regions, state.materials_of_regions);
+    write_stress_measures(image, state.stress_of_regions);
     if (!ledger.empty()) write_ledger(image, ledger);
     write_provenance(image, provenance);
     std::move(image).save(path);
@@ -151,6 +187,7 @@ ParticleStateFile read_particle_state(const std::filesystem::path& path) {
 
     read_points(reader, s, n);
     read_regions(reader, s.regions, s.materials_of_regions);
+    s.stress_of_regions = read_stress_measures(reader, s.regions.size());
     file.ledger = read_ledger(reader);
     file.provenance = read_provenance(reader);
     reader.check_rest();

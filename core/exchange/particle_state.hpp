@@ -13,14 +13,21 @@
 
 namespace breach::exchange {
 
+/// What the stress of a region's points is. effective: the total stress is stress - u I with the
+/// points' pore_pressure u; total: the pore pressure is in it already.
+enum class StressMeasure { effective, total };
+
 struct ParticleState {
     double time = 0.0;           ///< [s] on the MPM's clock; 0 at the transfer
     double transfer_time = 0.0;  ///< t_T [s] on the FEM's clock
     std::int64_t step = 0;
     double thickness = 1.0;  ///< [m]
 
-    std::vector<std::string> regions;               ///< names, by region index
-    std::vector<std::string> materials_of_regions;  ///< material name of each region
+    /// By region index: name, material, and what the stress is. A name may occur more than once,
+    /// each time with another material (layers of one region that liquefied).
+    std::vector<std::string> regions;
+    std::vector<std::string> materials_of_regions;
+    std::vector<StressMeasure> stress_of_regions;  ///< empty: all effective
 
     // [n_particles]
     std::vector<mechanics::Vec2> position;  ///< [m]
@@ -30,11 +37,13 @@ struct ParticleState {
     std::vector<double> mass;               ///< [kg] for `thickness`
     std::vector<double> volume_0;           ///< at zero mean stress, the law's reference [m3]
     std::vector<double> volume;             ///< [m3]
-    std::vector<mechanics::Voigt> stress;   ///< effective [Pa], tension positive
+    std::vector<mechanics::Voigt> stress;   ///< [Pa], tension positive; see stress_of_regions
     std::vector<double> epsilon_q;          ///< total, sqrt(2/3 e:e) accumulated [-]
     std::vector<double> epsilon_q_plastic;  ///< what drives softening [-]
     std::vector<double> gap;                ///< volume strain still to be closed after tension [-]
     std::vector<std::int32_t> region;
+    std::vector<double> pore_pressure;  ///< u [Pa]; empty when there is no water
+    std::vector<double> r_u;  ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
 
     std::size_t size() const { return position.size(); }
 };

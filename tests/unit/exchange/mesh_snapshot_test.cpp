@@ -63,6 +63,23 @@ TEST(MeshSnapshot, WithoutWaterHasNoPorePressure) {
     EXPECT_TRUE(read_mesh_snapshot(folder / "a.vtkhdf").snapshot.pore_pressure.empty());
 }
 
+TEST(MeshSnapshot, CarriesTheStressBeforeTheShakingWhenThereIsOne) {
+    const Folder folder;
+    MeshSnapshot s = samples::mesh(2);
+    write_mesh_snapshot(folder / "without.vtkhdf", s, {});
+    EXPECT_TRUE(read_mesh_snapshot(folder / "without.vtkhdf").snapshot.sigma_v0.empty());
+    for (std::size_t i = 0; i < s.position_0.size(); ++i) {
+        s.sigma_v0.push_back(1e4 * static_cast<double>(i) + 1.0 / 3.0);
+        s.pore_pressure_0.push_back(-7.0 * static_cast<double>(i));
+    }
+    write_mesh_snapshot(folder / "with.vtkhdf", s, {});
+    const MeshSnapshot r = read_mesh_snapshot(folder / "with.vtkhdf").snapshot;
+    EXPECT_EQ(r.sigma_v0, s.sigma_v0);
+    EXPECT_EQ(r.pore_pressure_0, s.pore_pressure_0);
+    s.pore_pressure_0.pop_back();
+    EXPECT_THROW(write_mesh_snapshot(folder / "no.vtkhdf", s, {}), std::logic_error);
+}
+
 TEST(MeshSnapshot, TheSameStateGivesTheSameBytes) {
     const Folder folder;
     write_mesh_snapshot(folder / "a.vtkhdf", samples::mesh(50), samples::provenance());

@@ -37,6 +37,24 @@ TEST(ParticleState, ComesBackBitForBit) {
     EXPECT_TRUE(file.ledger.empty());
 }
 
+TEST(ParticleState, CarriesWaterAndWhatItsStressIsWhenThereIsWater) {
+    const Folder folder;
+    ParticleState s = samples::particles(3);
+    write_particle_state(folder / "dry.vtkhdf", s, {});
+    const ParticleState dry = read_particle_state(folder / "dry.vtkhdf").state;
+    EXPECT_TRUE(dry.pore_pressure.empty() && dry.r_u.empty() && dry.stress_of_regions.empty());
+    s.regions = {"tailings", "tailings"};
+    s.stress_of_regions = {StressMeasure::effective, StressMeasure::total};
+    s.pore_pressure = {1e3, 2e3, -3e3};
+    s.r_u = {0.1, 0.7, 1.0 / 3.0};
+    write_particle_state(folder / "wet.vtkhdf", s, {});
+    const ParticleState wet = read_particle_state(folder / "wet.vtkhdf").state;
+    EXPECT_EQ(wet.regions, s.regions);
+    EXPECT_EQ(wet.stress_of_regions, s.stress_of_regions);
+    EXPECT_EQ(wet.pore_pressure, s.pore_pressure);
+    EXPECT_EQ(wet.r_u, s.r_u);
+}
+
 TEST(ParticleState, CarriesTheLedgerOfItsTransfer) {
     const Folder folder;
     const Ledger ledger{{"tailings", "mass", "kg", 1e6, 1e6 + 1e-6, 1e-12},
