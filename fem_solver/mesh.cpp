@@ -78,9 +78,7 @@ Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder) 
         mesh = mesh_with_gmsh(section, folder);
     } else {
         std::vector<Mesh> parts;
-        for (std::size_t i = 0; i < section.regions.size(); ++i) {
-            parts.push_back(map_block(section.regions[i], static_cast<std::int32_t>(i)));
-        }
+        for (const Piece& piece : pieces_of(section)) parts.push_back(map_block(piece));
         mesh = join(parts, section);
     }
     check_convex(mesh, section);

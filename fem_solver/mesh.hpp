@@ -29,10 +29,22 @@ Corners corners_of(const Mesh& mesh, std::size_t element);
 /// missing, file not readable).
 Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder);
 
-/// Quads mapped from the unit square onto the region by transfinite interpolation of its four
+/// A part of a region that is meshed in one way.
+struct Piece {
+    scene::Region region;  ///< with the part's polygon and divisions
+    std::size_t of;        ///< index of the whole region in the section
+    double growth = 1.0;   ///< block: length of an element over its neighbour's before it, along
+                           ///< corner 0-1 [-]
+};
+
+/// The section's regions in their order, graded ones as strips and middle. Throws BadInput when a
+/// strip is not a quadrilateral.
+std::vector<Piece> pieces_of(const scene::Section& section);
+
+/// Quads mapped from the unit square onto the piece by transfinite interpolation of its four
 /// sides. A side's polyline vertices become nodes; its divisions are shared out by length. Throws
 /// BadInput when a side has more segments than divisions.
-Mesh map_block(const scene::Region& region, std::int32_t index);
+Mesh map_block(const Piece& piece);
 
 /// One mesh from several: nodes closer than a millionth of the shortest edge become one. Throws
 /// BadInput with every hanging node and gap between regions, naming both.
@@ -57,10 +69,10 @@ struct Quality {
 Quality quality_of(const Mesh& mesh);
 
 /// Side positions [0, 1] do not matter here: points along the side from corner k to corner k+1,
-/// divisions + 1 of them, with every polyline vertex among them. Empty when the side has more
-/// segments than divisions.
+/// divisions + 1 of them, with every polyline vertex among them; within a segment, each element is
+/// `growth` times as long as the one before. Empty when the side has more segments than divisions.
 std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
-                              int divisions);
+                              int divisions, double growth = 1.0);
 
 /// How many of a side's divisions each of its segments gets: at least one each, otherwise by
 /// length.

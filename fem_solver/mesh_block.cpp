@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "fem_solver/mesh.hpp"
@@ -22,8 +23,19 @@ std::vector<int> share_divisions(const std::vector<double>& lengths, int divisio
     return shares;
 }
 
+namespace {
+
+/// Share of a segment that the first k of n elements fill when each is `growth` times its
+/// predecessor.
+double share_at(int k, int n, double growth) {
+    if (growth == 1.0) return static_cast<double>(k) / n;
+    return std::expm1(k * std::log(growth)) / std::expm1(n * std::log(growth));
+}
+
+}  // namespace
+
 std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
-                              int divisions) {
+                              int divisions, double growth) {
     std::vector<Vec2> vertices{polygon[from]};
     for (std::size_t i = from; i != to;) {
         i = (i + 1) % polygon.size();
@@ -38,7 +50,7 @@ std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, s
     std::vector<Vec2> points{vertices.front()};
     for (std::size_t i = 0; i < shares.size(); ++i) {
         for (int k = 1; k < shares[i]; ++k) {
-            const double s = static_cast<double>(k) / shares[i];
+            const double s = share_at(k, shares[i], growth);
             points.push_back((1.0 - s) * vertices[i] + s * vertices[i + 1]);
         }
         points.push_back(vertices[i + 1]);
@@ -75,18 +87,20 @@ Vec2 blend(const Sides& sides, std::size_t i, std::size_t j, double xi, double e
             (1.0 - xi) * eta * P01);
 }
 
-std::string place(std::int32_t index, const std::string& key) {
+std::string place(std::size_t index, const std::string& key) {
     return "/section/regions/" + std::to_string(index) + "/" + key;
 }
 
-Sides divide_sides(const scene::Region& region, std::int32_t index) {
+Sides divide_sides(const Piece& piece) {
+    const scene::Region& region = piece.region;
+    const std::array<double, 4> growth{piece.growth, 1.0, 1.0 / piece.growth, 1.0};
     std::array<std::vector<Vec2>, 4> sides;
     for (std::size_t k = 0; k < 4; ++k) {
         sides[k] = divide_side(region.polygon, region.corners[k], region.corners[(k + 1) % 4],
-                               region.divisions[k % 2]);
+                               region.divisions[k % 2], growth[k]);
         if (sides[k].empty()) {
             throw fault::BadInput("scene",
-                                  {{place(index, "mesh/divisions"),
+                                  {{place(piece.of, "mesh/divisions"),
                                     "side " + std::to_string(k + 1) + " of region '" + region.name +
                                         "' has more polygon segments than divisions (" +
                                         std::to_string(region.divisions[k % 2]) + ")",
@@ -106,8 +120,8 @@ double between(double at_start, double at_end, double other) {
 
 }  // namespace
 
-Mesh map_block(const scene::Region& region, std::int32_t index) {
-    const Sides sides = divide_sides(region, index);
+Mesh map_block(const Piece& piece) {
+    const Sides sides = divide_sides(piece);
     const auto s_bottom = arc_shares(sides.bottom), s_top = arc_shares(sides.top);
     const auto s_left = arc_shares(sides.left), s_right = arc_shares(sides.right);
     const std::size_t columns = sides.bottom.size(), rows = sides.left.size();
@@ -138,7 +152,7 @@ Mesh map_block(const scene::Region& region, std::int32_t index) {
             const auto k = static_cast<std::int32_t>(j * columns + i);
             const auto next = static_cast<std::int32_t>(columns);
             mesh.quads.push_back({k, k + 1, k + 1 + next, k + next});
-            mesh.region_of_element.push_back(index);
+            mesh.region_of_element.push_back(static_cast<std::int32_t>(piece.of));
         }
     }
     return mesh;

@@ -26,11 +26,12 @@ struct Outline {
         int from, to;                ///< points
         double length;               ///< [m]
         int divisions = 0;           ///< 0: not yet decided
+        double growth = 1.0;         ///< of its elements, from `from` to `to`
         std::size_t divided_by = 0;  ///< region that decided
     };
     std::vector<Vec2> points;
     std::vector<Line> lines;
-    std::vector<std::vector<int>> loops;  ///< per region: line + 1, negative when run backwards
+    std::vector<std::vector<int>> loops;  ///< per piece: line + 1, negative when run backwards
 };
 
 int point_at(Outline& outline, const Vec2& x, double tolerance) {
@@ -65,18 +66,18 @@ int line_between(Outline& outline, int from, int to) {
     return static_cast<int>(outline.lines.size());
 }
 
-Outline outline_of(const scene::Section& section) {
+Outline outline_of(const std::vector<Piece>& pieces) {
     double size = 0.0;
-    for (const auto& region : section.regions) {
+    for (const auto& [region, of, growth] : pieces) {
         const scene::Box box = scene::bounding_box(region.polygon);
         size = std::max(size, (box.high - box.low).norm());
     }
     const double tolerance = 1e-9 * size;
     Outline outline;
-    for (const auto& region : section.regions) {
+    for (const auto& [region, of, growth] : pieces) {
         for (const Vec2& vertex : region.polygon) point_at(outline, vertex, tolerance);
     }
-    for (const auto& region : section.regions) {
+    for (const auto& [region, of, growth] : pieces) {
         std::vector<int> loop;
         for (std::size_t i = 0; i < region.polygon.size(); ++i) {
             const int a = point_at(outline, region.polygon[i], tolerance);
@@ -92,32 +93,34 @@ Outline outline_of(const scene::Section& section) {
     return outline;
 }
 
-/// Lines of a loop from the point at corner `from` to that at `to`.
-std::vector<std::size_t> side_lines(const Outline& outline, const std::vector<int>& loop,
-                                    const Vec2& from, const Vec2& to) {
+/// Lines of a loop, signed as in it, from the point at corner `from` to that at `to`.
+std::vector<int> side_lines(const Outline& outline, const std::vector<int>& loop, const Vec2& from,
+                            const Vec2& to) {
     const auto start = [&](int signed_line) {
         const Outline::Line& line = outline.lines[std::abs(signed_line) - 1];
         return outline.points[signed_line > 0 ? line.from : line.to];
     };
     std::size_t at = 0;
     while ((start(loop[at]) - from).norm() > 1e-9 * (to - from).norm()) at = (at + 1) % loop.size();
-    std::vector<std::size_t> lines;
+    std::vector<int> lines;
     do {
-        lines.push_back(static_cast<std::size_t>(std::abs(loop[at]) - 1));
+        lines.push_back(loop[at]);
         at = (at + 1) % loop.size();
     } while ((start(loop[at]) - to).norm() > 1e-9 * (to - from).norm());
     return lines;
 }
 
-void divide_block(Outline& outline, const scene::Section& section, std::size_t r,
+void divide_block(Outline& outline, const std::vector<Piece>& pieces, std::size_t p,
                   std::vector<fault::Fault>& faults) {
-    const scene::Region& region = section.regions[r];
-    const std::string pointer = "/section/regions/" + std::to_string(r) + "/mesh/divisions";
+    const scene::Region& region = pieces[p].region;
+    const std::string pointer =
+        "/section/regions/" + std::to_string(pieces[p].of) + "/mesh/divisions";
+    const std::array<double, 4> growth{pieces[p].growth, 1.0, 1.0 / pieces[p].growth, 1.0};
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto lines = side_lines(outline, outline.loops[r], region.polygon[region.corners[k]],
+        const auto lines = side_lines(outline, outline.loops[p], region.polygon[region.corners[k]],
                                       region.polygon[region.corners[(k + 1) % 4]]);
         std::vector<double> lengths;
-        for (const std::size_t i : lines) lengths.push_back(outline.lines[i].length);
+        for (const int i : lines) lengths.push_back(outline.lines[std::abs(i) - 1].length);
         const auto shares = share_divisions(lengths, region.divisions[k % 2]);
         if (shares.empty()) {
             faults.push_back({pointer,
@@ -126,35 +129,36 @@ void divide_block(Outline& outline, const scene::Section& section, std::size_t r
             return;
         }
         for (std::size_t i = 0; i < lines.size(); ++i) {
-            Outline::Line& line = outline.lines[lines[i]];
+            Outline::Line& line = outline.lines[std::abs(lines[i]) - 1];
             if (line.divisions != 0 && line.divisions != shares[i]) {
                 faults.push_back({pointer,
-                                  "regions '" + section.regions[line.divided_by].name + "' and '" +
+                                  "regions '" + pieces[line.divided_by].region.name + "' and '" +
                                       region.name + "' divide their shared side into " +
                                       std::to_string(line.divisions) + " and " +
                                       std::to_string(shares[i]),
                                   "give both the same number"});
             }
             line.divisions = shares[i];
-            line.divided_by = r;
+            line.growth = lines[i] > 0 ? growth[k] : 1.0 / growth[k];
+            line.divided_by = p;
         }
     }
 }
 
 /// Even divisions on the free lines of an unstructured region; one more on a line of its own where
 /// its blocks leave an odd sum, because only an even border can be filled with quads.
-void divide_unstructured(Outline& outline, const scene::Section& section,
+void divide_unstructured(Outline& outline, const std::vector<Piece>& pieces,
                          std::vector<fault::Fault>& faults) {
     std::vector<int> uses(outline.lines.size(), 0);
     for (const auto& loop : outline.loops) {
         for (const int line : loop) ++uses[std::abs(line) - 1];
     }
-    for (std::size_t r = 0; r < section.regions.size(); ++r) {
-        const scene::Region& region = section.regions[r];
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const scene::Region& region = pieces[p].region;
         if (region.mesh != scene::RegionMesh::unstructured) continue;
         int sum = 0;
         Outline::Line* own = nullptr;
-        for (const int signed_line : outline.loops[r]) {
+        for (const int signed_line : outline.loops[p]) {
             Outline::Line& line = outline.lines[std::abs(signed_line) - 1];
             if (line.divisions == 0) {
                 const double wanted = line.length / (2.0 * region.element_size);
@@ -167,7 +171,7 @@ void divide_unstructured(Outline& outline, const scene::Section& section,
         if (own != nullptr) {
             ++own->divisions;
         } else {
-            faults.push_back({"/section/regions/" + std::to_string(r) + "/mesh",
+            faults.push_back({"/section/regions/" + std::to_string(pieces[p].of) + "/mesh",
                               "the border of '" + region.name +
                                   "' has an odd number of divisions (" + std::to_string(sum) +
                                   "): quads cannot fill it",
@@ -186,7 +190,18 @@ struct Recipe {
 /// by blossom. (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
 constexpr std::array<Recipe, 3> recipes{{{6, 1}, {5, 1}, {1, 1}}};
 
-std::string geo_text(const Outline& outline, const scene::Section& section, const Recipe& recipe) {
+/// One physical surface per region, of all its pieces.
+void write_regions(std::ostringstream& geo, const std::vector<Piece>& pieces) {
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const bool begins = p == 0 || pieces[p - 1].of != pieces[p].of;
+        const bool ends = p + 1 == pieces.size() || pieces[p + 1].of != pieces[p].of;
+        if (begins) geo << "Physical Surface(\"" << pieces[p].region.name << "\") = {";
+        geo << (begins ? "" : ", ") << p + 1 << (ends ? "};\n" : "");
+    }
+}
+
+std::string geo_text(const Outline& outline, const std::vector<Piece>& pieces,
+                     const Recipe& recipe) {
     std::ostringstream geo;
     geo << std::setprecision(17);
     geo << "General.NumThreads = 1;\nMesh.Algorithm = " << recipe.algorithm
@@ -195,7 +210,9 @@ std::string geo_text(const Outline& outline, const scene::Section& section, cons
            "1e-9;\n"
            "Mesh.Smoothing = 5;\nMesh.MshFileVersion = 2.2;\nMesh.Binary = 0;\n";
     double largest = 0.0;
-    for (const auto& region : section.regions) largest = std::max(largest, region.element_size);
+    for (const auto& [region, of, growth] : pieces) {
+        largest = std::max(largest, region.element_size);
+    }
     geo << "Mesh.CharacteristicLengthMax = " << largest << ";\n";
     for (std::size_t i = 0; i < outline.points.size(); ++i) {
         geo << "Point(" << i + 1 << ") = {" << outline.points[i].x() << ", "
@@ -204,17 +221,18 @@ std::string geo_text(const Outline& outline, const scene::Section& section, cons
     for (std::size_t i = 0; i < outline.lines.size(); ++i) {
         const Outline::Line& line = outline.lines[i];
         geo << "Line(" << i + 1 << ") = {" << line.from + 1 << ", " << line.to + 1 << "};\n"
-            << "Transfinite Line {" << i + 1 << "} = " << line.divisions + 1 << ";\n";
+            << "Transfinite Line {" << i + 1 << "} = " << line.divisions + 1
+            << " Using Progression " << line.growth << ";\n";
     }
-    for (std::size_t r = 0; r < section.regions.size(); ++r) {
-        const scene::Region& region = section.regions[r];
-        geo << "Line Loop(" << r + 1 << ") = {";
-        for (std::size_t k = 0; k < outline.loops[r].size(); ++k) {
-            geo << (k == 0 ? "" : ", ") << outline.loops[r][k];
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const scene::Region& region = pieces[p].region;
+        geo << "Line Loop(" << p + 1 << ") = {";
+        for (std::size_t k = 0; k < outline.loops[p].size(); ++k) {
+            geo << (k == 0 ? "" : ", ") << outline.loops[p][k];
         }
-        geo << "};\nPlane Surface(" << r + 1 << ") = {" << r + 1 << "};\n";
+        geo << "};\nPlane Surface(" << p + 1 << ") = {" << p + 1 << "};\n";
         if (region.mesh == scene::RegionMesh::block) {
-            geo << "Transfinite Surface {" << r + 1 << "} = {";
+            geo << "Transfinite Surface {" << p + 1 << "} = {";
             for (std::size_t k = 0; k < 4; ++k) {
                 const Vec2& corner = region.polygon[region.corners[k]];
                 const auto nearest = std::ranges::min_element(
@@ -223,8 +241,8 @@ std::string geo_text(const Outline& outline, const scene::Section& section, cons
             }
             geo << "};\n";
         }
-        geo << "Physical Surface(\"" << region.name << "\") = {" << r + 1 << "};\n";
     }
+    write_regions(geo, pieces);
     return geo.str();
 }
 
@@ -256,18 +274,19 @@ int run_program(std::vector<std::string> words, const std::filesystem::path& log
 }  // namespace
 
 Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& folder) {
-    Outline outline = outline_of(section);
+    const std::vector<Piece> pieces = pieces_of(section);
+    Outline outline = outline_of(pieces);
     std::vector<fault::Fault> faults;
-    for (std::size_t r = 0; r < section.regions.size(); ++r) {
-        if (section.regions[r].mesh == scene::RegionMesh::block) {
-            divide_block(outline, section, r, faults);
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        if (pieces[p].region.mesh == scene::RegionMesh::block) {
+            divide_block(outline, pieces, p, faults);
         }
     }
-    divide_unstructured(outline, section, faults);
+    divide_unstructured(outline, pieces, faults);
     if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
     const auto geo = folder / "mesh.geo", msh = folder / "mesh.msh", log = folder / "gmsh.log";
     for (std::size_t attempt = 0;; ++attempt) {
-        exchange::publish_text(geo, geo_text(outline, section, recipes[attempt]));
+        exchange::publish_text(geo, geo_text(outline, pieces, recipes[attempt]));
         const int code = run_program({"gmsh", "-2", geo.string(), "-o", msh.string()}, log);
         const bool last = attempt + 1 == recipes.size();
         if (code != 0 && last) {

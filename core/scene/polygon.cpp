@@ -66,23 +66,6 @@ std::vector<Triangle> triangles(Polygon polygon) {
     return result;
 }
 
-/// Part of `subject` on the left of the line from a to b.
-Polygon clipped_left(const Polygon& subject, const Vec2& a, const Vec2& b) {
-    Polygon result;
-    for (std::size_t i = 0; i < subject.size(); ++i) {
-        const Vec2& p = subject[i];
-        const Vec2& q = subject[(i + 1) % subject.size()];
-        const double tp = turn(a, b, p);
-        const double tq = turn(a, b, q);
-        if (tp >= 0) result.push_back(p);
-        if ((tp > 0 && tq < 0) || (tp < 0 && tq > 0)) {
-            const Vec2 cut = p + (q - p) * (tp / (tp - tq));
-            result.push_back(cut);
-        }
-    }
-    return result;
-}
-
 }  // namespace
 
 double signed_area(const Polygon& polygon) {
@@ -137,6 +120,22 @@ std::optional<std::string> defect(const Polygon& polygon) {
     }
     if (area(polygon) <= tolerance * extent(polygon)) return "encloses no area";
     return std::nullopt;
+}
+
+Polygon clipped_left(const Polygon& subject, const Vec2& a, const Vec2& b) {
+    Polygon result;
+    for (std::size_t i = 0; i < subject.size(); ++i) {
+        const Vec2& p = subject[i];
+        const Vec2& q = subject[(i + 1) % subject.size()];
+        const double tp = turn(a, b, p);
+        const double tq = turn(a, b, q);
+        if (tp >= 0) result.push_back(p);
+        if ((tp > 0 && tq < 0) || (tp < 0 && tq > 0)) {
+            const Vec2 cut = p + (q - p) * (tp / (tp - tq));
+            result.push_back(cut);
+        }
+    }
+    return result;
 }
 
 double overlap_area(const Polygon& a, const Polygon& b) {

@@ -22,6 +22,9 @@ double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 /// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it
 /// is one.
 std::optional<std::string> defect(const Polygon& polygon);
+/// Part of a polygon on the left of the line from a to b. One polygon, so the line may cut off one
+/// piece only; empty when nothing is left.
+Polygon clipped_left(const Polygon& subject, const Vec2& a, const Vec2& b);
 /// Area that two simple polygons share [m2].
 double overlap_area(const Polygon& a, const Polygon& b);
 

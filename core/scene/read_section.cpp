@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/scene/reader.hpp"
+#include "core/scene/sand.hpp"
 
 namespace breach::scene {
 
@@ -42,7 +43,19 @@ std::optional<materials::Softening> softening_from(Reader& reader, const json& l
     return softening;
 }
 
+materials::PM4Sand sand_from(Reader& reader, const json& law, const std::string& pointer) {
+    const auto parameters = sand_parameters(law);
+    if (parameters.e_max <= parameters.e_min) {
+        reader.add(pointer + "/e_max", "is not above e_min", "give e_max > e_min");
+    }
+    const double K_0 = law.at("K_0");
+    return {.elasticity = materials::pm4sand::elastic_stage(parameters, K_0 / (1.0 + K_0)),
+            .ready = materials::pm4sand::ready(parameters),
+            .options = sand_options(law)};
+}
+
 materials::Law law_from(Reader& reader, const json& law, const std::string& pointer) {
+    if (law.at("type") == "pm4sand") return sand_from(reader, law, pointer);
     const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
     if (law.at("type") == "linear_elastic") return materials::LinearElastic{elasticity};
     const double c = 1e3 * law.at("c_kPa").get<double>();
@@ -131,16 +144,41 @@ std::array<std::size_t, 4> written_order(const json& ring, const Polygon& polygo
     return corners;
 }
 
+MeshGrading grading_from(const json& mesh) {
+    if (!mesh.contains("graded")) return {};
+    const json& graded = mesh.at("graded");
+    MeshGrading grading;
+    if (graded.contains("left_of")) grading.left_of = graded.at("left_of");
+    if (graded.contains("right_of")) grading.right_of = graded.at("right_of");
+    grading.largest = graded.at("largest_width");
+    return grading;
+}
+
+/// The region's own edge length, or the section's; 0 when there is neither.
+double element_size_from(const Reader& reader, const json& mesh) {
+    if (mesh.contains("element_size")) return mesh.at("element_size");
+    const json::json_pointer of_section("/section/element_size");
+    if (!reader.document().contains(of_section) || !reader.sound(of_section.to_string()))
+        return 0.0;
+    return reader.document().at(of_section);
+}
+
 void read_region_mesh(Reader& reader, const json& mesh, const json& ring,
                       const std::string& pointer, Region& region) {
-    if (mesh.at("type") == "unstructured") {
-        region.mesh = RegionMesh::unstructured;
-        region.element_size = mesh.at("element_size");
-        return;
+    region.mesh = mesh.at("type") == "unstructured" ? RegionMesh::unstructured : RegionMesh::block;
+    region.element_size = element_size_from(reader, mesh);
+    region.grading = grading_from(mesh);
+    const bool divided = mesh.contains("divisions");
+    if (!divided && region.element_size == 0.0) {
+        reader.add(pointer, "has no element size",
+                   "give element_size here or in /section, or a block's divisions");
     }
-    region.mesh = RegionMesh::block;
-    region.divisions = {mesh.at("divisions").at(0), mesh.at("divisions").at(1)};
-    if (region.polygon.empty()) return;
+    if (divided && region.grading.any()) {
+        reader.add(pointer + "/divisions", "stands beside graded",
+                   "strips follow from element_size: leave out divisions");
+    }
+    if (region.mesh == RegionMesh::unstructured || region.polygon.empty()) return;
+    if (divided) region.divisions = {mesh.at("divisions").at(0), mesh.at("divisions").at(1)};
     const bool implied = !mesh.contains("corners") && region.polygon.size() == 4;
     region.corners = implied ? written_order(ring, region.polygon)
                              : corners_from(reader, mesh, region.polygon, pointer);

@@ -26,14 +26,24 @@ struct Material {
 /// How a region is meshed: a block mapped between four of its vertices, or unstructured quads.
 enum class RegionMesh { block, unstructured };
 
+/// Structured strips at the far ends of a region, their columns widening away from the rest.
+struct MeshGrading {
+    std::optional<double> left_of;   ///< x where the left strip ends [m]
+    std::optional<double> right_of;  ///< x where the right strip begins [m]
+    double largest = 0.0;            ///< width of the farthest column [m]
+    bool any() const { return left_of || right_of; }
+};
+
 struct Region {
     std::string name;
     std::size_t material;  ///< index into Scene::materials
     Polygon polygon;       ///< counter-clockwise, first vertex not repeated
     RegionMesh mesh = RegionMesh::block;
     std::array<std::size_t, 4> corners{};  ///< block: indices into polygon, counter-clockwise
-    std::array<int, 2> divisions{};  ///< block: elements along corner 0-1 and along corner 1-2
-    double element_size = 0.0;       ///< unstructured: wanted edge length [m]
+    std::array<int, 2> divisions{};  ///< block: elements along corner 0-1 and along corner 1-2; 0:
+                                     ///< from element_size
+    double element_size = 0.0;       ///< wanted edge length [m]
+    MeshGrading grading{};
 };
 
 struct Section {
@@ -233,7 +243,11 @@ enum class UpdateOrder { usl, musl };
 enum class AntiLocking { on, off };
 enum class Wall { roller, fixed, open };
 
-/// Coulomb friction of the floor for x in [from, to].
+/// Stress of points that fill the section: none, or what the soil above weighs, sigma_h = K_0
+/// sigma_v with K_0 = nu / (1 - nu).
+enum class FillStress { none, overburden };
+
+/// Coulomb friction of the floor, or of the terrain, for x in [from, to].
 struct FrictionZone {
     double from;
     double to;
@@ -255,6 +269,14 @@ struct OverlapCorrection {
 struct Runout {
     Vec2 toe;
     std::vector<std::string> regions;  ///< mobile regions that count; empty: all
+    double front_depth = 1.0;          ///< the front is the farthest place with this depth [m]
+};
+
+/// A place where flow depth and velocity are recorded.
+struct Gauge {
+    std::string name;
+    double x;              ///< [m]
+    double arrival_depth;  ///< the flow has arrived when it is this deep [m]
 };
 
 struct Mpm {
@@ -264,6 +286,7 @@ struct Mpm {
     Wall left;
     Wall right;
     Floor floor;
+    std::vector<Vec2> terrain{};  ///< ascending in x, straight beyond its ends; empty: the floor [m]
     Kernel kernel;
     double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
@@ -281,11 +304,13 @@ struct Mpm {
     double rest_window;               ///< [s]
     double rest_earliest;             ///< never stop before [s]
     Runout runout;
+    std::vector<Gauge> gauges{};
     double snapshot_interval;    ///< [s]
     double telemetry_interval;   ///< [s]
     double checkpoint_interval;  ///< wall clock [s]
     double largest_energy_gain;  ///< relative to the energy released; more ends the run [-]
     int fill_points;             ///< points per cell and direction when no particles are given
+    FillStress fill_stress = FillStress::none;
 };
 
 struct Scene {

@@ -27,7 +27,7 @@ scene::Region square(const std::string& name, double left, double bottom,
 std::vector<fault::Fault> faults_of_join(const scene::Section& section) {
     std::vector<Mesh> parts;
     for (std::size_t i = 0; i < section.regions.size(); ++i) {
-        parts.push_back(map_block(section.regions[i], static_cast<std::int32_t>(i)));
+        parts.push_back(map_block({section.regions[i], i}));
     }
     try {
         join(parts, section);
@@ -45,7 +45,7 @@ TEST(Divisions, AreSharedByLengthWithAtLeastOneEach) {
 }
 
 TEST(Block, MapsASquareToAGrid) {
-    const Mesh mesh = map_block(square("a", 0, 0, {3, 2}), 0);
+    const Mesh mesh = map_block({square("a", 0, 0, {3, 2}), 0});
     EXPECT_EQ(mesh.nodes.size(), 12u);
     EXPECT_EQ(mesh.quads.size(), 6u);
     EXPECT_NEAR((mesh.nodes[5] - Vec2(1.0 / 3.0, 0.5)).norm(), 0.0, 1e-15);
@@ -57,7 +57,7 @@ TEST(Block, MapsASquareToAGrid) {
 TEST(Block, APolylineVertexBecomesANode) {
     const auto region =
         block("a", {{0, 0}, {4, 0}, {4, 1}, {1, 1.5}, {0, 1}}, {0, 1, 2, 4}, {8, 2});
-    const Mesh mesh = map_block(region, 0);
+    const Mesh mesh = map_block({region, 0});
     double nearest = 1.0;
     for (const Vec2& x : mesh.nodes) nearest = std::min(nearest, (x - Vec2(1, 1.5)).norm());
     EXPECT_EQ(nearest, 0.0);
@@ -67,13 +67,13 @@ TEST(Block, APolylineVertexBecomesANode) {
 TEST(Block, FewerDivisionsThanSegmentsAreRefused) {
     const auto region =
         block("a", {{0, 0}, {4, 0}, {4, 1}, {1, 1.5}, {0, 1}}, {0, 1, 2, 4}, {1, 2});
-    EXPECT_THROW(map_block(region, 0), fault::BadInput);
+    EXPECT_THROW(map_block({region, 0}), fault::BadInput);
 }
 
 TEST(Join, SharesTheNodesOfTheCommonSide) {
     const scene::Section section{{square("a", 0, 0, {3, 2}), square("b", 1, 0, {2, 2})}};
     const Mesh mesh =
-        join({map_block(section.regions[0], 0), map_block(section.regions[1], 1)}, section);
+        join({map_block({section.regions[0], 0}), map_block({section.regions[1], 1})}, section);
     EXPECT_EQ(mesh.nodes.size(), 12u + 9u - 3u);
     EXPECT_EQ(mesh.region_of_element.front(), 0);
     EXPECT_EQ(mesh.region_of_element.back(), 1);
