@@ -1,0 +1,110 @@
+// What fem_solver does with the scene: /fem.
+#include <functional>
+
+#include "core/scene/checks.hpp"
+
+namespace breach::scene {
+
+using nlohmann::json;
+
+namespace {
+
+Stage stage_from(const json& stage) {
+    const StageLaws laws = stage.at("laws") == "elastic" ? StageLaws::elastic : StageLaws::scene;
+    if (stage.at("type") == "static") {
+        return {.name = stage.at("name"),
+                .kind = StageKind::static_equilibrium,
+                .laws = laws,
+                .load_steps = stage.at("load_steps")};
+    }
+    return {.name = stage.at("name"),
+            .kind = StageKind::dynamic,
+            .laws = laws,
+            .duration = stage.at("duration"),
+            .time_step = stage.at("time_step"),
+            .least_time_step = stage.at("least_time_step")};
+}
+
+Support support_from(const json& support) {
+    const std::string fixes = support.at("fixes");
+    return {.name = support.at("name"),
+            .from = point_from(support.at("from")),
+            .to = point_from(support.at("to")),
+            .fixes_x = fixes != "y",
+            .fixes_y = fixes != "x"};
+}
+
+void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
+    double span = 0.0;
+    bool moving = false;
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const Stage& stage = fem.stages[i];
+        const std::string pointer = "/fem/stages/" + std::to_string(i);
+        if (stage.kind == StageKind::static_equilibrium && moving) {
+            reader.add(pointer, "is a static stage after a dynamic one", "put static stages first");
+        }
+        moving = moving || stage.kind == StageKind::dynamic;
+        span += stage.duration;
+        if (stage.kind == StageKind::dynamic && stage.least_time_step > stage.time_step) {
+            reader.add(pointer + "/least_time_step", "is above time_step", "give a smaller one");
+        }
+    }
+    if (!fem.snapshot_times.empty() && fem.snapshot_times.back() > span * (1 + 1e-12)) {
+        reader.add("/fem/snapshot_times", "reach beyond the end of the dynamic stages",
+                   "lengthen the last stage, or drop the later times");
+    }
+    const double stable = 0.25 * (fem.newmark_gamma + 0.5) * (fem.newmark_gamma + 0.5);
+    if (fem.newmark_beta < stable - 1e-12) {
+        reader.add("/fem/newmark_beta", "makes the scheme unstable at large steps",
+                   "give at least (newmark_gamma + 0.5)^2 / 4 = " + std::to_string(stable));
+    }
+    if (fem.mesh.msh_file) return;
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        const std::string pointer = "/section/regions/" + std::to_string(i);
+        if (reader.document().at(json::json_pointer(pointer)).contains("mesh")) continue;
+        reader.add(pointer, "lacks \"mesh\", which the FEM needs",
+                   "add a block or unstructured mesh, or give /fem/msh_file");
+    }
+}
+
+/// Index of a region or material by its name; a fault when there is none.
+}  // namespace
+
+void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene) {
+    if (!reader.sound("/fem")) return;
+    const json& fem = reader.document().at("fem");
+    Fem result{};
+    result.kinematics = fem.at("kinematics") == "small_strain" ? Kinematics::small_strain
+                                                               : Kinematics::updated_lagrangian;
+    result.element = fem.at("element") == "ssp" ? ElementKind::ssp : ElementKind::bbar;
+    result.hourglass =
+        fem.at("hourglass") == "elastic" ? HourglassKind::elastic : HourglassKind::current;
+    if (fem.contains("msh_file")) {
+        result.mesh.msh_file =
+            std::filesystem::absolute(folder / fem.at("msh_file").get<std::string>());
+        if (!std::filesystem::exists(*result.mesh.msh_file)) {
+            reader.add("/fem/msh_file", "does not exist: " + result.mesh.msh_file->string(),
+                       "give a path relative to the scene file");
+        }
+    }
+    for (const json& each : fem.at("supports")) result.supports.push_back(support_from(each));
+    for (const json& each : fem.at("stages")) result.stages.push_back(stage_from(each));
+    result.newmark_beta = fem.at("newmark_beta");
+    result.newmark_gamma = fem.at("newmark_gamma");
+    result.rayleigh_mass = fem.at("rayleigh_mass");
+    result.rayleigh_stiffness = fem.at("rayleigh_stiffness");
+    result.force_tolerance = fem.at("force_tolerance");
+    result.largest_iterations = fem.at("largest_iterations");
+    result.least_jacobian_ratio = fem.at("least_jacobian_ratio");
+    result.crest = point_from(fem.at("crest"));
+    result.strain_threshold = fem.at("strain_threshold");
+    result.snapshot_times = fem.at("snapshot_times").get<std::vector<double>>();
+    result.snapshot_interval = fem.at("snapshot_interval");
+    result.telemetry_interval = fem.at("telemetry_interval");
+    check_order(reader, result.snapshot_times, std::less<>(), "/fem/snapshot_times",
+                "list the times in ascending order, each once");
+    check_fem(reader, scene, result);
+    scene.fem = std::move(result);
+}
+
+}  // namespace breach::scene
