@@ -11,15 +11,20 @@ namespace {
 
 Stage stage_from(const json& stage) {
     const StageLaws laws = stage.at("laws") == "elastic" ? StageLaws::elastic : StageLaws::scene;
+    const StagePermeability permeability = stage.at("permeability") == "free_drainage"
+                                               ? StagePermeability::free_drainage
+                                               : StagePermeability::scene;
     if (stage.at("type") == "static") {
         return {.name = stage.at("name"),
                 .kind = StageKind::static_equilibrium,
                 .laws = laws,
+                .permeability = permeability,
                 .load_steps = stage.at("load_steps")};
     }
     return {.name = stage.at("name"),
             .kind = StageKind::dynamic,
             .laws = laws,
+            .permeability = permeability,
             .duration = stage.at("duration"),
             .time_step = stage.at("time_step"),
             .least_time_step = stage.at("least_time_step")};
@@ -32,6 +37,71 @@ Support support_from(const json& support) {
             .to = point_from(support.at("to")),
             .fixes_x = fixes != "y",
             .fixes_y = fixes != "x"};
+}
+
+GroundWater water_from(Reader& reader, const json& water) {
+    GroundWater result{.line = line_from(reader, water.at("line"), "/fem/water/line"),
+                       .density = water.at("density"),
+                       .bulk_modulus = 1e6 * water.at("bulk_modulus_MPa").get<double>(),
+                       .above = water.at("above") == "dry" ? AboveWater::dry : AboveWater::drained,
+                       .pressure_stabilisation = water.at("pressure_stabilisation"),
+                       .boundaries = {}};
+    for (const json& each : water.at("boundaries")) {
+        PressureBoundary boundary{each.at("name"), point_from(each.at("from")),
+                                  point_from(each.at("to")), std::nullopt};
+        if (each.contains("level")) boundary.level = each.at("level").get<double>();
+        result.boundaries.push_back(std::move(boundary));
+    }
+    return result;
+}
+
+ElasticBase base_from(const json& base) {
+    return {base.at("density"), base.at("V_s"),
+            base.at("motion_at") == "upgoing" ? MotionAt::upgoing : MotionAt::outcrop,
+            base.at("nodes") == "free" ? BaseNodes::free : BaseNodes::tied};
+}
+
+BaseMotion motion_from(Reader& reader, const std::filesystem::path& folder, const json& motion) {
+    BaseMotion result{
+        std::filesystem::absolute(folder / motion.at("file").get<std::string>()), std::nullopt,
+        motion.at("baseline") == "corrected" ? Baseline::corrected : Baseline::as_recorded};
+    if (motion.contains("scale_to_pga_g")) {
+        result.scale_to_pga_g = motion.at("scale_to_pga_g").get<double>();
+    }
+    if (!std::filesystem::exists(result.file)) {
+        reader.add("/fem/motion/file", "does not exist: " + result.file.string(),
+                   "give a path relative to the scene file");
+    }
+    return result;
+}
+
+FreeField free_field_from(const json& field) {
+    const std::string sides = field.at("sides");
+    return {field.at("width"), field.at("thickness_factor"),
+            sides == "left"    ? FreeFieldSides::left
+            : sides == "right" ? FreeFieldSides::right
+                               : FreeFieldSides::both};
+}
+
+/// Water, base, motion, columns and loads: what shakes and what presses.
+void read_surroundings(Reader& reader, const std::filesystem::path& folder, const json& fem,
+                       Fem& result) {
+    if (fem.contains("water")) result.water = water_from(reader, fem.at("water"));
+    if (fem.contains("base")) result.base = base_from(fem.at("base"));
+    if (fem.contains("motion")) {
+        result.motion = motion_from(reader, folder, fem.at("motion"));
+        if (!result.base) {
+            reader.add("/fem/motion", "has no base that it could come through",
+                       "give /fem/base, the rock below the mesh");
+        }
+    }
+    if (fem.contains("free_field")) result.free_field = free_field_from(fem.at("free_field"));
+    for (const json& load : fem.at("surcharge")) {
+        const std::string pointer = "/fem/surcharge/" + std::to_string(result.surcharge.size());
+        check_ascending(reader, {load.at("from"), load.at("to")}, pointer);
+        result.surcharge.push_back(
+            {load.at("from"), load.at("to"), 1e3 * load.at("pressure_kPa").get<double>()});
+    }
 }
 
 void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
@@ -89,6 +159,8 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     }
     for (const json& each : fem.at("supports")) result.supports.push_back(support_from(each));
     for (const json& each : fem.at("stages")) result.stages.push_back(stage_from(each));
+    read_surroundings(reader, folder, fem, result);
+    result.largest_step_error = fem.at("largest_step_error");
     result.newmark_beta = fem.at("newmark_beta");
     result.newmark_gamma = fem.at("newmark_gamma");
     result.rayleigh_mass = fem.at("rayleigh_mass");

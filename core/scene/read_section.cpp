@@ -75,6 +75,12 @@ materials::Law law_from(Reader& reader, const json& law, const std::string& poin
     };
 }
 
+std::optional<LimitStrength> limit_strength_from(const json& material) {
+    if (!material.contains("limit_strength")) return std::nullopt;
+    const json& strength = material.at("limit_strength");
+    return LimitStrength{1e3 * strength.at("c_kPa").get<double>(), radians(strength.at("phi_deg"))};
+}
+
 Polygon polygon_from(Reader& reader, const json& ring, const std::string& pointer) {
     Polygon polygon;
     for (const json& vertex : ring) polygon.push_back(point_from(vertex));
@@ -208,10 +214,19 @@ void read_materials(Reader& reader, Scene& scene) {
     for (const auto& [name, material] : document.at("materials").items()) {
         const std::string pointer = "/materials/" + name;
         if (!reader.sound(pointer)) continue;
+        std::optional<double> void_ratio;
+        std::optional<std::array<double, 2>> permeability;
+        if (material.contains("void_ratio")) void_ratio = material.at("void_ratio").get<double>();
+        if (material.contains("permeability")) {
+            permeability = range_from(material.at("permeability"));
+        }
         scene.materials.push_back({.name = name,
                                    .density = material.at("density"),
                                    .law = law_from(reader, material.at("law"), pointer + "/law"),
-                                   .viscosity = material.at("viscosity")});
+                                   .viscosity = material.at("viscosity"),
+                                   .void_ratio = void_ratio,
+                                   .permeability = permeability,
+                                   .limit_strength = limit_strength_from(material)});
     }
 }
 

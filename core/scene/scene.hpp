@@ -16,11 +16,20 @@
 
 namespace breach::scene {
 
+/// Strength at failure.
+struct LimitStrength {
+    double c;    ///< [Pa]
+    double phi;  ///< [rad]
+};
+
 struct Material {
     std::string name;
     double density;  ///< [kg/m3]
     materials::Law law;
     double viscosity = 0.0;  ///< mpm: Newtonian stress beside the law's, 2 eta dev D [Pa s]
+    std::optional<double> void_ratio{};                   ///< fem with water [-]
+    std::optional<std::array<double, 2>> permeability{};  ///< hydraulic conductivity, x, y [m/s]
+    std::optional<LimitStrength> limit_strength{};        ///< lem: instead of the law's
 };
 
 /// How a region is meshed: a block mapped between four of its vertices, or unstructured quads.
@@ -112,6 +121,7 @@ struct UndrainedStrength {
 struct UndrainedRegion {
     std::size_t region;  ///< index into the section's regions
     UndrainedStrength strength;
+    std::optional<std::array<double, 2>> levels{};  ///< of the part that is meant, low to high [m]
 };
 
 /// Which surface the variations of a parameter are analysed on.
@@ -190,15 +200,68 @@ struct Support {
 
 enum class StageKind { static_equilibrium, dynamic };
 enum class StageLaws { elastic, scene };
+/// free_drainage: 1 m/s everywhere; scene: the materials' own.
+enum class StagePermeability { free_drainage, scene };
 
 struct Stage {
     std::string name;
     StageKind kind;
     StageLaws laws;
+    StagePermeability permeability = StagePermeability::scene;
     int load_steps = 1;            ///< static: equal parts of gravity
     double duration = 0.0;         ///< dynamic [s]
     double time_step = 0.0;        ///< dynamic, largest [s]
     double least_time_step = 0.0;  ///< dynamic: below this the run ends [s]
+};
+
+/// Soil above the phreatic line: p = 0 at its nodes, or no pore water at all.
+enum class AboveWater { drained, dry };
+
+/// Nodes on the segment have the pressure of water standing at `level`; without one p = 0.
+struct PressureBoundary {
+    std::string name;
+    Vec2 from;
+    Vec2 to;
+    std::optional<double> level;  ///< [m]
+};
+
+/// Pore water below a phreatic line.
+struct GroundWater {
+    std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
+    double density;          ///< [kg/m3]
+    double bulk_modulus;     ///< K_f [Pa]
+    AboveWater above;
+    double pressure_stabilisation;  ///< alpha over h^2 / (K + 4G/3) [-]
+    std::vector<PressureBoundary> boundaries;
+};
+
+/// What a motion from below is: of the rock's free surface (twice the up-going wave), or that wave.
+enum class MotionAt { outcrop, upgoing };
+/// tied: the base moves as one in x.
+enum class BaseNodes { tied, free };
+
+/// Elastic half-space below the mesh.
+struct ElasticBase {
+    double density;  ///< [kg/m3]
+    double V_s;      ///< [m/s]
+    MotionAt motion_at;
+    BaseNodes nodes;
+};
+
+enum class Baseline { as_recorded, corrected };
+
+struct BaseMotion {
+    std::filesystem::path file;            ///< absolute
+    std::optional<double> scale_to_pga_g;  ///< [g]
+    Baseline baseline;
+};
+
+enum class FreeFieldSides { left, right, both };
+
+struct FreeField {
+    double width;             ///< [m]
+    double thickness_factor;  ///< over the section's thickness [-]
+    FreeFieldSides sides;
 };
 
 struct Fem {
@@ -208,6 +271,12 @@ struct Fem {
     MeshSource mesh;
     std::vector<Support> supports;
     std::vector<Stage> stages;
+    std::optional<GroundWater> water;
+    std::optional<ElasticBase> base;
+    std::optional<BaseMotion> motion;
+    std::optional<FreeField> free_field;
+    std::vector<Surcharge> surcharge;
+    double largest_step_error;  ///< 0: steps follow the iterations alone [m]
     double newmark_beta;
     double newmark_gamma;
     double rayleigh_mass;       ///< alpha [1/s]
@@ -286,7 +355,8 @@ struct Mpm {
     Wall left;
     Wall right;
     Floor floor;
-    std::vector<Vec2> terrain{};  ///< ascending in x, straight beyond its ends; empty: the floor [m]
+    std::vector<Vec2>
+        terrain{};  ///< ascending in x, straight beyond its ends; empty: the floor [m]
     Kernel kernel;
     double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
