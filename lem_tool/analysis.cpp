@@ -5,6 +5,7 @@
 
 #include "core/exchange/archive.hpp"
 #include "lem_tool/facts.hpp"
+#include "lem_tool/limit_scene.hpp"
 #include "lem_tool/search.hpp"
 #include "lem_tool/stages.hpp"
 #include "lem_tool/variation.hpp"
@@ -68,7 +69,8 @@ void write_table(process::Session& session, const std::string& kind, const std::
 
 }  // namespace
 
-process::Plan plan(const scene::Scene& scene) {
+process::Plan plan(const scene::Scene& whole) {
+    const scene::Scene scene = limit_scene(whole);
     const Model model = make_model(scene);
     const scene::Lem& lem = scene::lem_of(scene);
     const auto use = [](bool on) { return on ? Use::on : Use::left_out; };
@@ -119,7 +121,7 @@ process::Plan plan(const scene::Scene& scene) {
 
 process::Outcome run(process::Session& session) {
     const auto began = std::chrono::steady_clock::now();
-    const scene::Scene& scene = session.scene();
+    const scene::Scene scene = limit_scene(session.scene());
     const scene::Lem& lem = scene::lem_of(scene);
     const int threads = session.settings().threads;
     const Model model = make_model(scene);

@@ -60,6 +60,16 @@ struct StrengthKeys {
     const char* exponent;
 };
 
+std::optional<std::array<double, 2>> levels_from(Reader& reader, const json& entry,
+                                                 const std::string& pointer) {
+    if (!entry.contains("levels")) return std::nullopt;
+    const std::array<double, 2> levels = range_from(entry.at("levels"));
+    if (levels[0] >= levels[1]) {
+        reader.add(pointer + "/levels", "is not ascending", "write [lower level, upper level]");
+    }
+    return levels;
+}
+
 std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, const json& lem,
                                             const StrengthKeys& keys) {
     std::vector<UndrainedRegion> result;
@@ -68,13 +78,16 @@ std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, 
         const std::string pointer = "/lem/" + std::string(keys.list) + "/" + std::to_string(i);
         const auto region = region_named(reader, scene, each.at("region"), pointer + "/region");
         if (!region) continue;
+        const auto levels = levels_from(reader, each, pointer);
         for (const UndrainedRegion& other : result) {
-            if (other.region != *region) continue;
-            reader.add(pointer + "/region", "is named twice", "give every region once");
+            if (other.region != *region || (levels && other.levels)) continue;
+            reader.add(pointer + "/region", "is named twice",
+                       "give every region once, or the levels of its layers");
         }
         result.push_back({*region,
                           {each.at(keys.constant).get<double>() * kPa,
-                           each.at(keys.coefficient).get<double>() * kPa, each.at(keys.exponent)}});
+                           each.at(keys.coefficient).get<double>() * kPa, each.at(keys.exponent)},
+                          levels});
     }
     return result;
 }
@@ -113,19 +126,24 @@ std::optional<std::size_t> varied(Reader& reader, const Scene& scene, const Lem&
         const auto material =
             index_of(reader, scene.materials, name, pointer, "give the name of one of /materials");
         if (!material || parameter == Parameter::density) return material;
-        if (std::holds_alternative<materials::MohrCoulomb>(scene.materials[*material].law)) {
+        const Material& soil = scene.materials[*material];
+        if (soil.limit_strength || std::holds_alternative<materials::MohrCoulomb>(soil.law)) {
             return material;
         }
-        reader.add(pointer, "has no cohesion or friction", "name a Mohr-Coulomb material");
+        reader.add(pointer, "has no cohesion or friction",
+                   "name a Mohr-Coulomb material, or give it a limit_strength");
         return std::nullopt;
     }
     const auto region = region_named(reader, scene, name, pointer);
     const auto& list =
         parameter == Parameter::undrained_strength ? lem.undrained : lem.liquefaction;
-    for (std::size_t i = 0; region && i < list.size(); ++i) {
-        if (list[i].region == *region) return i;
-    }
-    if (region) {
+    const auto is_meant = [&](const UndrainedRegion& each) { return each.region == *region; };
+    const auto entries = region ? std::count_if(list.begin(), list.end(), is_meant) : 0;
+    if (entries == 1) return std::find_if(list.begin(), list.end(), is_meant) - list.begin();
+    if (entries > 1) {
+        reader.add(pointer, "names a region of several layers",
+                   "make the layer a region of its own to vary it");
+    } else if (region) {
         reader.add(pointer, "has no such strength",
                    "name a region of /lem/undrained (undrained_strength) or /lem/liquefaction "
                    "(residual_strength)");

@@ -295,14 +295,57 @@ struct Fem {
 
 enum class Interpolation { local, paper };
 enum class SofteningStart { carried, zero };
+/// What becomes of an element that the FEM has turned inside out.
+enum class Entangled { refuse, rebuild };
+/// What frictional laws get: the effective stress, with the pore pressure beside it, or the total
+/// one. All other laws (phi = 0, elastic) get the total stress.
+enum class TransferredStress { total, effective };
+
+/// Soil of a region that becomes another material in the MPM.
+struct SoilMapping {
+    std::size_t region;                      ///< index into the section's regions
+    std::size_t material;                    ///< index into Scene::materials
+    std::optional<std::size_t> saturated{};  ///< the material below the phreatic line instead
+};
+
+/// Liquefied soil with initial vertical effective stress in [from, to).
+struct LiquefiedLayer {
+    double from;  ///< [Pa]
+    double to;    ///< [Pa]
+    std::size_t material;
+};
+
+struct LiquefiedZone {
+    std::vector<std::size_t> regions;  ///< whose soil can liquefy
+    double r_u;                        ///< liquefied above this pore pressure ratio [-]
+    std::vector<LiquefiedLayer>
+        layers;  ///< from 0, without gaps; the last also holds what is beyond
+};
+
+/// Which transfer times the advice is about; expressions of core/criteria over FEM telemetry.
+struct AdviceWindow {
+    std::string lower;  ///< the failure has developed
+    std::string upper;  ///< the mesh is too distorted
+    double hold;        ///< [s]
+    std::string pick;   ///< "midpoint", "first" or "last_before"
+};
 
 struct Transfer {
     int points_per_direction;
+    std::optional<int> points_per_cell{};  ///< that every filled cell of the MPM must get
     Interpolation interpolation;
     int neighbours;
+    Entangled entangled = Entangled::refuse;
+    TransferredStress stress = TransferredStress::total;
+    std::vector<SoilMapping> mapping{};
+    std::vector<Vec2> phreatic_line{};  ///< ascending in x, level beyond its ends [m]
+    std::optional<LiquefiedZone> liquefied{};
     SofteningStart softening_start;
-    double largest_mass_loss;      ///< relative; more fails the transfer
-    double largest_momentum_loss;  ///< relative
+    bool round_trip = false;                     ///< measure points back to the mesh
+    double largest_mass_loss;                    ///< relative; more fails the transfer
+    double largest_momentum_loss;                ///< relative
+    double largest_kinetic_energy_loss = 0.005;  ///< relative
+    std::optional<AdviceWindow> window{};
 };
 
 // ---------------------------------------------------------------- mpm_solver
@@ -396,6 +439,18 @@ struct Scene {
     std::optional<Mpm> mpm;
     std::string completed;  ///< the JSON text with every default filled in, keys sorted
 };
+
+/// What a material point can be: soil of a region, of one material.
+struct Soil {
+    std::size_t region;    ///< index into the section's regions
+    std::size_t material;  ///< index into materials
+    bool operator==(const Soil&) const = default;
+};
+
+/// All soils that points of this scene can be. The first ones are the section's regions, in their
+/// order, each of the material that the MPM gives it; then what /transfer makes of them: saturated
+/// parts, liquefied layers.
+std::vector<Soil> soils_of(const Scene& scene);
 
 /// Reads and checks a scene; `overrides` are "/json/pointer=value". Throws BadInput with every
 /// fault, IoError if the file cannot be read.

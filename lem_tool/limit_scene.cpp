@@ -1,0 +1,114 @@
+#include "lem_tool/limit_scene.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace breach::lem {
+namespace {
+
+void use_limit_strength(scene::Material& material) {
+    if (!material.limit_strength) return;
+    const auto [c, phi] = *material.limit_strength;
+    material.law = materials::MohrCoulomb{.elasticity = materials::elasticity(material.law),
+                                          .c = c,
+                                          .phi = phi,
+                                          .psi = 0.0,
+                                          .tension_cutoff = 0.0,
+                                          .softening = {}};
+}
+
+/// Levels at which the layers cut a region, from the top down, without its own top and bottom.
+std::vector<double> cuts_of(const scene::Scene& scene, std::size_t region) {
+    const scene::Box box = scene::bounding_box(scene.section.regions[region].polygon);
+    const double near = 1e-9 * (box.high.y() - box.low.y());
+    std::vector<double> cuts;
+    for (const scene::UndrainedRegion& layer : scene.lem->liquefaction) {
+        if (layer.region != region || !layer.levels) continue;
+        for (const double level : *layer.levels) {
+            if (level > box.low.y() + near && level < box.high.y() - near) cuts.push_back(level);
+        }
+    }
+    std::sort(cuts.begin(), cuts.end(), std::greater<>());
+    const auto same = [&](double a, double b) { return std::abs(a - b) <= near; };
+    cuts.erase(std::unique(cuts.begin(), cuts.end(), same), cuts.end());
+    return cuts;
+}
+
+std::string part_name(const std::string& region, const scene::Polygon& part) {
+    const scene::Box box = scene::bounding_box(part);
+    std::ostringstream name;
+    name << region << " (" << box.low.y() << " to " << box.high.y() << " m)";
+    return name.str();
+}
+
+/// The region's parts between the cuts, from the top down.
+std::vector<scene::Region> parts_of(const scene::Region& region, const std::vector<double>& cuts) {
+    std::vector<scene::Region> parts;
+    scene::Polygon rest = region.polygon;
+    for (const double level : cuts) {
+        parts.push_back(region);
+        parts.back().polygon = scene::clipped_left(rest, {0.0, level}, {1.0, level});
+        rest = scene::clipped_left(rest, {1.0, level}, {0.0, level});
+    }
+    parts.push_back(region);
+    parts.back().polygon = rest;
+    if (parts.size() == 1) return parts;
+    for (scene::Region& part : parts) part.name = part_name(region.name, part.polygon);
+    return parts;
+}
+
+/// For each region of the scene, the parts that took its place.
+using Places = std::vector<std::vector<std::size_t>>;
+
+/// One entry per part of its region that lies between its levels.
+std::vector<scene::UndrainedRegion> entries_for(const std::vector<scene::UndrainedRegion>& entries,
+                                                const Places& places,
+                                                const std::vector<scene::Region>& parts) {
+    std::vector<scene::UndrainedRegion> result;
+    for (const scene::UndrainedRegion& entry : entries) {
+        for (const std::size_t place : places[entry.region]) {
+            const scene::Box box = scene::bounding_box(parts[place].polygon);
+            const double middle = 0.5 * (box.low.y() + box.high.y());
+            if (entry.levels && (middle < (*entry.levels)[0] || middle > (*entry.levels)[1])) {
+                continue;
+            }
+            result.push_back({place, entry.strength, {}});
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+scene::Scene limit_scene(const scene::Scene& scene) {
+    scene::Scene result = scene;
+    for (scene::Material& material : result.materials) use_limit_strength(material);
+    std::vector<scene::Region>& regions = result.section.regions;
+    regions.clear();
+    Places places;
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        places.emplace_back();
+        for (scene::Region& part : parts_of(scene.section.regions[i], cuts_of(scene, i))) {
+            places.back().push_back(regions.size());
+            regions.push_back(std::move(part));
+        }
+    }
+    scene::Lem& lem = *result.lem;
+    lem.undrained = entries_for(lem.undrained, places, regions);
+    lem.liquefaction = entries_for(lem.liquefaction, places, regions);
+    if (lem.liquefaction.size() != scene.lem->liquefaction.size()) {
+        throw fault::BadInput(
+            scene.name, {{"/lem/liquefaction", "has levels that are not one layer of their region",
+                          "give levels within the region that do not overlap; a layer that is cut "
+                          "by another's levels must name its own"}});
+    }
+    lem.pore_pressure_ratios.clear();
+    for (const scene::PorePressureRatio& each : scene.lem->pore_pressure_ratios) {
+        for (const std::size_t place : places[each.region]) {
+            lem.pore_pressure_ratios.push_back({place, each.r_u});
+        }
+    }
+    return result;
+}
+
+}  // namespace breach::lem
