@@ -45,7 +45,7 @@ Stopwatch::Stopwatch(double& total) : total_(total), began_(now()) {}
 Stopwatch::~Stopwatch() { total_ += now() - began_; }
 
 InternalForce::InternalForce(const Model& model, Seconds& seconds)
-    : model_(model), points_(model.points_per_element), seconds_(seconds) {
+    : model_(model), points_(model.points_per_element), seconds_(seconds), sand_(model) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     if (model.kinematics == scene::Kinematics::updated_lagrangian) {
@@ -129,8 +129,8 @@ Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) 
 }
 
 template <typename Law>
-void InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
-                                   Motion& trial) {
+Geometry InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
+                                       Motion& trial) {
     const std::size_t end = (zone.first + zone.count) * points_;
     const bool turns = !half_angle_.empty();
     for (std::size_t p = zone.first * points_; p < end; ++p) {
@@ -144,11 +144,12 @@ void InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motio
         turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
         trial.points[p] = turned;
     }
+    return Geometry::sound;
 }
 
 template <typename Law>
-void InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
-                                                Motion& trial) {
+Geometry InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone,
+                                                    const Motion& old, Motion& trial) {
     const std::size_t end = (zone.first + zone.count) * points_;
     const bool turns = !half_angle_.empty();
     Matrix4 D;
@@ -160,6 +161,42 @@ void InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone
         trial.points[p] = reached;
         tangent_[p] = in_plane(D);
     }
+    return Geometry::sound;
+}
+
+Geometry InternalForce::integrate_zone(const materials::PM4Sand& law, const Zone& zone,
+                                       const Motion& old, Motion& trial) {
+    const std::span all(d_epsilon_);
+    const std::span d_epsilon = all.subspan(zone.first * points_, zone.count * points_);
+    return sand_.integrate(law, zone, d_epsilon, old, trial) == SandPass::Answer::done
+               ? Geometry::sound
+               : Geometry::degenerate;
+}
+
+/// The elastic tangent of the step's beginning: symmetric positive definite, which keeps the matrix
+/// quasi-definite, and good for many steps.
+Geometry InternalForce::integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
+                                                    const Motion& old, Motion& trial) {
+    const std::size_t begin = zone.first * points_;
+    for (std::size_t i = 0; i < zone.count * points_; ++i) {
+        tangent_[begin + i] =
+            in_plane(materials::pm4sand::elastic_tangent(law.ready, old.sand[zone.first_sand + i]));
+    }
+    return integrate_zone(law, zone, old, trial);
+}
+
+Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const Motion& old,
+                                 Motion& trial, Wanted wanted) {
+    const Stopwatch watch(seconds_.law);
+    for (std::size_t z = 0; z < model_.zones.size(); ++z) {
+        const auto pass = [&](const auto& law) {
+            return wanted == Wanted::stress
+                       ? integrate_zone(law, model_.zones[z], old, trial)
+                       : integrate_zone_with_tangent(law, model_.zones[z], old, trial);
+        };
+        if (std::visit(pass, laws[z]) == Geometry::degenerate) return Geometry::degenerate;
+    }
+    return Geometry::sound;
 }
 
 void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
@@ -265,12 +302,8 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         const Stopwatch watch(seconds_.assembly);
         if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
     }
-    {
-        const Stopwatch watch(seconds_.law);
-        for (std::size_t z = 0; z < model_.zones.size(); ++z) {
-            std::visit([&](const auto& law) { integrate_zone(law, model_.zones[z], old, trial); },
-                       laws[z]);
-        }
+    if (law_pass(laws, old, trial, Wanted::stress) == Geometry::degenerate) {
+        return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_.assembly);
     accumulate_strain(old, trial);
@@ -285,15 +318,8 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         const Stopwatch watch(seconds_.assembly);
         if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
     }
-    {
-        const Stopwatch watch(seconds_.law);
-        for (std::size_t z = 0; z < model_.zones.size(); ++z) {
-            std::visit(
-                [&](const auto& law) {
-                    integrate_zone_with_tangent(law, model_.zones[z], old, trial);
-                },
-                laws[z]);
-        }
+    if (law_pass(laws, old, trial, Wanted::stress_and_tangent) == Geometry::degenerate) {
+        return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_.assembly);
     accumulate_strain(old, trial);

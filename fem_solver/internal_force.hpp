@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem_solver/linear_system.hpp"
-#include "fem_solver/model.hpp"
+#include "fem_solver/sand.hpp"
 
 namespace breach::fem {
 
@@ -32,7 +32,8 @@ class Stopwatch {
 
 enum class Geometry {
     sound,
-    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh: no forces were computed
+    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh, or a point of PM4Sand that
+                 ///< refused its strain increment: no forces were computed
 };
 
 class InternalForce {
@@ -45,6 +46,8 @@ class InternalForce {
     /// The same, and adds the consistent tangent (symmetrised if A is symmetric) to A.
     Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
                       LinearSystem& A);
+    /// What PM4Sand's calls cost so far.
+    const materials::pm4sand::Counts& sand_counts() const { return sand_.counts(); }
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
@@ -54,11 +57,18 @@ class InternalForce {
     Geometry strain_pass(const Motion& old, const Motion& trial);
     Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
     Geometry evaluate_element(std::size_t element, const Corners& x);
+    enum class Wanted { stress, stress_and_tangent };
+    Geometry law_pass(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
+                      Wanted wanted);
     template <typename Law>
-    void integrate_zone(const Law& law, const Zone& zone, const Motion& old, Motion& trial);
+    Geometry integrate_zone(const Law& law, const Zone& zone, const Motion& old, Motion& trial);
     template <typename Law>
-    void integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
-                                     Motion& trial);
+    Geometry integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
+                                         Motion& trial);
+    Geometry integrate_zone(const materials::PM4Sand& law, const Zone& zone, const Motion& old,
+                            Motion& trial);
+    Geometry integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
+                                         const Motion& old, Motion& trial);
     void accumulate_strain(const Motion& old, Motion& trial) const;
     void hourglass_pass(const Motion& old, Motion& trial) const;
     double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
@@ -73,6 +83,7 @@ class InternalForce {
     Seconds& seconds_;
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
+    SandPass sand_;
     std::vector<double>
         half_angle_;  ///< updated Lagrangian: [points] half the rotation of the step [rad]
     std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]

@@ -5,8 +5,9 @@
 namespace breach::fem {
 namespace {
 
-std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
+std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::size_t points) {
     std::vector<Zone> zones;
+    std::size_t sand = 0;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         const bool opens = e == 0 || mesh.region_of_element[e] != mesh.region_of_element[e - 1];
         if (opens) {
@@ -14,6 +15,8 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
             const auto& material = scene.materials[region.material];
             zones.push_back({e, 0, material.density, material.law});
         }
+        if (opens) zones.back().first_sand = sand;
+        if (std::holds_alternative<materials::PM4Sand>(zones.back().law)) sand += points;
         ++zones.back().count;
     }
     return zones;
@@ -61,7 +64,8 @@ Unknowns number_unknowns(const scene::Scene& scene, const Mesh& mesh, double tol
 Model build_model(const scene::Scene& scene, Mesh mesh) {
     const scene::Fem& fem = scene::fem_of(scene);
     Model model;
-    model.zones = zones_of(scene, mesh);
+    model.points_per_element = fem.element == scene::ElementKind::ssp ? 1 : gauss_points;
+    model.zones = zones_of(scene, mesh, model.points_per_element);
     model.thickness = scene.thickness;
     model.unknowns = number_unknowns(scene, mesh, 1e-6 * quality_of(mesh).shortest_edge);
     model.kinematics = fem.kinematics;
@@ -70,7 +74,6 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
     model.reference.resize(mesh.quads.size());
     model.volume.resize(mesh.quads.size());
     if (fem.element == scene::ElementKind::ssp) {
-        model.points_per_element = 1;
         model.hourglass.resize(mesh.quads.size());
         model.hourglass_modulus = fem.hourglass == scene::HourglassKind::elastic
                                       ? HourglassModulus::elastic

@@ -19,6 +19,7 @@ struct Zone {
     std::size_t count;
     double density;  ///< [kg/m3]
     materials::Law law;
+    std::size_t first_sand = 0;  ///< PM4Sand: its first point's place in Motion::sand
 };
 
 /// Unknown number of each nodal displacement (2 per node, x then y), -1 where it is held.
@@ -74,12 +75,14 @@ struct Hourglass {
 
 /// All that a time step changes.
 struct Motion {
-    Eigen::VectorXd u;                 ///< displacement [m], per dof
-    Eigen::VectorXd v;                 ///< velocity [m/s]
-    Eigen::VectorXd a;                 ///< acceleration [m/s2]
-    Eigen::VectorXd force;             ///< internal force of the stresses [N]
-    std::vector<State> points;         ///< element by element, Gauss point by Gauss point
-    std::vector<Voigt> strain;         ///< total, accumulated over the increments [-]
+    Eigen::VectorXd u;          ///< displacement [m], per dof
+    Eigen::VectorXd v;          ///< velocity [m/s]
+    Eigen::VectorXd a;          ///< acceleration [m/s2]
+    Eigen::VectorXd force;      ///< internal force of the stresses [N]
+    std::vector<State> points;  ///< element by element, Gauss point by Gauss point
+    std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
+    std::vector<materials::pm4sand::State>
+        sand;  ///< points of PM4Sand zones, zone by zone; empty in the elastic stages before
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 

@@ -14,6 +14,10 @@ struct AsSoil {
     Soil operator()(const materials::MohrCoulomb& law) const {
         return {law.c, std::tan(law.phi), 0.0, Soil::Passage::open};
     }
+    /// Sand at critical state: friction alone.
+    Soil operator()(const materials::PM4Sand& law) const {
+        return {0.0, std::tan(law.ready.parameters.phi_cv), 0.0, Soil::Passage::open};
+    }
 };
 
 }  // namespace

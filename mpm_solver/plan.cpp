@@ -46,6 +46,11 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
     for (const scene::Material& material : scene.materials) {
         const std::string pointer = "/materials/" + material.name + "/law";
         plan_viscosity(material, plan);
+        if (std::holds_alternative<materials::PM4Sand>(material.law)) {
+            plan.push_back({"law of " + material.name, Use::left_out,
+                            "PM4Sand belongs to the FEM: no particle may have it", pointer});
+            continue;
+        }
         const auto* mohr_coulomb = std::get_if<materials::MohrCoulomb>(&material.law);
         if (!mohr_coulomb) {
             plan.push_back({"law of " + material.name, Use::on, "linear elastic", pointer});

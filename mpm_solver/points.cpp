@@ -22,14 +22,23 @@ void scale_softening(materials::MohrCoulomb& law, const scene::Mpm& mpm) {
 }
 void scale_softening(materials::LinearElastic&, const scene::Mpm&) {}
 
-ReadyLaw ready_law(const materials::Law& law, const scene::Mpm& mpm) {
-    return std::visit(
-        [&](auto each) -> ReadyLaw {
-            each.elasticity = scaled(each.elasticity, mpm.stiffness_scale);
-            scale_softening(each, mpm);
-            return materials::ready(each);
-        },
-        law);
+template <class Law>
+ReadyLaw ready_law(Law law, const scene::Mpm& mpm) {
+    law.elasticity = scaled(law.elasticity, mpm.stiffness_scale);
+    scale_softening(law, mpm);
+    return materials::ready(law);
+}
+
+ReadyLaw ready_law(const scene::Material& soil, const scene::Mpm& mpm) {
+    if (std::holds_alternative<materials::PM4Sand>(soil.law)) {
+        throw fault::BadInput("scene", {{"/materials/" + soil.name + "/law/type",
+                                         "is pm4sand, which particles cannot have",
+                                         "give them a material with mohr_coulomb"}});
+    }
+    if (const auto* elastic = std::get_if<materials::LinearElastic>(&soil.law)) {
+        return ready_law(*elastic, mpm);
+    }
+    return ready_law(std::get<materials::MohrCoulomb>(soil.law), mpm);
 }
 
 double largest_specific_volume(const Points& points, const Zone& zone) {
@@ -47,7 +56,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
     const bool opens = std::holds_alternative<materials::MohrCoulomb>(soil.law);
     Zone zone{
         .material = soil.name,
-        .law = ready_law(soil.law, mpm),
+        .law = ready_law(soil, mpm),
         .elasticity = scaled(materials::elasticity(soil.law), mpm.stiffness_scale),
         .volume_rule = opens && mpm.gap_closure ? VolumeRule::from_stress : VolumeRule::tracked,
         .viscosity = soil.viscosity,

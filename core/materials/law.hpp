@@ -6,6 +6,7 @@
 #include <optional>
 #include <variant>
 
+#include "core/materials/pm4sand.hpp"
 #include "core/mechanics/elasticity.hpp"
 #include "core/mechanics/tensor.hpp"
 
@@ -43,7 +44,15 @@ struct MohrCoulomb {
     std::optional<Softening> softening;
 };
 
-using Law = std::variant<LinearElastic, MohrCoulomb>;
+/// PM4Sand (pm4sand.hpp). Its points remember more than State holds: whoever runs it keeps a
+/// pm4sand::State beside it, whose stress State mirrors. There is no `integrate` for it here.
+struct PM4Sand {
+    mechanics::Elasticity elasticity;  ///< of the stages before pm4sand::initialise: G = G_0 p_atm
+    pm4sand::Ready ready;
+    pm4sand::Options options;
+};
+
+using Law = std::variant<LinearElastic, MohrCoulomb, PM4Sand>;
 
 /// What a point remembers. epsilon_q accumulates sqrt(2/3 de:de) of the law's softening driver
 /// (plastic strain unless the law says total).

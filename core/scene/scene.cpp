@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/scene/reader.hpp"
+#include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
 namespace breach::scene {
@@ -55,6 +56,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
     read_mpm(reader, scene);
     if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
 
+    for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");
     scene.title = document.at("title");
     scene.gravity = document.at("gravity");

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
 namespace breach::element_bench {
@@ -17,77 +18,21 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-struct SandKey {
-    const char* key;
-    double SandParameters::*member;
-    double unit = 1.0;  ///< SI value of one unit of the key
-};
+SandLaw sand_of(const json& law) { return {scene::sand_parameters(law), scene::sand_options(law)}; }
 
-constexpr SandKey sand_keys[] = {
-    {"D_R", &SandParameters::D_R},
-    {"G_0", &SandParameters::G_0},
-    {"h_po", &SandParameters::h_po},
-    {"p_atm_kPa", &SandParameters::p_atm, 1e3},
-    {"h_0", &SandParameters::h_0},
-    {"e_max", &SandParameters::e_max},
-    {"e_min", &SandParameters::e_min},
-    {"n_b", &SandParameters::n_b},
-    {"n_d", &SandParameters::n_d},
-    {"c_z", &SandParameters::c_z},
-    {"c_epsilon", &SandParameters::c_epsilon},
-    {"phi_cv_deg", &SandParameters::phi_cv, degree},
-    {"nu", &SandParameters::nu},
-    {"C_GD", &SandParameters::C_GD},
-    {"C_DR", &SandParameters::C_DR},
-    {"C_Kaf", &SandParameters::C_Kaf},
-    {"Q", &SandParameters::Q},
-    {"R", &SandParameters::R},
-    {"m", &SandParameters::m},
-    {"F_sed_min", &SandParameters::F_sed_min},
-    {"p_sedo_kPa", &SandParameters::p_sedo, 1e3},
-};
-
-SandLaw sand_of(const json& law) {
-    const double D_R = law.at("D_R");
-    SandLaw out{pm4sand::defaults(D_R, law.at("G_0"), pm4sand::default_h_po(D_R)), {}};
-    if (law.contains("p_atm_kPa")) {
-        out.parameters.p_sedo = 1e3 * law.at("p_atm_kPa").get<double>() / 5.0;
-    }
-    for (const SandKey& each : sand_keys) {
-        if (law.contains(each.key)) {
-            out.parameters.*each.member = each.unit * law.at(each.key).get<double>();
-        }
-    }
-    if (law.contains("A_do")) out.parameters.A_do = law.at("A_do");
-    if (law.contains("z_max")) out.parameters.z_max = law.at("z_max");
-    out.parameters.reconsolidation = law.at("reconsolidation").get<bool>()
-                                         ? pm4sand::Reconsolidation::on
-                                         : pm4sand::Reconsolidation::off;
-    out.options.scheme =
-        law.at("compat") == "opensees" ? pm4sand::Scheme::reference : pm4sand::Scheme::adaptive;
-    out.options.tolerance = law.at("tolerance");
-    return out;
-}
-
-/// Writes what follows from D_R into a PM4Sand entry, and says what contradicts.
+/// Completes a PM4Sand entry and says what contradicts.
 void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& faults) {
-    if (!law.is_object() || law.value("type", "") != "pm4sand") return;
-    const SandParameters parameters = sand_of(law).parameters;
-    const json whole = as_json(parameters);
-    for (const auto& [key, value] : whole.items()) {
-        if (!law.contains(key)) law[key] = value;
-    }
-    if (parameters.e_max <= parameters.e_min) {
-        faults.push_back({pointer + "/e_max", "is not above e_min", "give e_max > e_min"});
-    }
+    scene::complete_sand(law);
+    if (law.value("type", "") != "pm4sand" || law.at("e_max") > law.at("e_min")) return;
+    faults.push_back({pointer + "/e_max", "is not above e_min", "give e_max > e_min"});
 }
 
 TestLaw law_of(const json& law) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_of(law);
     const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
-    if (type == "linear_elastic") return materials::Law{materials::LinearElastic{elasticity}};
-    return materials::Law{
+    if (type == "linear_elastic") return PlainLaw{materials::LinearElastic{elasticity}};
+    return PlainLaw{
         materials::MohrCoulomb{.elasticity = elasticity,
                                .c = 1e3 * law.at("c_kPa").get<double>(),
                                .phi = degree * law.at("phi_deg").get<double>(),
@@ -183,14 +128,6 @@ void check_calibration(const json& document, std::vector<Fault>& faults) {
 
 }  // namespace
 
-json as_json(const SandParameters& parameters) {
-    json out{{"type", "pm4sand"}};
-    for (const SandKey& each : sand_keys) out[each.key] = parameters.*each.member / each.unit;
-    if (parameters.A_do) out["A_do"] = *parameters.A_do;
-    if (parameters.z_max) out["z_max"] = *parameters.z_max;
-    return out;
-}
-
 scene::Scene read_document(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides) {
     std::ifstream stream(file, std::ios::binary);
@@ -236,7 +173,7 @@ Bench bench_of(const scene::Scene& scene) {
 }
 
 Specimen consolidated(const TestLaw& law, const Voigt& sigma) {
-    if (const auto* plain = std::get_if<materials::Law>(&law)) {
+    if (const auto* plain = std::get_if<PlainLaw>(&law)) {
         return {PlainPoint{*plain, {sigma, 0.0}}};
     }
     const auto& sand = std::get<SandLaw>(law);

@@ -19,7 +19,7 @@ struct SandLaw {
     SandParameters parameters;
     materials::pm4sand::Options options;
 };
-using TestLaw = std::variant<materials::Law, SandLaw>;
+using TestLaw = std::variant<PlainLaw, SandLaw>;
 
 /// Consolidation before a test.
 struct Consolidation {
@@ -68,9 +68,6 @@ scene::Scene read_document(const std::filesystem::path& file,
 
 /// The structs of a completed document. Throws BadInput where entries contradict each other.
 Bench bench_of(const scene::Scene& scene);
-
-/// PM4Sand parameters as the document writes them.
-nlohmann::json as_json(const SandParameters& parameters);
 
 /// A specimen of the law at an effective stress sigma [Pa, tension positive].
 Specimen consolidated(const TestLaw& law, const Voigt& sigma);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/exchange/archive.hpp"
+#include "core/scene/sand.hpp"
 #include "fem_solver/element_bench/document.hpp"
 
 namespace breach::element_bench {
@@ -229,7 +230,7 @@ Outcome run_calibration(Session& session) {
                                        {"best", as_json(result.best, problem)},
                                        {"evaluations", result.evaluations},
                                        {"path", path},
-                                       {"law", element_bench::as_json(result.parameters)}};
+                                       {"law", scene::sand_as_json(result.parameters)}};
     for (const Term& term : result.best.terms) {
         spdlog::info("{}: wanted {:.4g}, computed {:.4g}, share of the misfit {:.4g}", term.name,
                      term.wanted, term.computed, term.share);

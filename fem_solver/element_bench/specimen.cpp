@@ -16,7 +16,8 @@ Voigt stress(const Specimen& specimen) {
 
 double shear_modulus(const Specimen& specimen) {
     if (const auto* plain = std::get_if<PlainPoint>(&specimen.point)) {
-        return materials::elasticity(plain->law).shear_modulus();
+        return std::visit([](const auto& law) { return law.elasticity.shear_modulus(); },
+                          plain->law);
     }
     return std::get<SandPoint>(specimen.point).state.G;
 }

@@ -11,9 +11,11 @@ namespace breach::element_bench {
 
 using mechanics::Voigt;
 
-/// A point of an elastic or Mohr-Coulomb zone.
+/// Laws whose memory is materials::State alone.
+using PlainLaw = std::variant<materials::LinearElastic, materials::MohrCoulomb>;
+
 struct PlainPoint {
-    materials::Law law;
+    PlainLaw law;
     materials::State state;
 };
 

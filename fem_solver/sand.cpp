@@ -1,0 +1,70 @@
+#include "fem_solver/sand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breach::fem {
+
+namespace pm4sand = materials::pm4sand;
+
+StressBias stress_bias(const Motion& motion) {
+    StressBias bias;
+    for (const pm4sand::State& each : motion.sand) {
+        const auto& b = each.sigma_b;
+        const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});
+        // A stress that fits leaves the round-off of its own split into mean and deviator.
+        if (size <= 1e-9 * each.p) continue;
+        ++bias.points;
+        bias.largest = std::max(bias.largest, size);
+    }
+    return bias;
+}
+
+StressBias begin_sand(const Model& model, Motion& motion) {
+    if (!motion.sand.empty()) return stress_bias(motion);
+    for (const Zone& zone : model.zones) {
+        const auto* law = std::get_if<materials::PM4Sand>(&zone.law);
+        if (law == nullptr) continue;
+        const std::size_t begin = zone.first * model.points_per_element;
+        const std::size_t end = begin + zone.count * model.points_per_element;
+        for (std::size_t p = begin; p < end; ++p) {
+            const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
+            motion.sand.push_back(
+                pm4sand::initialise(law->ready, motion.points[p].sigma, epsilon_v));
+            motion.points[p].sigma = pm4sand::stress(law->ready, motion.sand.back());
+        }
+    }
+    return stress_bias(motion);
+}
+
+SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
+    std::size_t largest = 0;
+    for (const Zone& zone : model.zones) {
+        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        largest = std::max(largest, zone.count * points_);
+    }
+    updates_.resize(largest);
+}
+
+SandPass::Answer SandPass::integrate(const materials::PM4Sand& law, const Zone& zone,
+                                     std::span<const Voigt> d_epsilon, const Motion& old,
+                                     Motion& trial) {
+    for (const Voigt& d : d_epsilon) {
+        if (!(d.cwiseAbs().maxCoeff() <= largest_strain)) return Answer::refused;
+    }
+    trial.sand.resize(old.sand.size());
+    const std::span from = std::span(old.sand).subspan(zone.first_sand, d_epsilon.size());
+    const std::span to = std::span(updates_).first(d_epsilon.size());
+    pm4sand::integrate(law.ready, from, d_epsilon, law.options, to);
+    State* point = &trial.points[zone.first * points_];
+    pm4sand::State* sand = &trial.sand[zone.first_sand];
+    for (const pm4sand::Update& each : to) {
+        if (each.outcome != pm4sand::Outcome::done) return Answer::refused;
+        counts_ += each.counts;
+        *sand++ = each.state;
+        (point++)->sigma = pm4sand::stress(law.ready, each.state);
+    }
+    return Answer::done;
+}
+
+}  // namespace breach::fem
