@@ -1,23 +1,213 @@
-// What transfer_tool does with the scene: /transfer.
+// What transfer_tool does with the scene: /transfer, and the soils that come of it.
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/checks.hpp"
 #include "core/scene/reader.hpp"
 
 namespace breach::scene {
 
 using nlohmann::json;
 
+namespace {
+
+constexpr double kPa = 1e3;
+constexpr double p_atm = 101.325e3;  ///< [Pa]
+
+template <class List>
+std::optional<std::size_t> named(Reader& reader, const List& list, const std::string& name,
+                                 const std::string& pointer, const std::string& where) {
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.name == name; });
+    if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
+    reader.add(pointer, "names \"" + name + "\", which " + where + " does not have",
+               "give the name of one of " + where);
+    return std::nullopt;
+}
+
+/// A material that points can have.
+std::optional<std::size_t> point_material(Reader& reader, const Scene& scene,
+                                          const std::string& name, const std::string& pointer) {
+    const auto material = named(reader, scene.materials, name, pointer, "/materials");
+    if (!material || !std::holds_alternative<materials::PM4Sand>(scene.materials[*material].law))
+        return material;
+    reader.add(pointer, "names a pm4sand material, which particles cannot have",
+               "name a linear_elastic or mohr_coulomb material");
+    return std::nullopt;
+}
+
+void read_mapping(Reader& reader, const Scene& scene, const json& transfer, Transfer& result) {
+    for (std::size_t i = 0; i < transfer.at("mapping").size(); ++i) {
+        const json& each = transfer.at("mapping")[i];
+        const std::string pointer = "/transfer/mapping/" + std::to_string(i);
+        const auto region = named(reader, scene.section.regions, each.at("region"),
+                                  pointer + "/region", "/section/regions");
+        const auto material = point_material(reader, scene, each.at("to"), pointer + "/to");
+        std::optional<std::size_t> saturated;
+        if (each.contains("saturated"))
+            saturated = point_material(reader, scene, each.at("saturated"), pointer + "/saturated");
+        if (!region || !material) continue;
+        if (std::ranges::find(result.mapping, *region, &SoilMapping::region) !=
+            result.mapping.end())
+            reader.add(pointer + "/region", "is mapped twice", "give every region once");
+        if (each.contains("saturated") && result.phreatic_line.empty())
+            reader.add(pointer + "/saturated", "needs the phreatic line",
+                       "give /transfer/phreatic_line");
+        result.mapping.push_back({*region, *material, saturated});
+    }
+}
+
+/// s_r = coefficient (sigma'_v0 / p_atm)^exponent in the middle of each layer.
+struct StrengthFunction {
+    std::size_t like;    ///< material that everything else is taken from
+    double coefficient;  ///< [Pa]
+    double exponent;
+};
+
+std::optional<StrengthFunction> strength_function(Reader& reader, const Scene& scene,
+                                                  const json& liquefied) {
+    if (!liquefied.contains("residual_strength")) return std::nullopt;
+    const json& function = liquefied.at("residual_strength");
+    const std::string pointer = "/transfer/liquefied/residual_strength/like";
+    const auto like = point_material(reader, scene, function.at("like"), pointer);
+    if (!like) return std::nullopt;
+    const auto* law = std::get_if<materials::MohrCoulomb>(&scene.materials[*like].law);
+    if (law == nullptr || law->phi != 0.0 || law->c <= 0.0) {
+        reader.add(pointer, "has no undrained strength to be replaced",
+                   "name a mohr_coulomb material with phi_deg 0 and c_kPa above 0");
+        return std::nullopt;
+    }
+    return StrengthFunction{*like, function.at("coefficient_kPa").get<double>() * kPa,
+                            function.at("exponent")};
+}
+
+std::string layer_name(const Material& like, std::size_t layer) {
+    return like.name + std::string("_") + std::to_string(layer + 1);
+}
+
+/// The material of one layer by the function; the residual cohesion keeps its share of the peak.
+std::size_t made_material(Scene& scene, const StrengthFunction& s_r, std::size_t layer,
+                          const std::array<double, 2>& sigma_v0) {
+    Material made = scene.materials[s_r.like];
+    made.name = layer_name(made, layer);
+    auto& law = std::get<materials::MohrCoulomb>(made.law);
+    const double middle = 0.5 * (sigma_v0[0] + sigma_v0[1]);
+    const double c = s_r.coefficient * std::pow(middle / p_atm, s_r.exponent);
+    if (law.softening) law.softening->c_residual *= c / law.c;
+    law.c = c;
+    scene.materials.push_back(std::move(made));
+    return scene.materials.size() - 1;
+}
+
+/// Where each layer's material comes from: its own entry, or the function.
+std::optional<std::size_t> layer_material(Reader& reader, Scene& scene, const json& layer,
+                                          const std::optional<StrengthFunction>& s_r, std::size_t i,
+                                          const std::array<double, 2>& sigma_v0) {
+    const std::string pointer = "/transfer/liquefied/layers/" + std::to_string(i);
+    if (layer.contains("material"))
+        return point_material(reader, scene, layer.at("material"), pointer + "/material");
+    if (s_r) {
+        const std::string name = layer_name(scene.materials[s_r->like], i);
+        if (std::ranges::find(scene.materials, name, &Material::name) == scene.materials.end())
+            return made_material(scene, *s_r, i, sigma_v0);
+        reader.add(pointer, "would make a material \"" + name + "\", which /materials has already",
+                   "rename that material, or name it in this layer's \"material\"");
+        return std::nullopt;
+    }
+    if (!reader.document().contains(json::json_pointer("/transfer/liquefied/residual_strength")))
+        reader.add(pointer, "has no material",
+                   "give \"material\", or residual_strength for all layers");
+    return std::nullopt;
+}
+
+void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer& result) {
+    if (!transfer.contains("liquefied")) return;
+    const json& liquefied = transfer.at("liquefied");
+    LiquefiedZone zone{.regions = {}, .r_u = liquefied.at("r_u"), .layers = {}};
+    for (std::size_t i = 0; i < liquefied.at("regions").size(); ++i) {
+        const auto region =
+            named(reader, scene.section.regions, liquefied.at("regions")[i],
+                  "/transfer/liquefied/regions/" + std::to_string(i), "/section/regions");
+        if (region) zone.regions.push_back(*region);
+    }
+    const auto s_r = strength_function(reader, scene, liquefied);
+    double reached = 0.0;
+    for (std::size_t i = 0; i < liquefied.at("layers").size(); ++i) {
+        const json& layer = liquefied.at("layers")[i];
+        const std::string pointer =
+            "/transfer/liquefied/layers/" + std::to_string(i) + "/sigma_v0_kPa";
+        const std::array<double, 2> sigma_v0{kPa * layer.at("sigma_v0_kPa")[0].get<double>(),
+                                             kPa * layer.at("sigma_v0_kPa")[1].get<double>()};
+        check_ascending(reader, sigma_v0, pointer);
+        if (sigma_v0[0] != reached)
+            reader.add(pointer, i == 0 ? "does not begin at 0" : "leaves a gap to the layer before",
+                       "let the first layer begin at 0 and every other one where the last ended");
+        reached = sigma_v0[1];
+        const auto material = layer_material(reader, scene, layer, s_r, i, sigma_v0);
+        if (material) zone.layers.push_back({sigma_v0[0], sigma_v0[1], *material});
+    }
+    result.liquefied = std::move(zone);
+}
+
+std::optional<AdviceWindow> window_from(const json& transfer) {
+    if (!transfer.contains("window")) return std::nullopt;
+    const json& window = transfer.at("window");
+    return AdviceWindow{window.at("lower"), window.at("upper"), window.at("hold_s"),
+                        window.at("pick")};
+}
+
+}  // namespace
+
 void read_transfer(Reader& reader, Scene& scene) {
     if (!reader.sound("/transfer")) return;
     const json& transfer = reader.document().at("transfer");
-    scene.transfer = Transfer{
+    Transfer result{
         .points_per_direction = transfer.at("points_per_direction"),
         .interpolation =
             transfer.at("interpolation") == "local" ? Interpolation::local : Interpolation::paper,
         .neighbours = transfer.at("neighbours"),
+        .entangled = transfer.at("entangled") == "rebuild" ? Entangled::rebuild : Entangled::refuse,
+        .stress = transfer.at("stress") == "effective" ? TransferredStress::effective
+                                                       : TransferredStress::total,
         .softening_start = transfer.at("softening_start") == "carried" ? SofteningStart::carried
                                                                        : SofteningStart::zero,
+        .round_trip = transfer.at("round_trip"),
         .largest_mass_loss = transfer.at("largest_mass_loss"),
         .largest_momentum_loss = transfer.at("largest_momentum_loss"),
+        .largest_kinetic_energy_loss = transfer.at("largest_kinetic_energy_loss"),
+        .window = window_from(transfer),
     };
+    if (transfer.contains("points_per_cell")) {
+        result.points_per_cell = transfer.at("points_per_cell").get<int>();
+        if (!reader.document().contains("mpm"))
+            reader.add("/transfer/points_per_cell", "needs the MPM's cells",
+                       "give /mpm, or leave points_per_cell out");
+    }
+    if (transfer.contains("phreatic_line"))
+        result.phreatic_line =
+            line_from(reader, transfer.at("phreatic_line"), "/transfer/phreatic_line");
+    read_mapping(reader, scene, transfer, result);
+    read_liquefied(reader, scene, transfer, result);
+    scene.transfer = std::move(result);
+}
+
+std::vector<Soil> soils_of(const Scene& scene) {
+    std::vector<Soil> soils;
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r)
+        soils.push_back({r, scene.section.regions[r].material});
+    if (!scene.transfer) return soils;
+    const Transfer& transfer = *scene.transfer;
+    const auto add = [&](const Soil& soil) {
+        if (std::ranges::find(soils, soil) == soils.end()) soils.push_back(soil);
+    };
+    for (const SoilMapping& each : transfer.mapping) soils[each.region].material = each.material;
+    for (const SoilMapping& each : transfer.mapping)
+        if (each.saturated) add({each.region, *each.saturated});
+    if (!transfer.liquefied) return soils;
+    for (const std::size_t region : transfer.liquefied->regions)
+        for (const LiquefiedLayer& layer : transfer.liquefied->layers)
+            add({region, layer.material});
+    return soils;
 }
 
 }  // namespace breach::scene
