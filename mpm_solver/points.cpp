@@ -66,29 +66,47 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
     return zone;
 }
 
-std::size_t material_of(const scene::Scene& scene, const Points& points, std::size_t p) {
-    return scene.section.regions[points.region[p]].material;
-}
-
-/// Index into Section::regions of each region of the state.
-std::vector<std::int32_t> match_regions(const scene::Scene& scene,
-                                        const exchange::ParticleState& state,
-                                        const std::string& file) {
+/// Index into the scene's soils of each region of the state: by its name and material; by its name
+/// alone where no such soil exists, which is then the region's own.
+std::vector<std::int32_t> match_soils(const scene::Scene& scene,
+                                      const std::vector<scene::Soil>& soils,
+                                      const exchange::ParticleState& state,
+                                      const std::string& file) {
     std::vector<std::int32_t> match;
     std::vector<fault::Fault> faults;
-    const auto& regions = scene.section.regions;
-    for (const std::string& name : state.regions) {
-        const auto found = std::find_if(regions.begin(), regions.end(),
-                                        [&](const scene::Region& r) { return r.name == name; });
-        if (found == regions.end()) {
-            faults.push_back({"/section/regions",
-                              "has no region \"" + name + "\", to which points of the input belong",
-                              "use the scene that the points were made with"});
+    for (std::size_t r = 0; r < state.regions.size(); ++r) {
+        const auto same_region = [&](const scene::Soil& soil) {
+            return scene.section.regions[soil.region].name == state.regions[r];
+        };
+        auto found = std::find_if(soils.begin(), soils.end(), [&](const scene::Soil& soil) {
+            return same_region(soil) &&
+                   scene.materials[soil.material].name == state.materials_of_regions[r];
+        });
+        if (found == soils.end()) found = std::find_if(soils.begin(), soils.end(), same_region);
+        if (found == soils.end()) {
+            faults.push_back(
+                {"/section/regions",
+                 "has no region \"" + state.regions[r] + "\", to which points of the input belong",
+                 "use the scene that the points were made with"});
         }
-        match.push_back(static_cast<std::int32_t>(found - regions.begin()));
+        match.push_back(static_cast<std::int32_t>(found - soils.begin()));
     }
     if (!faults.empty()) throw fault::BadInput(file, faults);
     return match;
+}
+
+/// The pore pressure beside an effective stress would be lost here, and with it the balance.
+void refuse_water(const exchange::ParticleState& state, const std::string& file) {
+    if (state.pore_pressure.empty()) return;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        const auto measure = state.stress_of_regions.empty()
+                                 ? exchange::StressMeasure::effective
+                                 : state.stress_of_regions[state.region[p]];
+        if (measure == exchange::StressMeasure::total || state.pore_pressure[p] == 0.0) continue;
+        throw fault::BadInput(file, {{"/VTKHDF/PointData/pore_pressure",
+                                      "points with effective stress and pore pressure",
+                                      "transfer total stress (/transfer/stress \"total\")"}});
+    }
 }
 
 void copy_point(Points& points, std::size_t p, const exchange::ParticleState& state,
@@ -140,11 +158,13 @@ void Points::resize(std::size_t n) {
 }
 
 std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points) {
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    const auto material_of = [&](std::size_t p) { return soils[points.region[p]].material; };
     std::vector<Zone> zones;
     std::size_t begin = 0;
     for (std::size_t p = 1; p <= points.size(); ++p) {
-        const std::size_t material = material_of(scene, points, begin);
-        if (p < points.size() && material_of(scene, points, p) == material) continue;
+        const std::size_t material = material_of(begin);
+        if (p < points.size() && material_of(p) == material) continue;
         zones.push_back(zone_of(scene, points, material, begin, p));
         begin = p;
     }
@@ -156,12 +176,12 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
     if (state.size() == 0) {
         throw fault::BadInput(file, {{"/", "holds no points", "give at least one"}});
     }
-    const std::vector<std::int32_t> match = match_regions(scene, state, file);
+    refuse_water(state, file);
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    const std::vector<std::int32_t> match = match_soils(scene, soils, state, file);
     std::vector<std::size_t> order(state.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto material = [&](std::size_t p) {
-        return scene.section.regions[match[state.region[p]]].material;
-    };
+    const auto material = [&](std::size_t p) { return soils[match[state.region[p]]].material; };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return material(a) < material(b); });
 
@@ -183,9 +203,9 @@ exchange::ParticleState particle_state(const scene::Scene& scene, const Points& 
     const std::size_t n = points.size();
     exchange::ParticleState state;
     state.thickness = scene.thickness;
-    for (const scene::Region& region : scene.section.regions) {
-        state.regions.push_back(region.name);
-        state.materials_of_regions.push_back(scene.materials[region.material].name);
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        state.regions.push_back(scene.section.regions[soil.region].name);
+        state.materials_of_regions.push_back(scene.materials[soil.material].name);
     }
     state.position.resize(n), state.velocity.resize(n), state.velocity_gradient.resize(n);
     state.mass.resize(n), state.volume_0.resize(n), state.volume.resize(n), state.stress.resize(n);

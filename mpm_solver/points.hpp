@@ -26,7 +26,7 @@ struct Points {
     std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
     std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
     std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-]
-    std::vector<std::int32_t> region;  ///< index into Section::regions
+    std::vector<std::int32_t> region;  ///< index into soils_of(scene)
     std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
     std::vector<std::int32_t> cell;    ///< cell at the start of the step
 

@@ -8,9 +8,10 @@ namespace breach::mpm {
 std::vector<std::uint8_t> mobile_regions(const scene::Scene& scene) {
     const auto& names = scene::mpm_of(scene).runout.regions;
     std::vector<std::uint8_t> mobile;
-    for (const scene::Region& region : scene.section.regions) {
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        const std::string& region = scene.section.regions[soil.region].name;
         const bool counts =
-            names.empty() || std::find(names.begin(), names.end(), region.name) != names.end();
+            names.empty() || std::find(names.begin(), names.end(), region) != names.end();
         mobile.push_back(counts ? 1 : 0);
     }
     return mobile;
