@@ -35,6 +35,7 @@ struct Piece {
     std::size_t of;        ///< index of the whole region in the section
     double growth = 1.0;   ///< block: length of an element over its neighbour's before it, along
                            ///< corner 0-1 [-]
+    int unit = 1;          ///< block: the divisions of a side's segments are multiples of this
 };
 
 /// The section's regions in their order, graded ones as strips and middle. Throws BadInput when a
@@ -72,10 +73,10 @@ Quality quality_of(const Mesh& mesh);
 /// divisions + 1 of them, with every polyline vertex among them; within a segment, each element is
 /// `growth` times as long as the one before. Empty when the side has more segments than divisions.
 std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
-                              int divisions, double growth = 1.0);
+                              int divisions, double growth = 1.0, int unit = 1);
 
-/// How many of a side's divisions each of its segments gets: at least one each, otherwise by
-/// length.
-std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions);
+/// How many of a side's divisions each of its segments gets: at least one `unit` each, otherwise
+/// by length; `divisions` is a multiple of the unit.
+std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions, int unit = 1);
 
 }  // namespace breach::fem

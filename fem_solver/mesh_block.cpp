@@ -6,19 +6,19 @@
 
 namespace breach::fem {
 
-std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions) {
+std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions, int unit) {
     const std::size_t segments = lengths.size();
-    if (segments == 0 || divisions < static_cast<int>(segments)) return {};
-    std::vector<int> shares(segments, 1);
-    // One division at a time to the segment whose elements are longest now: deterministic and as
+    if (segments == 0 || divisions < unit * static_cast<int>(segments)) return {};
+    std::vector<int> shares(segments, unit);
+    // One unit at a time to the segment whose elements are longest now: deterministic and as
     // even as whole numbers allow.
-    for (int given = static_cast<int>(segments); given < divisions; ++given) {
+    for (int given = unit * static_cast<int>(segments); given < divisions; given += unit) {
         std::size_t longest = 0;
         for (std::size_t i = 1; i < segments; ++i) {
             const double gain = lengths[i] / shares[i] - lengths[longest] / shares[longest];
             if (gain > 1e-12 * lengths[i]) longest = i;
         }
-        ++shares[longest];
+        shares[longest] += unit;
     }
     return shares;
 }
@@ -35,7 +35,7 @@ double share_at(int k, int n, double growth) {
 }  // namespace
 
 std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
-                              int divisions, double growth) {
+                              int divisions, double growth, int unit) {
     std::vector<Vec2> vertices{polygon[from]};
     for (std::size_t i = from; i != to;) {
         i = (i + 1) % polygon.size();
@@ -45,7 +45,7 @@ std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, s
     for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
         lengths.push_back((vertices[i + 1] - vertices[i]).norm());
     }
-    const std::vector<int> shares = share_divisions(lengths, divisions);
+    const std::vector<int> shares = share_divisions(lengths, divisions, unit);
     if (shares.empty()) return {};
     std::vector<Vec2> points{vertices.front()};
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -97,7 +97,7 @@ Sides divide_sides(const Piece& piece) {
     std::array<std::vector<Vec2>, 4> sides;
     for (std::size_t k = 0; k < 4; ++k) {
         sides[k] = divide_side(region.polygon, region.corners[k], region.corners[(k + 1) % 4],
-                               region.divisions[k % 2], growth[k]);
+                               region.divisions[k % 2], growth[k], piece.unit);
         if (sides[k].empty()) {
             throw fault::BadInput("scene",
                                   {{place(piece.of, "mesh/divisions"),

@@ -68,21 +68,21 @@ int line_between(Outline& outline, int from, int to) {
 
 Outline outline_of(const std::vector<Piece>& pieces) {
     double size = 0.0;
-    for (const auto& [region, of, growth] : pieces) {
-        const scene::Box box = scene::bounding_box(region.polygon);
+    for (const Piece& piece : pieces) {
+        const scene::Box box = scene::bounding_box(piece.region.polygon);
         size = std::max(size, (box.high - box.low).norm());
     }
     const double tolerance = 1e-9 * size;
     Outline outline;
-    for (const auto& [region, of, growth] : pieces) {
-        for (const Vec2& vertex : region.polygon) point_at(outline, vertex, tolerance);
+    for (const Piece& piece : pieces) {
+        for (const Vec2& vertex : piece.region.polygon) point_at(outline, vertex, tolerance);
     }
-    for (const auto& [region, of, growth] : pieces) {
+    for (const Piece& piece : pieces) {
+        const scene::Polygon& ring = piece.region.polygon;
         std::vector<int> loop;
-        for (std::size_t i = 0; i < region.polygon.size(); ++i) {
-            const int a = point_at(outline, region.polygon[i], tolerance);
-            const int b =
-                point_at(outline, region.polygon[(i + 1) % region.polygon.size()], tolerance);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const int a = point_at(outline, ring[i], tolerance);
+            const int b = point_at(outline, ring[(i + 1) % ring.size()], tolerance);
             const std::vector<int> chain = points_between(outline, a, b, tolerance);
             for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
                 loop.push_back(line_between(outline, chain[k], chain[k + 1]));
@@ -121,7 +121,7 @@ void divide_block(Outline& outline, const std::vector<Piece>& pieces, std::size_
                                       region.polygon[region.corners[(k + 1) % 4]]);
         std::vector<double> lengths;
         for (const int i : lines) lengths.push_back(outline.lines[std::abs(i) - 1].length);
-        const auto shares = share_divisions(lengths, region.divisions[k % 2]);
+        const auto shares = share_divisions(lengths, region.divisions[k % 2], pieces[p].unit);
         if (shares.empty()) {
             faults.push_back({pointer,
                               "fewer divisions than segments on a side of '" + region.name + "'",
@@ -187,8 +187,9 @@ struct Recipe {
 };
 
 /// Tried in this order until no triangle is left: frontal, Delaunay and adaptive triangles, paired
-/// by blossom. (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
-constexpr std::array<Recipe, 3> recipes{{{6, 1}, {5, 1}, {1, 1}}};
+/// by blossom or, where all lines have even divisions, paired at twice the size and halved.
+/// (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
+constexpr std::array<Recipe, 5> recipes{{{6, 1}, {6, 3}, {5, 1}, {5, 3}, {1, 1}}};
 
 /// One physical surface per region, of all its pieces.
 void write_regions(std::ostringstream& geo, const std::vector<Piece>& pieces) {
@@ -210,8 +211,8 @@ std::string geo_text(const Outline& outline, const std::vector<Piece>& pieces,
            "1e-9;\n"
            "Mesh.Smoothing = 5;\nMesh.MshFileVersion = 2.2;\nMesh.Binary = 0;\n";
     double largest = 0.0;
-    for (const auto& [region, of, growth] : pieces) {
-        largest = std::max(largest, region.element_size);
+    for (const Piece& piece : pieces) {
+        largest = std::max(largest, piece.region.element_size);
     }
     geo << "Mesh.CharacteristicLengthMax = " << largest << ";\n";
     for (std::size_t i = 0; i < outline.points.size(); ++i) {

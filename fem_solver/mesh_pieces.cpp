@@ -8,8 +8,9 @@
 namespace breach::fem {
 namespace {
 
+/// An even number, so that gmsh may make all quads of the neighbours by halving.
 int divisions_for(double length, double size) {
-    return std::max(1, static_cast<int>(std::lround(length / size)));
+    return 2 * std::max(1, static_cast<int>(std::lround(0.5 * length / size)));
 }
 
 /// Length of n elements that begin with `first` and grow by the factor `growth`.
@@ -30,7 +31,8 @@ Progression fill(double length, double first, double last) {
     const double end = std::min(last, 0.5 * length);
     if (end <= first) return {divisions_for(length, first), 1.0};
     const double wanted = (length - first) / (length - end);
-    const int n = 1 + static_cast<int>(std::lround(std::log(end / first) / std::log(wanted)));
+    const double many = 1.0 + std::log(end / first) / std::log(wanted);
+    const int n = 2 * std::max(1, static_cast<int>(std::lround(0.5 * many)));
     double low = 1.0, high = 2.0 * wanted;
     if (total_length(first, low, n) >= length) return {n, 1.0};
     while (total_length(first, high, n) < length) high *= 2.0;
@@ -72,7 +74,7 @@ Piece strip(const scene::Region& region, std::size_t index, Side side, double x)
     std::ranges::sort(ring, {}, [](const Vec2& p) { return p.x(); });
     if (ring[0].y() > ring[1].y()) std::swap(ring[0], ring[1]);
     if (ring[2].y() > ring[3].y()) std::swap(ring[2], ring[3]);
-    Piece piece{region, index, 1.0};
+    Piece piece{region, index, 1.0, 2};
     piece.region.polygon = {ring[0], ring[2], ring[3], ring[1]};
     piece.region.mesh = scene::RegionMesh::block;
     piece.region.corners = {0, 1, 2, 3};
@@ -86,7 +88,7 @@ Piece strip(const scene::Region& region, std::size_t index, Side side, double x)
 
 /// What lies between the strips; a block keeps its corners in their order.
 Piece middle(const scene::Region& region, std::size_t index) {
-    Piece piece{region, index, 1.0};
+    Piece piece{region, index};
     scene::Polygon& ring = piece.region.polygon;
     if (const auto x = region.grading.left_of) {
         ring = scene::clipped_left(ring, {*x, 1.0}, {*x, 0.0});
@@ -109,7 +111,8 @@ Piece middle(const scene::Region& region, std::size_t index) {
 }
 
 /// Divisions of a block from its element size.
-void size_block(scene::Region& region) {
+void size_block(Piece& piece) {
+    scene::Region& region = piece.region;
     if (region.mesh != scene::RegionMesh::block || region.divisions[0] > 0) return;
     for (std::size_t k = 0; k < 2; ++k) {
         double length = 0.0;
@@ -120,6 +123,7 @@ void size_block(scene::Region& region) {
         }
         region.divisions[k] = divisions_for(length, region.element_size);
     }
+    piece.unit = 2;
 }
 
 }  // namespace
@@ -132,7 +136,7 @@ std::vector<Piece> pieces_of(const scene::Section& section) {
             pieces.push_back(strip(region, i, Side::left, *x));
         }
         pieces.push_back(middle(region, i));
-        size_block(pieces.back().region);
+        size_block(pieces.back());
         if (const auto x = region.grading.right_of) {
             pieces.push_back(strip(region, i, Side::right, *x));
         }

@@ -1,0 +1,90 @@
+// How deep liquefaction reaches and how many failure surfaces there are, on meshes where the answer
+// is seen by eye.
+#include <gtest/gtest.h>
+
+#include "fem_solver/failure_surface.hpp"
+#include "fem_solver/liquefaction.hpp"
+
+namespace breach::fem {
+namespace {
+
+/// Level ground of unit squares, row by row from the lower left.
+Mesh level_ground(int columns, int rows) {
+    scene::Region region;
+    region.name = "soil";
+    const double width = columns, height = rows;
+    region.polygon = {{0, 0}, {width, 0}, {width, height}, {0, height}};
+    region.corners = {0, 1, 2, 3};
+    region.divisions = {columns, rows};
+    return map_block({region, 0});
+}
+
+std::size_t surfaces(const Mesh& mesh, const std::vector<double>& epsilon_q) {
+    return count_failure_surfaces(mesh, ground_of(mesh), epsilon_q, 0.1, 1.5);
+}
+
+TEST(FailureSurface, GroundRunsFromTheUpperLeftToTheUpperRightCorner) {
+    const Mesh mesh = level_ground(6, 3);
+    const Ground ground = ground_of(mesh);
+    ASSERT_EQ(ground.element.size(), 6u);
+    EXPECT_EQ(ground.element.front(), 12u);
+    EXPECT_EQ(ground.element.back(), 17u);
+    EXPECT_DOUBLE_EQ(ground.end.back(), 6.0);
+}
+
+TEST(FailureSurface, IsABandThatMeetsTheGroundAtTwoPlaces) {
+    const Mesh mesh = level_ground(10, 4);
+    std::vector<double> epsilon_q(40, 0.0);
+    for (const int x : {1, 8}) epsilon_q[30 + x] = epsilon_q[20 + x] = 0.2;
+    EXPECT_EQ(surfaces(mesh, epsilon_q), 0u) << "two cracks do not meet";
+    for (int x = 2; x < 8; ++x) epsilon_q[10 + x] = 0.2;
+    EXPECT_EQ(surfaces(mesh, epsilon_q), 1u) << "joined at corners below";
+    for (int y = 1; y < 4; ++y) epsilon_q[10 * y + 5] = 0.2;
+    EXPECT_EQ(surfaces(mesh, epsilon_q), 2u) << "a second one branches off";
+    epsilon_q[30 + 6] = 0.0999;
+    EXPECT_EQ(surfaces(mesh, epsilon_q), 2u);
+}
+
+TEST(FailureSurface, AStrainedGroundIsNone) {
+    const Mesh mesh = level_ground(10, 4);
+    std::vector<double> epsilon_q(40, 0.0);
+    for (int x = 0; x < 10; ++x) epsilon_q[30 + x] = 0.5;
+    EXPECT_EQ(surfaces(mesh, epsilon_q), 0u);
+    epsilon_q[34] = 0.0;
+    epsilon_q[24] = 0.5;
+    EXPECT_EQ(surfaces(mesh, epsilon_q), 0u) << "one sound element is no separation";
+}
+
+TEST(Liquefaction, DepthIsThatOfTheDeepestLiquefiedNodeBelowTheWindow) {
+    const Mesh mesh = level_ground(4, 5);
+    const LiquefactionWindow window{{0}, {0.5, 2.5}, 5.0, 0.7};
+    const auto nodes = nodes_in(mesh, window);
+    EXPECT_EQ(nodes.size(), 12u) << "two columns of six nodes";
+    std::vector<double> r_u(mesh.nodes.size(), 0.0);
+    EXPECT_EQ(liquefaction_depth(mesh, nodes, r_u, window), 0.0);
+    for (std::size_t i = 0; i < r_u.size(); ++i) {
+        if (mesh.nodes[i].x() > 2.5) r_u[i] = 1.0;
+    }
+    EXPECT_EQ(liquefaction_depth(mesh, nodes, r_u, window), 0.0) << "outside the window";
+    for (std::size_t i = 0; i < r_u.size(); ++i) {
+        if (mesh.nodes[i].y() > 1.5) r_u[i] = 0.71;
+    }
+    EXPECT_DOUBLE_EQ(liquefaction_depth(mesh, nodes, r_u, window), 3.0);
+}
+
+TEST(Liquefaction, RatioIsExcessPressureOverInitialVerticalStress) {
+    const Mesh mesh = level_ground(2, 2);
+    const std::vector<double> sigma_yy{-30e3, -30e3, -10e3, -10e3}, volume{1, 1, 1, 1};
+    const auto sigma_v0 = nodal_vertical_stress(mesh, sigma_yy, volume);
+    EXPECT_DOUBLE_EQ(sigma_v0[0], 30e3);
+    EXPECT_DOUBLE_EQ(sigma_v0[4], 20e3) << "the middle node has all four elements";
+    EXPECT_DOUBLE_EQ(sigma_v0[8], 10e3);
+    const std::vector<double> u_0(9, 5e3), u(9, 20e3);
+    const auto r_u = pore_pressure_ratio(u, u_0, sigma_v0, 12e3);
+    EXPECT_DOUBLE_EQ(r_u[0], 0.5);
+    EXPECT_DOUBLE_EQ(r_u[4], 0.75);
+    EXPECT_EQ(r_u[8], 0.0) << "too little stress for a ratio";
+}
+
+}  // namespace
+}  // namespace breach::fem
