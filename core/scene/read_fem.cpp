@@ -137,7 +137,36 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
     }
 }
 
-/// Index of a region or material by its name; a fault when there is none.
+std::optional<LiquefactionWatch> liquefaction_from(Reader& reader, const Scene& scene,
+                                                   const json& fem) {
+    if (!fem.contains("liquefaction")) return std::nullopt;
+    const json& watch = fem.at("liquefaction");
+    LiquefactionWatch result{.regions = {},
+                             .x = range_from(watch.at("x")),
+                             .level = watch.at("level"),
+                             .r_u = watch.at("r_u"),
+                             .least_stress = 1e3 * watch.at("least_stress_kPa").get<double>()};
+    for (std::size_t i = 0; i < watch.at("regions").size(); ++i) {
+        const auto& regions = scene.section.regions;
+        const std::string name = watch.at("regions")[i];
+        const auto found = std::find_if(regions.begin(), regions.end(),
+                                        [&](const Region& each) { return each.name == name; });
+        if (found == regions.end()) {
+            reader.add("/fem/liquefaction/regions/" + std::to_string(i),
+                       "names \"" + name + "\", which /section/regions does not have",
+                       "name a region that can liquefy");
+        }
+        result.regions.push_back(static_cast<std::size_t>(found - regions.begin()));
+    }
+    if (result.x[0] >= result.x[1]) {
+        reader.add("/fem/liquefaction/x", "is not ascending", "write [from, to]");
+    }
+    if (!fem.contains("water")) {
+        reader.add("/fem/liquefaction", "needs pore water", "add /fem/water, or leave this out");
+    }
+    return result;
+}
+
 }  // namespace
 
 void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene) {
@@ -170,6 +199,9 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.least_jacobian_ratio = fem.at("least_jacobian_ratio");
     result.crest = point_from(fem.at("crest"));
     result.strain_threshold = fem.at("strain_threshold");
+    result.liquefaction = liquefaction_from(reader, scene, fem);
+    result.failure_strain = fem.at("failure_surfaces").at("epsilon_q");
+    result.failure_separation = fem.at("failure_surfaces").at("separation");
     result.snapshot_times = fem.at("snapshot_times").get<std::vector<double>>();
     result.snapshot_interval = fem.at("snapshot_interval");
     result.telemetry_interval = fem.at("telemetry_interval");

@@ -264,6 +264,15 @@ struct FreeField {
     FreeFieldSides sides;
 };
 
+/// How deep liquefaction reaches: the deepest node with r_u above the threshold.
+struct LiquefactionWatch {
+    std::vector<std::size_t> regions;  ///< whose nodes count
+    std::array<double, 2> x;           ///< between these [m]
+    double level;                      ///< where depth is zero [m]
+    double r_u;                        ///< threshold [-]
+    double least_stress;  ///< nodes with less sigma'_v0 have no ratio [Pa, compression positive]
+};
+
 struct Fem {
     Kinematics kinematics;
     ElementKind element;
@@ -286,6 +295,9 @@ struct Fem {
     double least_jacobian_ratio;  ///< entangled below this: stop with the last good state [-]
     Vec2 crest;                   ///< monitored point; nearest node is used [m]
     double strain_threshold;      ///< averages are over elements with epsilon_q above this [-]
+    std::optional<LiquefactionWatch> liquefaction;
+    double failure_strain;               ///< bands of elements above this are failure surfaces [-]
+    double failure_separation;           ///< places of the ground closer than this are one [m]
     std::vector<double> snapshot_times;  ///< ascending; steps are cut to meet them [s]
     double snapshot_interval;            ///< no step is cut for these; 0: none [s]
     double telemetry_interval;           ///< [s]
