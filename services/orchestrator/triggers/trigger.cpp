@@ -147,6 +147,8 @@ const std::vector<std::string>& telemetry_fields() {
         "strained_share",
         "softened_share",
         "liquefaction_depth",
+        "failure_surfaces",
+        "r_u_max",
     };
     return fields;
 }
