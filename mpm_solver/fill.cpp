@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "mpm_solver/overburden.hpp"
+
 namespace breach::mpm {
 
 using scene::Box;
@@ -104,16 +106,28 @@ Patches sample(const Polygon& polygon, const Vec2& origin, double spacing) {
     return patches;
 }
 
-void add_point(exchange::ParticleState& state, const Patch& patch, double density,
-               std::size_t region) {
+mechanics::Voigt stress_at(const scene::Scene& scene, const Vec2& place,
+                           const mechanics::Elasticity& soil) {
+    if (scene::mpm_of(scene).fill_stress == scene::FillStress::none) {
+        return mechanics::Voigt::Zero();
+    }
+    return column_stress(overburden(scene, place), soil.nu);
+}
+
+void add_point(const scene::Scene& scene, std::size_t region, const Patch& patch,
+               exchange::ParticleState& state) {
+    const scene::Material& material = scene.materials[scene.section.regions[region].material];
+    const mechanics::Elasticity soil = materials::elasticity(material.law);
+    const mechanics::Voigt sigma = stress_at(scene, patch.centroid, soil);
+    const double sigma_m = (sigma[0] + sigma[1] + sigma[2]) / 3.0;
     const double volume = patch.area * state.thickness;
     state.position.push_back(patch.centroid);
     state.velocity.emplace_back(0.0, 0.0);
     state.velocity_gradient.emplace_back(mechanics::Matrix2::Zero());
-    state.mass.push_back(density * volume);
-    state.volume_0.push_back(volume);
+    state.mass.push_back(material.density * volume);
+    state.volume_0.push_back(volume / (1.0 + sigma_m / soil.bulk_modulus()));
     state.volume.push_back(volume);
-    state.stress.emplace_back(mechanics::Voigt::Zero());
+    state.stress.push_back(sigma);
     state.epsilon_q.push_back(0.0);
     state.epsilon_q_plastic.push_back(0.0);
     state.gap.push_back(0.0);
@@ -129,12 +143,11 @@ FilledSection fill_section(const scene::Scene& scene) {
     filled.state.thickness = scene.thickness;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Region& region = scene.section.regions[r];
-        const scene::Material& material = scene.materials[region.material];
         filled.state.regions.push_back(region.name);
-        filled.state.materials_of_regions.push_back(material.name);
+        filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
         for (const auto& [place, patch] :
              sample(region.polygon, origin, mpm.cell_size / mpm.fill_points)) {
-            add_point(filled.state, patch, material.density, r);
+            add_point(scene, r, patch, filled.state);
         }
     }
     filled.regions = sampling_of(scene, filled.state);

@@ -1,5 +1,5 @@
-// The section's polygons as material points at rest and without stress: for runs that start without
-// a transfer.
+// The section's polygons as material points at rest, without stress or under the weight above them:
+// for runs that start without a transfer.
 #pragma once
 
 #include <string>

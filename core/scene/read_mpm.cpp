@@ -31,8 +31,36 @@ void check_grid(Reader& reader, const Mpm& mpm) {
     }
 }
 
+/// Nodes below the terrain carry it, so a row of them must lie there everywhere.
+void check_terrain(Reader& reader, const Mpm& mpm) {
+    const double lowest = mpm.floor.level + mpm.cell_size;
+    for (std::size_t i = 0; i < mpm.terrain.size(); ++i) {
+        const double y = mpm.terrain[i].y();
+        if (y >= lowest - 1e-9 && y < mpm.domain_y[1]) continue;
+        reader.add("/mpm/terrain/" + std::to_string(i),
+                   "does not lie inside the grid, a cell above /mpm/floor/level",
+                   "lower floor/level and domain_y[0], or raise domain_y[1]");
+    }
+}
+
+void check_gauges(Reader& reader, const Mpm& mpm) {
+    for (std::size_t i = 0; i < mpm.gauges.size(); ++i) {
+        const Gauge& gauge = mpm.gauges[i];
+        const std::string pointer = "/mpm/gauges/" + std::to_string(i);
+        if (gauge.x < mpm.domain_x[0] || gauge.x > mpm.domain_x[1]) {
+            reader.add(pointer + "/x", "lies outside the grid", "give an x inside domain_x");
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (mpm.gauges[j].name != gauge.name) continue;
+            reader.add(pointer + "/name", "is given twice", "give every gauge its own name");
+        }
+    }
+}
+
 void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     check_grid(reader, mpm);
+    check_terrain(reader, mpm);
+    check_gauges(reader, mpm);
     check_order(
         reader, mpm.floor.friction,
         [](const FrictionZone& a, const FrictionZone& b) { return a.to <= b.from + 1e-9; },
@@ -89,6 +117,9 @@ void read_mpm(Reader& reader, Scene& scene) {
         reader.add("/mpm/floor/friction/" + std::to_string(result.floor.friction.size() - 1),
                    "ends before it begins", "give from < to");
     }
+    if (mpm.contains("terrain")) {
+        result.terrain = line_from(reader, mpm.at("terrain"), "/mpm/terrain");
+    }
     result.kernel = kernel_from(mpm.at("kernel"));
     result.gimp_half_size = mpm.at("gimp_half_size");
     result.order = mpm.at("order") == "usl" ? UpdateOrder::usl : UpdateOrder::musl;
@@ -109,11 +140,17 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.rest_earliest = mpm.at("rest_earliest");
     result.runout.toe = point_from(mpm.at("runout").at("toe"));
     result.runout.regions = mpm.at("runout").at("regions").get<std::vector<std::string>>();
+    result.runout.front_depth = mpm.at("runout").at("front_depth");
+    for (const json& gauge : mpm.at("gauges")) {
+        result.gauges.push_back({gauge.at("name"), gauge.at("x"), gauge.at("arrival_depth")});
+    }
     result.snapshot_interval = mpm.at("snapshot_interval");
     result.telemetry_interval = mpm.at("telemetry_interval");
     result.checkpoint_interval = mpm.at("checkpoint_interval");
     result.largest_energy_gain = mpm.at("largest_energy_gain");
     result.fill_points = mpm.at("fill_points");
+    result.fill_stress =
+        mpm.at("fill_stress") == "overburden" ? FillStress::overburden : FillStress::none;
     check_mpm(reader, scene, result);
     scene.mpm = std::move(result);
 }

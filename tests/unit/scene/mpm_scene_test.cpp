@@ -1,0 +1,75 @@
+// What a scene may say about terrain, gauges and the stress of filled points.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/scene/scene.hpp"
+
+namespace breach {
+namespace {
+
+using nlohmann::json;
+
+json column() {
+    return json::parse(R"({
+        "format": "breachline-scene/1", "name": "column",
+        "materials": {"sand": {"density": 1800,
+            "law": {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3, "c_kPa": 1, "phi_deg": 30}}},
+        "section": {"regions": [{"name": "column", "material": "sand",
+            "polygon": [[0,0],[10,0],[10,20],[0,20],[0,0]]}]},
+        "mpm": {"cell_size": 1, "domain_x": [0, 60], "domain_y": [-2, 22], "floor": {"level": -2},
+            "duration": 10, "runout": {"toe": [10, 0]}}})");
+}
+
+std::set<std::string> faults_of_mpm(const char* key, const char* value) {
+    json document = column();
+    document["mpm"][key] = json::parse(value);
+    std::set<std::string> pointers;
+    try {
+        scene::parse_scene(document.dump(), "test");
+    } catch (const fault::BadInput& error) {
+        for (const fault::Fault& each : error.faults()) pointers.insert(each.pointer);
+    }
+    return pointers;
+}
+
+TEST(MpmScene, TerrainGaugesAndFillStressAreRead) {
+    json document = column();
+    document["mpm"]["terrain"] = json::parse("[[0, 0], [20, 0], [60, -1]]");
+    document["mpm"]["gauges"] = json::parse(
+        R"([{"name": "road", "x": 30}, {"name": "house", "x": 40, "arrival_depth": 1}])");
+    document["mpm"]["fill_stress"] = "overburden";
+    document["mpm"]["runout"]["front_depth"] = 0.3;
+    const scene::Mpm mpm = *scene::parse_scene(document.dump(), "test").mpm;
+    ASSERT_EQ(mpm.terrain.size(), 3U);
+    EXPECT_EQ(mpm.terrain[2].y(), -1.0);
+    ASSERT_EQ(mpm.gauges.size(), 2U);
+    EXPECT_EQ(mpm.gauges[0].name, "road");
+    EXPECT_EQ(mpm.gauges[0].arrival_depth, 0.5);
+    EXPECT_EQ(mpm.gauges[1].arrival_depth, 1.0);
+    EXPECT_EQ(mpm.fill_stress, scene::FillStress::overburden);
+    EXPECT_EQ(mpm.runout.front_depth, 0.3);
+}
+
+TEST(MpmScene, WithoutThemThereIsNoneOfThem) {
+    const scene::Mpm mpm = *scene::parse_scene(column().dump(), "test").mpm;
+    EXPECT_TRUE(mpm.terrain.empty());
+    EXPECT_TRUE(mpm.gauges.empty());
+    EXPECT_EQ(mpm.fill_stress, scene::FillStress::none);
+    EXPECT_EQ(mpm.runout.front_depth, 1.0);
+}
+
+TEST(MpmScene, RefusesTerrainAndGaugesThatCannotBe) {
+    using Set = std::set<std::string>;
+    EXPECT_EQ(faults_of_mpm("terrain", "[[0, 0], [0, -1]]"), Set{"/mpm/terrain/1"});
+    EXPECT_EQ(faults_of_mpm("terrain", "[[0, 0], [60, -1.5]]"), Set{"/mpm/terrain/1"});
+    EXPECT_EQ(faults_of_mpm("terrain", "[[0, 22], [60, 0]]"), Set{"/mpm/terrain/0"});
+    EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a", "x": 61}])"), Set{"/mpm/gauges/0/x"});
+    EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a", "x": 1}, {"name": "a", "x": 2}])"),
+              Set{"/mpm/gauges/1/name"});
+    EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a b", "x": 1}])"), Set{"/mpm/gauges/0/name"});
+}
+
+}  // namespace
+}  // namespace breach
