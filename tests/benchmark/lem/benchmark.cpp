@@ -9,6 +9,7 @@
 #include <ctime>
 #include <string>
 
+#include "lem_tool/limit_scene.hpp"
 #include "lem_tool/search.hpp"
 #include "lem_tool/slip_circle.hpp"
 
@@ -21,7 +22,7 @@ double seconds_since(std::chrono::steady_clock::time_point began) {
 }
 
 scene::Scene mochikoshi() {
-    return scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/mochikoshi_scene.json");
+    return lem::limit_scene(scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json"));
 }
 
 /// F of one circle, or none; cutting and balancing both count.

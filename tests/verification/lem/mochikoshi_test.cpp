@@ -6,14 +6,14 @@
 
 #include <array>
 
+#include "lem_tool/limit_scene.hpp"
 #include "lem_tool/search.hpp"
 
 namespace breach::lem {
 namespace {
 
 scene::Scene mochikoshi() {
-    return scene::read_scene(std::string(BREACH_ROOT) +
-                             "/tests/verification/lem/cases/mochikoshi_scene.json");
+    return limit_scene(scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json"));
 }
 
 TEST(Mochikoshi, FactorOfSafetyFallsWithEveryLiquefiedLayerAsPublished) {
@@ -45,6 +45,28 @@ TEST(Mochikoshi, DoesNotDependOnTheCoarseGrid) {
         std::printf("%d points per range: %.6f against %.6f\n", points, other, F);
         EXPECT_NEAR(other / F, 1.0, 5e-4);  // the slices' own error is 1e-4
     }
+}
+
+TEST(LimitScene, CutsARegionIntoItsLayersAndKeepsItsArea) {
+    const scene::Scene whole = scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json");
+    const scene::Scene cut = limit_scene(whole);
+    EXPECT_EQ(cut.section.regions.size(), whole.section.regions.size() + 4);
+    double before = 0.0, after = 0.0;
+    for (const auto& region : whole.section.regions) before += scene::area(region.polygon);
+    for (const auto& region : cut.section.regions) after += scene::area(region.polygon);
+    EXPECT_NEAR(after / before, 1.0, 1e-14);
+    ASSERT_EQ(cut.lem->liquefaction.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const auto box =
+            scene::bounding_box(cut.section.regions[cut.lem->liquefaction[i].region].polygon);
+        EXPECT_NEAR(box.low.y(), 29.4 - 5.88 * static_cast<double>(i + 1), 1e-12);
+    }
+}
+
+TEST(LimitScene, RefusesLevelsThatLeaveNothing) {
+    scene::Scene scene = scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json");
+    scene.lem->liquefaction[0].levels = {{40.0, 50.0}};
+    EXPECT_THROW(limit_scene(scene), fault::BadInput);
 }
 
 }  // namespace
