@@ -30,8 +30,11 @@ void make_absolute(json& object, const char* key, const std::filesystem::path& f
 
 json read_scene_document(const std::filesystem::path& file) {
     json scene = read_json(file);
-    if (scene.is_object() && scene.contains("fem"))
+    if (scene.is_object() && scene.contains("fem") && scene["fem"].is_object()) {
         make_absolute(scene["fem"], "msh_file", file.parent_path());
+        if (scene["fem"].contains("motion"))
+            make_absolute(scene["fem"]["motion"], "file", file.parent_path());
+    }
     return scene;
 }
 

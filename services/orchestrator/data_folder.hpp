@@ -4,8 +4,10 @@
 //     <data>/instance.lock             held by the one service that owns the folder
 //     <data>/runs/<run>/scene.json     the completed scene
 //     <data>/runs/<run>/<label>/output            what the phase writes; all attempts share it
-//     (checkpoints) <data>/runs/<run>/<label>/attempts/<n>/     order.json lock stdout.jsonl
-//     log.txt exit.json [stop]
+//                                      (checkpoints)
+//     <data>/runs/<run>/<label>/attempts/fence    held by the one attempt whose phase may run
+//     <data>/runs/<run>/<label>/attempts/<n>/     order.json lock heartbeat stdout.jsonl log.txt
+//                                      exit.json [stop] [slurm.json]
 #pragma once
 
 #include <filesystem>
@@ -24,6 +26,10 @@ struct AttemptFolder {
     std::filesystem::path log() const { return root / "log.txt"; }
     std::filesystem::path exit_record() const { return root / "exit.json"; }
     std::filesystem::path stop() const { return root / "stop"; }
+    std::filesystem::path heartbeat() const { return root / "heartbeat"; }
+    std::filesystem::path slurm_job() const { return root / "slurm.json"; }
+    /// One for all attempts of the task.
+    std::filesystem::path fence() const { return root.parent_path() / "fence"; }
 };
 
 class DataFolder {

@@ -96,6 +96,7 @@ void Dispatcher::reconcile() {
             spdlog::info("{} ({}): attempt {} was going on", task.id, task.label, last.number);
             Live& live = attach(task, last.number);
             live.submission_noted = last.state != AttemptState::submitting;
+            live.start_noted = task.state == TaskState::running;
             live.begun = last.state == AttemptState::running;
         }
     }
@@ -137,6 +138,7 @@ void Dispatcher::wait_for_something() {
 }
 
 void Dispatcher::shut_down() {
+    if (executor_.at_stop() == AtStop::leaves_them) return;
     for (Live& live : live_) executor_.stop(live.folder, StopReason::shutdown);
     const auto deadline =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -217,16 +219,24 @@ void Dispatcher::start(const std::vector<Task>& tasks) {
         not_cached_.erase(tasks[i].id);
         if (numbers[i] == 0) continue;
         Live& live = attach(tasks[i], numbers[i]);
-        if (hand_over(live)) started.push_back(&live);
+        if (!hand_over(live)) continue;
+        const Life life = executor_.probe(live.folder).life;
+        if (life == Life::alive || life == Life::ended) started.push_back(&live);
     }
+    note_starts(started);
+    forget_the_ended();
+}
+
+/// Of those that run at once, in one commit.
+void Dispatcher::note_starts(const std::vector<Live*>& started) {
+    if (started.empty()) return;
     store_.write([&](Transaction& transaction) {
         for (const Live* live : started) {
             transaction.move_attempt(live->task.id, live->number, AttemptEvent::submit);
             transaction.move_task(live->task.id, TaskEvent::start);
         }
     });
-    for (Live* live : started) live->submission_noted = true;
-    forget_the_ended();
+    for (Live* live : started) live->submission_noted = live->start_noted = true;
 }
 
 /// False: it cannot be started, which is noted.
@@ -275,7 +285,10 @@ Order Dispatcher::order_for(const Live& live) const {
     return {.attempt = attempt_id(task.id, live.number),
             .program = settings_.bin / task.phase,
             .arguments = std::move(arguments),
-            .grace_seconds = settings_.grace_seconds};
+            .grace_seconds = settings_.grace_seconds,
+            .cores = task.resources.cores,
+            .memory_mb = task.resources.memory_mb,
+            .priority = task.priority};
 }
 
 Dispatcher::Live& Dispatcher::attach(const Task& task, std::int64_t number) {

@@ -60,7 +60,8 @@ class Dispatcher {
         int attempt_watch;
         int output_watch;
         std::streamoff lines_read = 0;
-        bool submission_noted = false;
+        bool submission_noted = false;  ///< the executor's taking it, in the attempt's row
+        bool start_noted = false;       ///< its process, in the task's row
         bool begun = false;
         bool outputs_changed = true;  ///< a new file may release a child
         bool asked_to_stop = false;
@@ -78,6 +79,7 @@ class Dispatcher {
     bool leave_to_the_cache(const Task& task);
     void start(const std::vector<Task>& tasks);
     bool hand_over(Live& live);
+    void note_starts(const std::vector<Live*>& started);
     void note_latency(const Task& task);
     Order order_for(const Live& live) const;
     Live& attach(const Task& task, std::int64_t number);
@@ -85,6 +87,7 @@ class Dispatcher {
     void observe(Live& live);
     void read_lines(Live& live);
     void note_submission(Live& live);
+    void note_start(Live& live);
     void note_begin(Live& live);
     void note_exit(Live& live);
     void note_loss(Live& live, const std::string& why);

@@ -39,16 +39,22 @@ std::int64_t delay_ms(std::chrono::milliseconds first, std::int64_t tries) {
 void Dispatcher::observe(Live& live) {
     if (live.outputs_changed) settle_children(live.task.id);
     live.outputs_changed = false;
-    switch (executor_.probe(live.folder)) {
+    const Vitals vitals = executor_.probe(live.folder);
+    switch (vitals.life) {
+        case Life::handed_over:
+            return;
+        case Life::queued:
+            note_submission(live);
+            return;
         case Life::alive:
-            note_submission(live);  // after a restart, or when the disk was full at the start
+            note_start(live);  // after a wait, a restart, or when the disk was full at the start
             read_lines(live);
             return;
         case Life::ended:
             note_exit(live);
             return;
         case Life::gone:
-            note_loss(live, "its process vanished without an exit record");
+            note_loss(live, vitals.why);
             return;
     }
 }
@@ -74,9 +80,18 @@ void Dispatcher::note_submission(Live& live) {
     if (live.submission_noted) return;
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(live.task.id, live.number, AttemptEvent::submit);
-        transaction.move_task(live.task.id, TaskEvent::start);
     });
     live.submission_noted = true;
+}
+
+void Dispatcher::note_start(Live& live) {
+    if (live.start_noted) return;
+    store_.write([&](Transaction& transaction) {
+        if (!live.submission_noted)
+            transaction.move_attempt(live.task.id, live.number, AttemptEvent::submit);
+        transaction.move_task(live.task.id, TaskEvent::start);
+    });
+    live.submission_noted = live.start_noted = true;
 }
 
 void Dispatcher::note_begin(Live& live) {
@@ -133,7 +148,7 @@ bool Dispatcher::is_over(const std::string& task) const {
 
 void Dispatcher::note_loss(Live& live, const std::string& why) {
     const std::string& task = live.task.id;
-    executor_.clear_away(attempt_id(task, live.number));
+    executor_.clear_away(live.folder, attempt_id(task, live.number));
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(task, live.number, AttemptEvent::vanish);
         if (transaction.try_move_task(task, TaskEvent::stopped)) return;

@@ -35,7 +35,7 @@ json section_part(const json& scene, Regions wanted) {
     return {{"regions", std::move(regions)}};
 }
 
-json mesh_content(const std::string& file) {
+json content_of(const std::string& file) {
     try {
         return {{"sha256", exchange::sha256_of_file(file)}};
     } catch (const fault::IoError&) {
@@ -85,9 +85,10 @@ Recipe recipe_of(const std::string& phase, const json& scene) {
     json part{{"section", section_part(scene, reading.regions)}};
     for (const std::string& each : reading.parts)
         if (scene.contains(each)) part[each] = scene.at(each);
-    if (phase == "fem_solver" && part.at("fem").contains("msh_file")) {
-        json& mesh = part["fem"]["msh_file"];
-        if (mesh.is_string()) mesh = mesh_content(mesh.get<std::string>());
+    for (const char* key : {"/fem/msh_file", "/fem/motion/file"}) {
+        const json::json_pointer at(key);
+        if (part.contains(at) && part[at].is_string())
+            part[at] = content_of(part[at].get<std::string>());
     }
     Recipe recipe{
         .hash = {}, .phase = phase, .cache_version = reading.version, .part = part.dump()};

@@ -4,7 +4,8 @@
 //
 //     lem_tool       /gravity /materials /section /lem
 //     fem_solver     /gravity /thickness /materials /section /fem    (with all snapshot times: the
-//                    FEM's steps end on them); and the bytes of /fem/msh_file
+//                    FEM's steps end on them); and the bytes of /fem/msh_file and
+//                    /fem/motion/file
 //     transfer_tool  /gravity /materials /transfer, names and materials of /section/regions
 //     mpm_solver     /gravity /thickness /materials /mpm, names and materials of /section/regions
 //                    (the shapes come with the particles)
@@ -14,7 +15,7 @@
 
 namespace breach::orchestrator {
 
-/// `scene`: completed, all overrides applied. A mesh file that cannot be read stands for itself.
+/// `scene`: completed, all overrides applied. A file that cannot be read stands for its name.
 Recipe recipe_of(const std::string& phase, const nlohmann::json& scene);
 
 /// Pointers at which two JSON values differ, deepest first found in order of the keys: an array of

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <memory>
 #include <thread>
 
 #include "services/orchestrator/executors/local_executor.hpp"
@@ -23,12 +24,19 @@ sigset_t blocked_stop_signals() {
     return set;
 }
 
+std::unique_ptr<Executor> executor_of(const ServeSettings& settings) {
+    if (settings.place == Place::slurm)
+        return std::make_unique<SlurmExecutor>(settings.slurm, settings.self);
+    return std::make_unique<LocalExecutor>(settings.self);
+}
+
 void announce(const ServeSettings& settings, int port) {
     const std::string url = "http://" + settings.http.host + ":" + std::to_string(port);
     std::cout << nlohmann::json{{"event", "listening"}, {"url", url}, {"port", port}}.dump()
               << std::endl;
-    spdlog::info("listening on {}, data in {}, {} slots", url, settings.data.string(),
-                 settings.dispatch.slots);
+    spdlog::info("listening on {}, data in {}, {} slots {}", url, settings.data.string(),
+                 settings.dispatch.slots,
+                 settings.place == Place::slurm ? "in Slurm" : "on this machine");
 }
 
 }  // namespace
@@ -40,9 +48,9 @@ int serve(const ServeSettings& settings) {
     const DataFolder data(settings.data);
     Store store(data.database());
     ProgressBoard board;
-    LocalExecutor executor(settings.self);
+    const std::unique_ptr<Executor> executor = executor_of(settings);
     FrameReader frames;
-    Dispatcher dispatcher(store, data, executor, board, settings.dispatch);
+    Dispatcher dispatcher(store, data, *executor, board, settings.dispatch);
     Service service{store,        data,
                     dispatcher,   board,
                     frames,       settings.dispatch.bin,
@@ -53,7 +61,9 @@ int serve(const ServeSettings& settings) {
     announce(settings, server.port());
     int signal = 0;
     sigwait(&stop_signals, &signal);
-    spdlog::info("stopping: running phases save their checkpoints");
+    spdlog::info(executor->at_stop() == AtStop::ends_them
+                     ? "stopping: running phases save their checkpoints"
+                     : "stopping: running phases go on");
     server.stop();
     return 0;
 }

@@ -4,15 +4,21 @@
 #include <filesystem>
 
 #include "services/orchestrator/dispatcher.hpp"
+#include "services/orchestrator/executors/slurm_executor.hpp"
 #include "services/orchestrator/http/http_server.hpp"
 
 namespace breach::orchestrator {
+
+/// Where phases run.
+enum class Place { local, slurm };
 
 struct ServeSettings {
     std::filesystem::path data = "breachline-data";
     std::filesystem::path web;
     std::filesystem::path workflows;  ///< folder with studies/ and scenes/
     std::filesystem::path self;       ///< this executable, for supervisors
+    Place place = Place::local;
+    SlurmSettings slurm;
     DispatchSettings dispatch;
     HttpSettings http;
 };

@@ -94,13 +94,14 @@ std::optional<scene::Scene> checked_scene(const json& document, const std::strin
                                           const std::vector<std::string>& overrides,
                                           std::vector<Fault>& faults) {
     try {
-        // A scene that came over the network has no folder: its mesh file cannot be relative to it.
-        if (document.contains("fem") && document["fem"].is_object() &&
-            document["fem"].contains("msh_file") && document["fem"]["msh_file"].is_string() &&
-            !document["fem"]["msh_file"].get_ref<const std::string&>().starts_with('/')) {
-            faults.push_back({prefix + "/fem/msh_file",
+        for (const char* key : {"/fem/msh_file", "/fem/motion/file"}) {
+            const json::json_pointer at(key);
+            if (!document.contains(at) || !document[at].is_string() ||
+                document[at].get_ref<const std::string&>().starts_with('/'))
+                continue;
+            faults.push_back({prefix + key,
                               "the path is relative, but a scene sent to the service has no folder",
-                              "give the absolute path of the mesh on the service's machine"});
+                              "give the absolute path of the file on the service's machine"});
         }
         return scene::parse_scene(document.dump(), "scene", "/", overrides);
     } catch (const BadInput& error) {

@@ -66,7 +66,8 @@ std::map<std::string, int> Sandbox::successes() const {
     return counts;
 }
 
-Service::Service(const Sandbox& sandbox, std::vector<std::string> more_arguments) {
+Service::Service(const Sandbox& sandbox, std::vector<std::string> more_arguments,
+                 std::vector<std::string> more_environment) {
     std::vector<std::string> words{fs::path(BREACH_BIN) / "breachline",
                                    "serve",
                                    "--data",
@@ -85,8 +86,8 @@ Service::Service(const Sandbox& sandbox, std::vector<std::string> more_arguments
     std::vector<char*> arguments;
     for (std::string& each : words) arguments.push_back(each.data());
     arguments.push_back(nullptr);
-    const std::string ledger = "FAKE_PHASE_LEDGER=" + (sandbox.root() / "ledger").string();
-    std::vector<char*> environment{const_cast<char*>(ledger.c_str())};
+    std::vector<char*> environment;
+    for (std::string& each : more_environment) environment.push_back(each.data());
     for (char** each = environ; *each != nullptr; ++each) environment.push_back(*each);
     environment.push_back(nullptr);
 

@@ -40,7 +40,9 @@ class Sandbox {
 class Service {
   public:
     /// Starts and waits until it listens; valid() is false when it ended instead.
-    explicit Service(const Sandbox& sandbox, std::vector<std::string> more_arguments = {});
+    /// `environment`: more entries "NAME=value".
+    explicit Service(const Sandbox& sandbox, std::vector<std::string> more_arguments = {},
+                     std::vector<std::string> environment = {});
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;

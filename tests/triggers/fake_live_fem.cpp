@@ -1,6 +1,7 @@
 // Stands for fem_solver where the triggers' tests need one that takes its time: 56 steps of 0.05 s
 // simulated and 20 ms real, telemetry written in two halves, snapshots at times, at an interval and
-// on request. While a file `gate` lies in the folder of the ledger, requests are not heard.
+// on request. While a file `gate` lies in the sandbox (above the folder of the programs), requests
+// are not heard.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -65,15 +66,15 @@ json line_at(int step) {
             {"kinetic_energy", std::exp(2 * t)}};
 }
 
-bool take_request(const fs::path& output) {
-    const fs::path gate = fs::path(std::getenv("FAKE_PHASE_LEDGER")).parent_path() / "gate";
-    return !fs::exists(gate) && fs::remove(output / "snapshot_request");
+bool take_request(const fs::path& sandbox, const fs::path& output) {
+    return !fs::exists(sandbox / "gate") && fs::remove(output / "snapshot_request");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     const Wish wish = wish_from(argc, argv);
+    const fs::path sandbox = fs::path(argv[0]).parent_path().parent_path();
     std::ofstream telemetry(wish.output / "telemetry.jsonl");
     const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
     for (int step = 1; step <= steps; ++step) {
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
         telemetry << line.substr(0, line.size() / 2) << std::flush;  // torn
         pause();
         telemetry << line.substr(line.size() / 2) << std::flush;
-        bool due = step == steps || take_request(wish.output);
+        bool due = step == steps || take_request(sandbox, wish.output);
         for (const double each : wish.times) due = due || std::abs(each - t) < 0.5 * dt;
         const auto count = [&](double time) { return std::floor(time / wish.interval + 1e-9); };
         due = due || (wish.interval > 0.0 && count(t) > count(t - dt));

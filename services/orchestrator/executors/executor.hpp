@@ -1,5 +1,5 @@
-// Where attempts run: this machine (local), later a cluster. The dispatcher knows no more of it
-// than this.
+// Where attempts run: this machine (local) or a cluster (Slurm). The dispatcher knows no more of it
+// than this; tests/slurm/conformance_test.cpp says what every executor must do.
 #pragma once
 
 #include "services/orchestrator/executors/order.hpp"
@@ -7,23 +7,34 @@
 namespace breach::orchestrator {
 
 enum class Life {
-    alive,  ///< some process of the attempt still runs
-    ended,  ///< the exit record is there
-    gone,   ///< no process, no record
+    handed_over,  ///< noted by the executor, but not yet taken by what will run it
+    queued,       ///< taken; waits for its turn
+    alive,        ///< some process of the attempt runs
+    ended,        ///< the exit record is there
+    gone,         ///< no process, no record, and none will come
 };
+
+struct Vitals {
+    Life life;
+    std::string why = {};  ///< when it is gone
+};
+
+/// What becomes of running attempts when the service stops.
+enum class AtStop { ends_them, leaves_them };
 
 class Executor {
   public:
     virtual ~Executor() = default;
-    /// Starts the order. The attempt's row is stored already. Throws IoError when it cannot be
-    /// started.
+    /// Takes the order over; returns at once. The attempt's row is stored already. Throws IoError
+    /// when it cannot be started.
     virtual void submit(const AttemptFolder& folder, const Order& order) = 0;
-    /// What is true now; right after a restart too.
-    virtual Life probe(const AttemptFolder& folder) = 0;
+    /// What is true now; right after a restart too. Silence of a scheduler is never "gone".
+    virtual Vitals probe(const AttemptFolder& folder) = 0;
     /// Asks the whole process tree to end; returns at once.
     virtual void stop(const AttemptFolder& folder, StopReason reason) = 0;
-    /// Makes sure that nothing of a vanished attempt runs on.
-    virtual void clear_away(const std::string& attempt) = 0;
+    /// The attempt was given up: nothing of it may run on, or begin to run.
+    virtual void clear_away(const AttemptFolder& folder, const std::string& attempt) = 0;
+    virtual AtStop at_stop() const = 0;
 };
 
 }  // namespace breach::orchestrator

@@ -91,19 +91,20 @@ void LocalExecutor::submit(const AttemptFolder& folder, const Order& order) {
     supervisors_.push_back({pid, folder, order.attempt});
 }
 
-Life LocalExecutor::probe(const AttemptFolder& folder) {
+Vitals LocalExecutor::probe(const AttemptFolder& folder) {
     reap();
-    if (std::filesystem::exists(folder.exit_record())) return Life::ended;
-    if (is_held(folder.lock())) return Life::alive;
+    if (std::filesystem::exists(folder.exit_record())) return {Life::ended};
+    if (is_held(folder.lock())) return {Life::alive};
     // It may have ended between the two looks.
-    return std::filesystem::exists(folder.exit_record()) ? Life::ended : Life::gone;
+    if (std::filesystem::exists(folder.exit_record())) return {Life::ended};
+    return {Life::gone, "its process vanished without an exit record"};
 }
 
 void LocalExecutor::stop(const AttemptFolder& folder, StopReason reason) {
     write_stop(folder, reason);
 }
 
-void LocalExecutor::clear_away(const std::string& attempt) {
+void LocalExecutor::clear_away(const AttemptFolder&, const std::string& attempt) {
     for (const pid_t each : marked_processes(attempt)) kill(each, SIGKILL);
 }
 
@@ -111,7 +112,8 @@ void LocalExecutor::reap() {
     std::erase_if(supervisors_, [this](const Supervisor& each) {
         if (waitpid(each.pid, nullptr, WNOHANG) == 0) return false;
         // A supervisor that was killed leaves nobody to end what its phase had started.
-        if (!std::filesystem::exists(each.folder.exit_record())) clear_away(each.attempt);
+        if (!std::filesystem::exists(each.folder.exit_record()))
+            clear_away(each.folder, each.attempt);
         return true;
     });
 }

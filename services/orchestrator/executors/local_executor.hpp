@@ -15,9 +15,11 @@ class LocalExecutor final : public Executor {
     explicit LocalExecutor(std::filesystem::path self);
 
     void submit(const AttemptFolder& folder, const Order& order) override;
-    Life probe(const AttemptFolder& folder) override;
+    Vitals probe(const AttemptFolder& folder) override;
     void stop(const AttemptFolder& folder, StopReason reason) override;
-    void clear_away(const std::string& attempt) override;
+    void clear_away(const AttemptFolder& folder, const std::string& attempt) override;
+    /// Their checkpoints are saved first; the next service goes on with them.
+    AtStop at_stop() const override { return AtStop::ends_them; }
 
   private:
     struct Supervisor {

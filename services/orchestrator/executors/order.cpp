@@ -22,12 +22,21 @@ std::optional<std::string> text_of(const std::filesystem::path& file) {
 }
 
 std::string name_of(StopReason reason) {
-    return reason == StopReason::cancel ? "cancel" : "shutdown";
+    switch (reason) {
+        case StopReason::cancel:
+            return "cancel";
+        case StopReason::shutdown:
+            return "shutdown";
+        case StopReason::revoked:
+            break;
+    }
+    return "revoked";
 }
 
 std::optional<StopReason> reason_named(const std::string& name) {
     if (name == "cancel") return StopReason::cancel;
     if (name == "shutdown") return StopReason::shutdown;
+    if (name == "revoked") return StopReason::revoked;
     return std::nullopt;
 }
 

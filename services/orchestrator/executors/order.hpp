@@ -19,10 +19,14 @@ struct Order {
     std::filesystem::path program;
     std::vector<std::string> arguments;  ///< without the program
     double grace_seconds;                ///< between TERM and KILL
+    std::int64_t cores = 1;
+    std::int64_t memory_mb = 0;  ///< 0: not asked for
+    std::int64_t priority = 0;   ///< higher goes first
 };
 
-/// Why the service wants an attempt to end.
-enum class StopReason { cancel, shutdown };
+/// Why the service wants an attempt to end. `revoked`: it was given up, and a later attempt may run
+/// already.
+enum class StopReason { cancel, shutdown, revoked };
 
 struct ExitRecord {
     std::string attempt;

@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <optional>
 #include <thread>
 
 #include "core/fault/fault.hpp"
@@ -29,6 +31,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int cannot_execute = 127;
 constexpr auto pause = std::chrono::milliseconds(20);
+constexpr auto heartbeat_interval = std::chrono::seconds(2);
+
+/// Held by whatever of the attempt lives, as long as anything of it lives.
+FileLock held_by_all_below(FileLock lock) {
+    fcntl(lock.descriptor(), F_SETFD, 0);
+    return lock;
+}
 
 class Supervision {
   public:
@@ -43,8 +52,10 @@ class Supervision {
     }
 
     void run() {
+        if (!wait_for_fence()) return give_back();
         start();
         while (!phase_ended_) {
+            beat();
             look_for_stop();
             press();
             wait_a_little();
@@ -55,6 +66,36 @@ class Supervision {
     }
 
   private:
+    /// One phase of a task at a time, whatever was believed of the attempts before this one. False:
+    /// asked to stop before it began.
+    bool wait_for_fence() {
+        while (true) {
+            beat();
+            record_.stopped = asked_by_signal_ ? StopReason::shutdown : read_stop(folder_);
+            if (record_.stopped) return false;
+            if (auto fence = FileLock::try_take(folder_.fence())) {
+                fence_ = held_by_all_below(std::move(*fence));
+                return true;
+            }
+            wait_a_little();
+        }
+    }
+
+    /// Nothing was started. Of an attempt that was given up nobody wants a record.
+    void give_back() {
+        if (record_.stopped != StopReason::revoked) record_exit();
+    }
+
+    /// For a service on another machine, where locks may not be seen.
+    void beat() {
+        if (Clock::now() < next_beat_) return;
+        next_beat_ = Clock::now() + heartbeat_interval;
+        const int file = open(folder_.heartbeat().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+        if (file < 0) return;
+        futimens(file, nullptr);
+        close(file);
+    }
+
     void start() {
         phase_ = fork();
         if (phase_ == 0) become_the_phase();
@@ -103,7 +144,7 @@ class Supervision {
 
     void wait_a_little() {
         pollfd wanted[] = {{signal_descriptor_, POLLIN, 0}, {watch_.descriptor(), POLLIN, 0}};
-        poll(wanted, 2, record_.stopped ? 50 : 1000);
+        poll(wanted, 2, record_.stopped || !fence_ ? 50 : 1000);
         signalfd_siginfo info{};
         while (read(signal_descriptor_, &info, sizeof info) == sizeof info) {
             if (info.ssi_signo != SIGCHLD) asked_by_signal_ = true;
@@ -139,11 +180,12 @@ class Supervision {
         }
     }
 
-    /// A full disk must not lose the exit: the lock stays held until the record is down.
+    /// A full disk must not lose the exit: the lock stays held until the record is down. A folder
+    /// that was deleted wants no record.
     void record_exit() {
         record_.attempt = order_.attempt;
         record_.wall_seconds = std::chrono::duration<double>(Clock::now() - began_).count();
-        while (true) {
+        while (std::filesystem::exists(folder_.root)) {
             try {
                 write_exit_record(folder_, record_);
                 return;
@@ -165,18 +207,34 @@ class Supervision {
     bool asked_by_signal_ = false;
     bool termed_ = false;
     Clock::time_point kill_at_{};
+    Clock::time_point next_beat_{};
+    std::optional<FileLock> fence_;
     ExitRecord record_;
 };
 
 }  // namespace
 
-int supervise(const std::filesystem::path& folder) {
+int supervise(const std::filesystem::path& root, AttemptLock wanted) {
     try {
-        Supervision({folder}).run();
+        const AttemptFolder folder{root};
+        std::optional<FileLock> lock;
+        if (wanted == AttemptLock::to_be_taken) {
+            lock = FileLock::try_take(folder.lock());
+            if (!lock || std::filesystem::exists(folder.exit_record())) return 0;
+            lock = held_by_all_below(std::move(*lock));
+        }
+        Supervision(folder).run();
         return 0;
     } catch (const std::exception& error) {
         std::cerr << "supervise: " << error.what() << "\n";
         return static_cast<int>(fault::ExitCode::io);
+    }
+}
+
+void end_strays(const std::filesystem::path& root) {
+    const AttemptFolder folder{root};
+    for (const pid_t each : marked_processes(read_order(folder).attempt)) {
+        if (each != getpid()) kill(each, SIGKILL);
     }
 }
 

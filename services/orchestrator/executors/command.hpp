@@ -1,0 +1,22 @@
+// Runs another program to its end, with a limit on its time: what it was told, what it said.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace breach::orchestrator {
+
+struct CommandResult {
+    std::optional<int> exit_code;  ///< empty: it was killed, or took too long and was killed
+    std::string out;
+    std::string err;
+};
+
+/// `words`: the program, found on PATH when it has no slash, and its arguments. `input`: at most
+/// 60,000 bytes (it goes into the pipe at once). Throws IoError when the program cannot be started.
+CommandResult run_command(std::vector<std::string> words, const std::string& input,
+                          std::chrono::milliseconds longest);
+
+}  // namespace breach::orchestrator

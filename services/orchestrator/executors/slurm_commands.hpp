@@ -1,0 +1,71 @@
+// What is said to Slurm and how its answers are read: sbatch, squeue and scancel by command line,
+// the interface that every version and every site has.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/executors/order.hpp"
+
+namespace breach::orchestrator {
+
+/// A job as we know it: the name is ours and unique, Slurm's numbers are not (a controller that
+/// lost its memory gives them again). Attempts that were submitted together are tasks of one array.
+struct JobName {
+    std::string name;
+    std::int64_t index = 0;
+    auto operator<=>(const JobName&) const = default;
+};
+
+struct ListedJob {
+    std::string number;  ///< for scancel: "123", or "123_4" in an array
+    std::string state;   ///< Slurm's word: "PENDING", ...
+};
+
+/// Attempts that go to Slurm as one job.
+struct Batch {
+    std::string name;
+    std::vector<AttemptFolder> folders;
+    std::vector<std::string> attempts;
+    Order like;            ///< resources and priority of all of them
+    std::size_t throttle;  ///< of an array: so many tasks at once; 0: no limit
+};
+
+enum class Reply {
+    accepted,
+    refused,   ///< for a reason that asking again will not mend
+    doubtful,  ///< no answer, or one that does not say whether the job exists
+};
+
+struct Submitted {
+    Reply reply;
+    std::string said;
+};
+
+class SlurmCommands {
+  public:
+    /// `options`: further words for sbatch (partition, account, time limit); `self`: the breachline
+    /// executable as the nodes see it.
+    SlurmCommands(std::vector<std::string> options, std::string self,
+                  std::chrono::milliseconds longest);
+
+    Submitted submit(const Batch& batch) const;
+    /// All jobs of this user, in any state; nothing when Slurm does not answer.
+    std::optional<std::map<JobName, ListedJob>> list() const;
+    /// What is over already is no fault; no answer shows at the next look.
+    void cancel(const JobName& job, const std::string& number) const;
+
+  private:
+    std::vector<std::string> options_;
+    std::string self_;
+    std::string user_;
+    std::chrono::milliseconds longest_;
+};
+
+/// One line of our squeue format: "<array job id> <array index> <state> <name>".
+std::optional<std::pair<JobName, ListedJob>> job_in(const std::string& line);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,356 @@
+#include "services/orchestrator/executors/slurm_executor.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/exchange/publish.hpp"
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t largest_array = 100;  // its script goes through one pipe
+constexpr auto gathering = std::chrono::milliseconds(30);
+constexpr auto soon = std::chrono::seconds(1);
+constexpr auto margin_after_grace = std::chrono::seconds(5);
+
+std::chrono::milliseconds in_milliseconds(double seconds) {
+    return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+}
+
+bool waits_its_turn(const std::string& state) {
+    static const std::set<std::string> words{
+        "PENDING",      "CONFIGURING",   "SUSPENDED",    "REQUEUED", "REQUEUE_FED",
+        "REQUEUE_HOLD", "RESV_DEL_HOLD", "SPECIAL_EXIT", "STOPPED",  "RESIZING"};
+    return words.contains(state);
+}
+
+bool runs(const std::string& state) {
+    return state == "RUNNING" || state == "COMPLETING" || state == "SIGNALING" ||
+           state == "STAGE_OUT";
+}
+
+/// Written before sbatch is called: whatever happens to us then, the job can be found by its name.
+void write_job_name(const AttemptFolder& folder, const JobName& job) {
+    exchange::publish_text(folder.slurm_job(),
+                           json{{"name", job.name}, {"index", job.index}}.dump() + "\n");
+}
+
+std::optional<JobName> read_job_name(const AttemptFolder& folder) {
+    std::ifstream stream(folder.slurm_job());
+    const json document = json::parse(stream, nullptr, false);
+    if (!document.is_object()) return std::nullopt;
+    return JobName{document.at("name"), document.at("index")};
+}
+
+}  // namespace
+
+SlurmExecutor::SlurmExecutor(SlurmSettings settings, std::filesystem::path self)
+    : settings_(std::move(settings)),
+      slurm_(settings_.options, self.string(), in_milliseconds(settings_.command_seconds)) {
+    clerk_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+SlurmExecutor::~SlurmExecutor() = default;
+
+SlurmExecutor::Clock::duration SlurmExecutor::grace() const {
+    return in_milliseconds(settings_.grace_seconds);
+}
+
+// ---------------------------------------------------------------- asked by the dispatcher
+
+void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
+    std::filesystem::create_directories(folder.root);
+    if (is_held(folder.lock()) || std::filesystem::exists(folder.slurm_job()))
+        throw fault::IoError(folder.root.string() + ": the attempt was submitted before");
+    write_order(folder, order);
+    const std::lock_guard lock(mutex_);
+    jobs_[folder.root] = {.folder = folder, .order = order, .since = Clock::now()};
+    pressing_ = true;
+    news_.notify_all();
+}
+
+Vitals SlurmExecutor::probe(const AttemptFolder& folder) {
+    const std::lock_guard lock(mutex_);
+    if (std::filesystem::exists(folder.exit_record())) {
+        jobs_.erase(folder.root);
+        return {Life::ended};
+    }
+    Job* const job = find_or_adopt(folder);
+    if (job == nullptr) return {Life::gone, "it was not submitted before the service ended"};
+    if (is_held(folder.lock()) || heart_beats(*job)) {
+        job->silent_since.reset();
+        return {Life::alive};
+    }
+    const Vitals vitals = vitals_of(*job);
+    // Between the first look and now.
+    if (vitals.life == Life::gone && std::filesystem::exists(folder.exit_record()))
+        return {Life::ended};
+    return vitals;
+}
+
+/// After a restart nothing is known but what the attempt's folder says.
+SlurmExecutor::Job* SlurmExecutor::find_or_adopt(const AttemptFolder& folder) {
+    const auto known = jobs_.find(folder.root);
+    if (known != jobs_.end()) return &known->second;
+    Job job{.folder = folder};
+    try {
+        const auto name = read_job_name(folder);
+        if (!name) return nullptr;
+        job.name = *name;
+        job.order = read_order(folder);
+    } catch (const std::exception&) {
+        return nullptr;  // the machine went down before they were on the disk: never submitted
+    }
+    // Without a sign that it began, its sbatch may never have been called.
+    const bool began = std::filesystem::exists(folder.heartbeat());
+    job.stage = began ? Stage::submitted : Stage::doubtful;
+    job.since = Clock::now();
+    pressing_ = true;
+    news_.notify_all();
+    return &jobs_.emplace(folder.root, std::move(job)).first->second;
+}
+
+/// A sign of life that needs no locks across machines and no common clock: the file's time moves.
+bool SlurmExecutor::heart_beats(Job& job) const {
+    constexpr auto fresh = std::chrono::seconds(10);
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(job.folder.heartbeat(), error);
+    if (error) return false;
+    if (job.heartbeat != time) {
+        // The first time seen may be an old one: it proves nothing yet.
+        if (job.heartbeat) job.heart_beat_at = Clock::now();
+        job.heartbeat = time;
+    }
+    return job.heart_beat_at != Clock::time_point{} && Clock::now() - job.heart_beat_at < fresh;
+}
+
+Vitals SlurmExecutor::vitals_of(Job& job) const {
+    switch (job.stage) {
+        case Stage::waiting:
+        case Stage::asking:
+        case Stage::doubtful:
+            return {Life::handed_over};
+        case Stage::refused:
+            return {Life::gone, job.why};
+        case Stage::submitted:
+            break;
+    }
+    const bool waits = job.state.empty() || waits_its_turn(job.state);  // empty: not looked at yet
+    if (waits || !answers_) {
+        job.silent_since.reset();
+        return {Life::queued};
+    }
+    if (!job.silent_since) job.silent_since = Clock::now();
+    // Cancelled before it began: nothing of it can come any more.
+    const bool never_began = job.state == "CANCELLED" && !job.heartbeat;
+    if (!never_began && Clock::now() - *job.silent_since < grace()) return {Life::queued};
+    return {Life::gone, "Slurm says " + job.state + ", and it left no exit record"};
+}
+
+void SlurmExecutor::stop(const AttemptFolder& folder, StopReason reason) {
+    write_stop(folder, reason);
+    const std::lock_guard lock(mutex_);
+    Job* const job = find_or_adopt(folder);
+    if (job == nullptr) return;
+    if (job->stage == Stage::waiting) {
+        job->stage = Stage::refused;
+        job->why = "stopped before it was submitted";
+    }
+    if (!job->unwanted_since) job->unwanted_since = Clock::now();
+    pressing_ = true;
+    news_.notify_all();
+}
+
+void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) {
+    try {
+        write_stop(folder, StopReason::revoked);
+    } catch (const std::exception& error) {
+        spdlog::warn("{}: {}", folder.root.string(), error.what());  // scancel must do
+    }
+    const std::lock_guard lock(mutex_);
+    const auto known = jobs_.find(folder.root);
+    if (known == jobs_.end()) return;
+    Job& job = known->second;
+    if (job.stage == Stage::waiting || job.stage == Stage::refused) {
+        jobs_.erase(known);
+        return;
+    }
+    if (!job.unwanted_since) job.unwanted_since = Clock::now();
+    job.given_up = true;
+    pressing_ = true;
+    news_.notify_all();
+}
+
+// ---------------------------------------------------------------- the clerk
+
+void SlurmExecutor::serve(const std::stop_token& stop) {
+    const auto poll = in_milliseconds(settings_.poll_seconds);
+    auto next_look = Clock::now();
+    while (!stop.stop_requested()) {
+        {
+            std::unique_lock lock(mutex_);
+            news_.wait_until(lock, stop, next_look, [&] { return pressing_; });
+            pressing_ = false;
+        }
+        if (stop.stop_requested()) return;
+        try {
+            std::this_thread::sleep_for(gathering);  // those that are handed over together
+            submit_what_waits();
+            if (Clock::now() >= next_look || must_be_found()) {
+                look_at_the_queue();
+                next_look = Clock::now() + poll;
+            }
+            if (cancel_the_unwanted()) next_look = std::min(next_look, Clock::now() + soon);
+        } catch (const std::exception& error) {
+            spdlog::error("slurm: {}", error.what());
+            next_look = Clock::now() + poll;
+        }
+    }
+}
+
+/// Something is to be cancelled, and its number is not known yet.
+bool SlurmExecutor::must_be_found() {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(jobs_, [](const auto& entry) {
+        const Job& job = entry.second;
+        return job.unwanted_since && job.stage == Stage::submitted && job.state.empty();
+    });
+}
+
+void SlurmExecutor::submit_what_waits() {
+    // Equal resources and priority may go as one array.
+    std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>,
+             std::vector<std::filesystem::path>>
+        groups;
+    {
+        const std::lock_guard lock(mutex_);
+        for (auto& [root, job] : jobs_) {
+            if (job.stage != Stage::waiting) continue;
+            job.stage = Stage::asking;
+            groups[{job.order.cores, job.order.memory_mb, job.order.priority}].push_back(root);
+        }
+    }
+    for (const auto& [like, roots] : groups) {
+        for (std::size_t first = 0; first < roots.size(); first += largest_array) {
+            const auto begin = roots.begin() + static_cast<std::ptrdiff_t>(first);
+            const auto count = std::min(largest_array, roots.size() - first);
+            submit_together({begin, begin + static_cast<std::ptrdiff_t>(count)});
+        }
+    }
+}
+
+void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& roots) {
+    Batch batch{.name = {}, .folders = {}, .attempts = {}, .like = {}, .throttle = 0};
+    {
+        const std::lock_guard lock(mutex_);
+        const Job& first = jobs_.at(roots.front());
+        // Asked again after a doubtful answer: a new name, because the batch may be another. Should
+        // the first job turn up after all, the attempt's lock lets only one of the two run.
+        batch.name = "breachline-" + first.order.attempt;
+        if (first.asked > 0) batch.name += "_" + std::to_string(first.asked + 1);
+        batch.like = first.order;
+        batch.throttle = settings_.throttle;
+        for (std::size_t i = 0; i < roots.size(); ++i) {
+            Job& job = jobs_.at(roots[i]);
+            job.name = {batch.name, static_cast<std::int64_t>(i)};
+            ++job.asked;
+            batch.folders.push_back(job.folder);
+            batch.attempts.push_back(job.order.attempt);
+        }
+    }
+    Submitted answer{Reply::doubtful, "not asked"};
+    try {
+        for (std::size_t i = 0; i < batch.folders.size(); ++i)
+            write_job_name(batch.folders[i], {batch.name, static_cast<std::int64_t>(i)});
+        answer = slurm_.submit(batch);
+    } catch (const std::exception& error) {
+        answer = {Reply::refused, error.what()};
+    }
+    if (answer.reply != Reply::accepted) spdlog::warn("slurm: {}: {}", batch.name, answer.said);
+    const std::lock_guard lock(mutex_);
+    for (const auto& root : roots) {
+        Job& job = jobs_.at(root);
+        job.since = Clock::now();
+        job.stage = answer.reply == Reply::accepted  ? Stage::submitted
+                    : answer.reply == Reply::refused ? Stage::refused
+                                                     : Stage::doubtful;
+        job.why = "Slurm refused it: " + answer.said;
+    }
+}
+
+void SlurmExecutor::look_at_the_queue() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (jobs_.empty()) return;
+    }
+    const auto asked = Clock::now();
+    const auto listed = slurm_.list();
+    const std::lock_guard lock(mutex_);
+    if (answers_ != listed.has_value())
+        spdlog::log(listed ? spdlog::level::info : spdlog::level::warn, "slurm: squeue {}",
+                    listed ? "answers again" : "does not answer; nothing is concluded from that");
+    answers_ = listed.has_value();
+    if (!listed) return;
+    for (auto& [root, job] : jobs_) take_in(job, *listed, asked);
+}
+
+/// `asked`: when the list was asked for; what was submitted later cannot be in it.
+void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed,
+                            Clock::time_point asked) {
+    if (job.stage == Stage::waiting || job.stage == Stage::asking || job.stage == Stage::refused)
+        return;
+    const auto found = listed.find(job.name);
+    if (found != listed.end()) {
+        job.stage = Stage::submitted;
+        job.state = found->second.state;
+        job.number = found->second.number;
+        return;
+    }
+    if (asked <= job.since) return;
+    if (job.stage == Stage::doubtful) {  // it did not arrive
+        job.stage = job.unwanted_since ? Stage::refused : Stage::waiting;
+        job.why = "stopped before it was submitted";
+        pressing_ = true;
+        return;
+    }
+    job.state = "that it knows no such job";
+    job.number.clear();
+}
+
+/// In the queue: at once. Running: its supervisor was told; when that has not helped, Slurm must.
+bool SlurmExecutor::is_due_for_scancel(const Job& job) const {
+    if (!job.unwanted_since || job.number.empty()) return false;
+    if (waits_its_turn(job.state)) return true;
+    if (!runs(job.state)) return false;
+    const auto patience = in_milliseconds(job.order.grace_seconds) + margin_after_grace;
+    return job.given_up || Clock::now() - *job.unwanted_since > patience;
+}
+
+/// True: something was cancelled.
+bool SlurmExecutor::cancel_the_unwanted() {
+    std::vector<std::pair<JobName, std::string>> unwanted;
+    {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(jobs_, [&](const auto& entry) {
+            const Job& job = entry.second;
+            const bool over = job.stage == Stage::refused ||
+                              (job.stage == Stage::submitted && !waits_its_turn(job.state) &&
+                               !runs(job.state) && !job.state.empty());
+            return job.given_up && over;
+        });
+        for (const auto& [root, job] : jobs_)
+            if (is_due_for_scancel(job)) unwanted.emplace_back(job.name, job.number);
+    }
+    for (const auto& [job, number] : unwanted) slurm_.cancel(job, number);
+    return !unwanted.empty();
+}
+
+}  // namespace breach::orchestrator

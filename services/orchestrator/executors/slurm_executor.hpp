@@ -1,0 +1,97 @@
+// Attempts as jobs of a Slurm cluster, each below the same supervisor as on this machine. One
+// thread of its own talks to Slurm, so that a controller which does not answer holds up nobody.
+//
+// The first witness of an attempt is its own folder (exit record, lock, heartbeat), which all nodes
+// see; Slurm is the second. A job that Slurm does not list is unknown, not finished: it counts as
+// gone only after a grace time without any sign of life.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "services/orchestrator/executors/executor.hpp"
+#include "services/orchestrator/executors/slurm_commands.hpp"
+
+namespace breach::orchestrator {
+
+struct SlurmSettings {
+    std::vector<std::string> options;  ///< further words for sbatch
+    double poll_seconds = 5;           ///< between two looks at the queue
+    double grace_seconds = 60;         ///< without a sign of life before an attempt is given up
+    double command_seconds = 30;       ///< that one command may take
+    std::size_t throttle = 0;          ///< tasks of one array at the same time; 0: no limit
+};
+
+class SlurmExecutor final : public Executor {
+  public:
+    /// `self`: the breachline executable; the nodes must see it under this path.
+    SlurmExecutor(SlurmSettings settings, std::filesystem::path self);
+    ~SlurmExecutor() override;
+
+    void submit(const AttemptFolder& folder, const Order& order) override;
+    Vitals probe(const AttemptFolder& folder) override;
+    void stop(const AttemptFolder& folder, StopReason reason) override;
+    void clear_away(const AttemptFolder& folder, const std::string& attempt) override;
+    /// The cluster goes on without us; the next service finds the jobs again.
+    AtStop at_stop() const override { return AtStop::leaves_them; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    enum class Stage {
+        waiting,    ///< for its sbatch
+        asking,     ///< its sbatch runs now
+        doubtful,   ///< its sbatch gave no clear answer: only the queue can say
+        submitted,  ///< Slurm has it, or had it
+        refused,    ///< there is no job, and there will be none
+    };
+
+    /// An attempt in our care.
+    struct Job {
+        AttemptFolder folder;
+        Order order = {};
+        JobName name = {};
+        Stage stage = Stage::waiting;
+        std::string state = {};     ///< Slurm's word when it was last listed
+        std::string number = {};    ///< Slurm's number for it when it was last listed
+        std::string why = {};       ///< it was refused
+        int asked = 0;              ///< how often sbatch was called for it
+        Clock::time_point since{};  ///< of this stage
+        /// Since when nothing speaks for its life: not listed, or listed as over or as running, and
+        /// neither lock nor heartbeat.
+        std::optional<Clock::time_point> silent_since = {};
+        std::optional<std::filesystem::file_time_type> heartbeat = {};
+        Clock::time_point heart_beat_at{};
+        std::optional<Clock::time_point> unwanted_since = {};
+        bool given_up = false;  ///< nobody asks for it any more
+    };
+    using Jobs = std::map<std::filesystem::path, Job>;
+
+    void serve(const std::stop_token& stop);
+    void submit_what_waits();
+    void submit_together(const std::vector<std::filesystem::path>& roots);
+    void look_at_the_queue();
+    void take_in(Job& job, const std::map<JobName, ListedJob>& listed, Clock::time_point asked);
+    bool must_be_found();
+    bool cancel_the_unwanted();
+    bool is_due_for_scancel(const Job& job) const;
+
+    Job* find_or_adopt(const AttemptFolder& folder);
+    Vitals vitals_of(Job& job) const;
+    bool heart_beats(Job& job) const;
+    Clock::duration grace() const;
+
+    SlurmSettings settings_;
+    SlurmCommands slurm_;
+    std::mutex mutex_;
+    std::condition_variable_any news_;
+    Jobs jobs_;
+    bool pressing_ = false;  ///< something waits that should not wait for the next look
+    bool answers_ = true;    ///< Slurm did, the last time
+    std::jthread clerk_;     // last: stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,154 @@
+#include "services/orchestrator/serve_options.hpp"
+
+#include <charconv>
+#include <fstream>
+#include <set>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+std::string token_in(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::string token;
+    if (!std::getline(stream, token) || token.size() < 16) {
+        throw fault::IoError(file.string() +
+                             ": must hold a token of at least 16 characters in its first line");
+    }
+    return token;
+}
+
+/// A shared folder: installed beside the executable, else in the source tree.
+std::filesystem::path shared_folder(const std::filesystem::path& self, const char* name,
+                                    const char* in_source_tree) {
+    const auto installed = self.parent_path().parent_path() / "share" / "breachline" / name;
+    return std::filesystem::exists(installed) ? installed : std::filesystem::path(in_source_tree);
+}
+
+/// "mpm_solver=2"
+std::pair<std::string, std::size_t> limit_in(const std::string& text) {
+    static const std::set<std::string> phases{"lem_tool", "fem_solver", "transfer_tool",
+                                              "mpm_solver"};
+    const std::size_t equals = text.find('=');
+    std::size_t number = 0;
+    if (equals != std::string::npos && phases.contains(text.substr(0, equals))) {
+        const char* const end = text.data() + text.size();
+        const auto parsed = std::from_chars(text.data() + equals + 1, end, number);
+        if (parsed.ec != std::errc{} || parsed.ptr != end) number = 0;
+    }
+    if (number == 0)
+        throw fault::BadInput("command line", {{"--limit", "\"" + text + "\" is not a limit",
+                                                "give PHASE=N with N >= 1, like mpm_solver=2"}});
+    return {text.substr(0, equals), number};
+}
+
+}  // namespace
+
+ServeOptions::ServeOptions(const std::filesystem::path& self) {
+    settings_.self = self;
+    settings_.dispatch.bin = self.parent_path();
+    settings_.dispatch.slots = std::max(1U, std::thread::hardware_concurrency());
+    settings_.web = shared_folder(self, "web", BREACH_WEB);
+    settings_.workflows = shared_folder(self, "studies/..", BREACH_WORKFLOWS);
+    settings_.http.port = 8470;
+}
+
+CLI::App* ServeOptions::add_to(CLI::App& program) {
+    program
+        .set_config("--config", "", "file with settings, section [serve]; the command line wins")
+        ->check(CLI::ExistingFile);
+    program.allow_config_extras(CLI::config_extras_mode::error);
+    CLI::App* serving =
+        program.add_subcommand("serve", "answer requests and run what is submitted");
+    serving->fallthrough();  // --config may stand behind the word
+    serving->add_option("--data", settings_.data, "folder of the database and all results")
+        ->capture_default_str();
+    serving->add_option("--bin", settings_.dispatch.bin, "folder of the phase executables")
+        ->capture_default_str();
+    serving->add_option("--web", settings_.web, "folder of the dashboard")->capture_default_str();
+    add_door(*serving);
+    add_dispatch(*serving);
+    add_slurm(*serving);
+    return serving;
+}
+
+void ServeOptions::add_door(CLI::App& serving) {
+    serving.add_option("--host", settings_.http.host, "address to bind")->capture_default_str();
+    serving.add_option("--port", settings_.http.port, "0: any free one")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    serving.add_option("--token-file", token_file_,
+                       "file whose first line is the token that clients must send");
+}
+
+void ServeOptions::add_dispatch(CLI::App& serving) {
+    DispatchSettings& dispatch = settings_.dispatch;
+    serving.add_option("--slots", dispatch.slots, "cores that running phases may occupy together")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    serving
+        .add_option("--memory", dispatch.memory_mb,
+                    "MB that running phases may ask for together; 0: not limited")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    serving.add_option("--limit", limits_, "at most N of a phase at the same time, as PHASE=N")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    serving.add_option("--grace", dispatch.grace_seconds, "seconds between TERM and KILL")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+    serving.add_option("--tries", dispatch.most_tries, "attempts per task")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    serving
+        .add_option("--retry-delay", retry_seconds_,
+                    "seconds before the first retry; doubled each time")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+}
+
+void ServeOptions::add_slurm(CLI::App& serving) {
+    SlurmSettings& slurm = settings_.slurm;
+    const std::map<std::string, Place> places{{"local", Place::local}, {"slurm", Place::slurm}};
+    serving
+        .add_option("--executor", settings_.place,
+                    "where phases run: local (this machine) or slurm")
+        ->transform(CLI::CheckedTransformer(places))
+        ->default_str("local");
+    serving
+        .add_option("--slurm-option", slurm.options,
+                    "further option of sbatch, like --partition=work; repeatable")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    serving
+        .add_option("--slurm-poll", slurm.poll_seconds, "seconds between two looks at the queue")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    serving
+        .add_option("--slurm-grace", slurm.grace_seconds,
+                    "seconds without a sign of life before an attempt is given up")
+        ->check(CLI::Range(0.1, 86400.0))
+        ->capture_default_str();
+    serving
+        .add_option("--slurm-command-limit", slurm.command_seconds,
+                    "seconds that sbatch, squeue or scancel may take")
+        ->check(CLI::Range(0.1, 3600.0))
+        ->capture_default_str();
+    serving
+        .add_option("--slurm-throttle", slurm.throttle,
+                    "tasks of one array job at the same time; 0: not limited")
+        ->check(CLI::Range(0, 100000))
+        ->capture_default_str();
+}
+
+ServeSettings ServeOptions::settings() const {
+    ServeSettings wanted = settings_;
+    wanted.dispatch.bin = std::filesystem::absolute(wanted.dispatch.bin);
+    wanted.dispatch.retry_delay =
+        std::chrono::milliseconds(static_cast<int>(1000 * retry_seconds_));
+    for (const std::string& each : limits_) wanted.dispatch.limits.insert(limit_in(each));
+    if (!token_file_.empty()) wanted.http.token = token_in(token_file_);
+    return wanted;
+}
+
+}  // namespace breach::orchestrator

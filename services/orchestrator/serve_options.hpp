@@ -1,0 +1,33 @@
+// What `breachline serve` can be told, on the command line or in a settings file.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "services/orchestrator/serve.hpp"
+
+namespace breach::orchestrator {
+
+class ServeOptions {
+  public:
+    /// `self`: this executable; what is shared is looked for beside it.
+    explicit ServeOptions(const std::filesystem::path& self);
+    ServeOptions(const ServeOptions&) = delete;
+    ServeOptions& operator=(const ServeOptions&) = delete;
+
+    /// Adds the subcommand and, to the program, --config FILE with its section [serve].
+    CLI::App* add_to(CLI::App& program);
+    /// After parsing. Throws BadInput and IoError.
+    ServeSettings settings() const;
+
+  private:
+    void add_door(CLI::App& serving);
+    void add_dispatch(CLI::App& serving);
+    void add_slurm(CLI::App& serving);
+
+    ServeSettings settings_;
+    std::filesystem::path token_file_;
+    double retry_seconds_ = 0.5;
+    std::vector<std::string> limits_;
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,243 @@
+// A whole service on a Slurm that fails it: no controller, lost answers, numbers given again, nodes
+// that take nothing, jobs that are not listed. The Slurm is a fake (fake/fake_slurm.py says how it
+// misbehaves).
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "tests/faults/service_under_test.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::vector<double> four_times{0.25, 0.5, 1.0, 2.0};
+
+class SlurmFaults : public ::testing::Test {
+  protected:
+    fs::path slurm() const { return sandbox_.root() / "slurm"; }
+    void begin(const std::string& trouble) {
+        fs::create_directories(slurm());
+        std::ofstream(slurm() / trouble) << "\n";
+    }
+    void end(const std::string& trouble) { fs::remove(slurm() / trouble); }
+
+    std::unique_ptr<Service> service(std::vector<std::string> more = {}) const {
+        std::vector<std::string> arguments{"--executor",    "slurm", "--slurm-poll",          "0.2",
+                                           "--slurm-grace", "1",     "--slurm-command-limit", "1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const std::string path = std::getenv("PATH");
+        return std::make_unique<Service>(
+            sandbox_, arguments,
+            std::vector<std::string>{
+                "PATH=" + std::string(BREACH_ROOT) + "/tests/slurm/fake:" + path,
+                "FAKE_SLURM=" + slurm().string()});
+    }
+
+    /// What sbatch was asked for, in order.
+    std::vector<json> asked() const {
+        std::vector<json> found;
+        std::ifstream stream(slurm() / "asked");
+        for (std::string line; std::getline(stream, line);) found.push_back(json::parse(line));
+        return found;
+    }
+
+    void expect_whole(Service& service, const std::string& run) const {
+        const json end = service.wait_for_end(run, 60);
+        EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
+        const json rows = service.table(run);
+        for (const json& row : rows) {
+            const double time = row.at("transfer_time");
+            EXPECT_EQ(row.at("runout"), 10 + time * time) << row;
+        }
+        for (const auto& [output, count] : sandbox_.successes()) EXPECT_EQ(count, 1) << output;
+    }
+
+    static std::vector<json> tasks_of(Service& service, const std::string& run) {
+        return service.get("/v1/runs/" + run).body.at("tasks");
+    }
+    static std::size_t attempts_of(Service& service, const std::string& run,
+                                   const std::string& label) {
+        for (const json& each : tasks_of(service, run))
+            if (each.at("label") == label) return each.at("attempts").size();
+        throw std::runtime_error("no task " + label);
+    }
+    bool phase_runs(const std::string& phase) const {
+        return eventually([&] { return !phases_alive(sandbox_, phase).empty(); });
+    }
+
+    Sandbox sandbox_;
+};
+
+TEST_F(SlurmFaults, SweepIsWholeAndWhatIsReadyTogetherIsOneArray) {
+    const auto service =
+        this->service({"--slots", "4", "--slurm-throttle", "2", "--slurm-option=--partition=work"});
+    json wanted = study("", four_times);
+    wanted["resources"]["mpm_solver"] = {{"cores", 2}, {"memory_MB", 300}};
+    wanted["priority"] = 30;
+    expect_whole(*service, service->submit(wanted));
+    bool array = false, asked_for_resources = false;
+    for (const json& each : asked()) {
+        EXPECT_TRUE(each.contains("no-requeue") && each.contains("parsable")) << each;
+        EXPECT_EQ(each.at("partition"), "work");
+        EXPECT_EQ(each.at("nice"), "70");
+        array = array || each.value("array", "").ends_with("%2");
+        asked_for_resources = asked_for_resources ||
+                              (each.at("cpus-per-task") == "2" && each.value("mem", "") == "300M");
+    }
+    EXPECT_TRUE(array);
+    EXPECT_TRUE(asked_for_resources);
+}
+
+TEST_F(SlurmFaults, ControllerThatIsGoneIsWaitedFor) {
+    begin("down");
+    const auto service = this->service();
+    const std::string run = service->submit(study("fem_steps=20", four_times));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    EXPECT_EQ(service->get("/v1/runs/" + run).body.at("tasks_failed"), 0);
+    end("down");
+    ASSERT_TRUE(phase_runs("fem_solver"));
+    begin("down");  // and again, with a job running: it ends, and the record says so
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    end("down");
+    expect_whole(*service, run);
+    for (const json& each : tasks_of(*service, run))
+        EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
+}
+
+TEST_F(SlurmFaults, CommandsThatHangHoldUpNoRequest) {
+    begin("hang");
+    const auto service = this->service();
+    const std::string run = service->submit(study("", {0.5}));
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(service->get("/v1/runs/" + run).status, 200);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    end("hang");
+    expect_whole(*service, run);
+}
+
+TEST_F(SlurmFaults, LostAnswerOfSbatchMakesNoSecondJob) {
+    begin("lose_answer");
+    const auto service = this->service();
+    expect_whole(*service, service->submit(study("", {0.5})));
+    std::size_t tasks = 0;  // fem, lem, transfer and mpm, some of them in one array
+    for (const json& each : asked())
+        tasks +=
+            each.contains("array") ? 1 + std::stoul(each["array"].get<std::string>().substr(2)) : 1;
+    EXPECT_EQ(tasks, 4u);
+}
+
+TEST_F(SlurmFaults, SubmissionThatDidNotArriveIsRepeated) {
+    begin("drop");
+    const auto service = this->service();
+    const std::string run = service->submit(study("", {0.5}));
+    expect_whole(*service, run);
+    for (const json& each : tasks_of(*service, run))
+        EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
+}
+
+TEST_F(SlurmFaults, RefusalFailsTheTaskWithSlurmsReason) {
+    begin("refuse");
+    const auto service = this->service({"--tries", "2"});
+    const json end = service->wait_for_end(service->submit(study("", {0.5})));
+    EXPECT_EQ(end.at("state"), "failed");
+    EXPECT_NE(end.at("message").get<std::string>().find("Invalid account"), std::string::npos)
+        << end.at("message");
+}
+
+TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
+    // What the controller forgets is lost in the queue, but goes on where it runs; its numbers are
+    // given to other jobs.
+    const auto service = this->service({"--slots", "2"});
+    const std::string run = service->submit(study("fem_steps=60 mpm_steps=5", four_times));
+    ASSERT_TRUE(phase_runs("fem_solver"));
+    begin("drained");
+    const std::string waiting = service->submit(study("", {0.75}));
+    ASSERT_TRUE(eventually([&] {
+        const json body = service->get("/v1/runs/" + waiting).body;
+        return std::ranges::any_of(body.at("tasks"), [](const json& each) {
+            return !each.at("attempts").empty() &&
+                   each.at("attempts")[0].at("state") == "submitted";
+        });
+    })) << "a job is in the queue and cannot start";
+    begin("forget");
+    end("drained");
+    expect_whole(*service, run);
+    expect_whole(*service, waiting);
+    EXPECT_EQ(attempts_of(*service, run, "fem"), 1u);  // it ran on, unlisted
+    std::size_t lost = 0;
+    for (const json& each : tasks_of(*service, waiting))
+        for (const json& attempt : each.at("attempts"))
+            lost += attempt.at("state") == "lost" ? 1 : 0;
+    EXPECT_GE(lost, 1u);
+}
+
+TEST_F(SlurmFaults, DrainedNodeIsWaitedForAndItsJobsCanBeCancelled) {
+    begin("drained");
+    const auto service = this->service();
+    const std::string cancelled = service->submit(study("", {0.5}));
+    const auto is_queued = [&](const std::string& run) {
+        const json body = service->get("/v1/runs/" + run).body;
+        return std::ranges::any_of(body.at("tasks"), [](const json& each) {
+            return !each.at("attempts").empty() &&
+                   each.at("attempts")[0].at("state") == "submitted";
+        });
+    };
+    ASSERT_TRUE(eventually([&] { return is_queued(cancelled); }));
+    service->post("/v1/runs/" + cancelled + "/cancel", "");
+    EXPECT_EQ(service->wait_for_end(cancelled).at("state"), "cancelled");
+    const std::string run = service->submit(study("", {0.5, 0.75}));
+    ASSERT_TRUE(eventually([&] { return is_queued(run); }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // longer than the grace time
+    end("drained");
+    expect_whole(*service, run);
+    for (const json& each : tasks_of(*service, run))
+        EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
+}
+
+TEST_F(SlurmFaults, KilledServiceFindsItsJobsAgain) {
+    std::string run;
+    {
+        const auto first = service();
+        run = first->submit(study("fem_steps=60", four_times));
+        ASSERT_TRUE(phase_runs("fem_solver"));
+        first->kill_at_once();
+    }
+    const auto second = service();
+    expect_whole(*second, run);
+    EXPECT_EQ(attempts_of(*second, run, "fem"), 1u);
+}
+
+TEST_F(SlurmFaults, StoppedServiceLeavesItsJobsRunning) {
+    std::string run;
+    {
+        const auto first = service();
+        run = first->submit(study("fem_steps=100", four_times));
+        ASSERT_TRUE(phase_runs("fem_solver"));
+        first->terminate();
+        EXPECT_EQ(first->exit_code(), 0);
+        EXPECT_FALSE(phases_alive(sandbox_, "fem_solver").empty());
+    }
+    const auto second = service();
+    expect_whole(*second, run);
+    EXPECT_EQ(attempts_of(*second, run, "fem"), 1u);
+}
+
+TEST_F(SlurmFaults, CancelReachesARunningJob) {
+    const auto service = this->service();
+    const std::string run = service->submit(study("deaf=1 mpm_steps=3000", {0.25}));
+    ASSERT_TRUE(phase_runs("mpm_solver"));
+    service->post("/v1/runs/" + run + "/cancel", "");
+    EXPECT_EQ(service->wait_for_end(run).at("state"), "cancelled");
+    EXPECT_TRUE(phases_alive(sandbox_, "mpm_solver").empty());
+}
+
+}  // namespace
+}  // namespace breach::testing
