@@ -1,35 +1,39 @@
 // Stress and strain from the mesh's Gauss points to the material points, by radial basis functions.
 #pragma once
 
-#include "core/scene/scene.hpp"
 #include "transfer_tool/points.hpp"
-#include "transfer_tool/rbf.hpp"
+#include "transfer_tool/scattered.hpp"
 
 namespace breach::transfer {
 
-/// What the interpolation had to do beside interpolating.
-struct GaussFieldReport {
-    std::size_t merged_centres = 0;          ///< coincident Gauss points that were taken as one
-    std::size_t raised_strains = 0;          ///< epsilon_q below zero, set to zero
-    std::size_t smallest_neighbourhood = 0;  ///< fewest centres that any element had; local only
-};
+/// The mesh's Gauss points, in the shapes that the points lie in.
+Sources gauss_points(const exchange::MeshSnapshot& mesh, const Points& points);
 
-/// Fills stress, epsilon_q and epsilon_q_plastic. Centres and points lie in the deformed mesh.
-///
-/// local: one interpolant per element through the `neighbours` Gauss points of its region that are
-/// nearest to its centre, so nothing crosses a region's border, memory is linear in the number of
-/// points and the result does not depend on the number of threads. A point at a Gauss point takes
-/// its value. paper: one interpolant through all Gauss points of the mesh. Throws BadInput when
-/// they are too many for a dense system.
-GaussFieldReport carry_gauss_fields(const exchange::MeshSnapshot& mesh,
-                                    const scene::Transfer& settings, int threads, Points& points);
+/// Any fields: one row per Gauss point in, one row per material point out. A point at a Gauss point
+/// takes its value. Nothing when the watch stopped it.
+std::optional<Interpolated> interpolate(const exchange::MeshSnapshot& mesh, const Values& at_gauss,
+                                        const scene::Transfer& settings, const Work& work,
+                                        const Points& points);
 
-/// The same for any fields: one row per Gauss point in, one row per material point out.
-struct Interpolated {
-    Values value;
-    GaussFieldReport report;
+/// Fills stress (effective), epsilon_q and epsilon_q_plastic.
+std::optional<GaussFieldReport> carry_gauss_fields(const exchange::MeshSnapshot& mesh,
+                                                   const scene::Transfer& settings,
+                                                   const Work& work, Points& points);
+
+/// The way back, to measure what a round trip costs: the points' fields interpolated at the Gauss
+/// points, by the same rules, against the snapshot.
+struct RoundTrip {
+    double stress_rms = 0.0;      ///< over Gauss points and components [Pa]
+    double stress_largest = 0.0;  ///< [Pa]
+    double stress_scale = 0.0;    ///< rms of the snapshot's stress [Pa]
+    double epsilon_q_rms = 0.0;   ///< [-]
+    double velocity_rms = 0.0;    ///< at the nodes, sum m N v / sum m N against the mesh [m/s]
+    double velocity_scale = 0.0;  ///< rms of the mesh's [m/s]
 };
-Interpolated interpolate(const exchange::MeshSnapshot& mesh, const Values& at_gauss,
-                         const scene::Transfer& settings, int threads, const Points& points);
+/// To be called while the points' stress is the interpolated effective one. Where points lie at the
+/// Gauss points these come back exactly.
+std::optional<RoundTrip> round_trip(const exchange::MeshSnapshot& mesh,
+                                    const scene::Transfer& settings, const Work& work,
+                                    const Points& points);
 
 }  // namespace breach::transfer

@@ -9,36 +9,42 @@ constexpr double round_off = 1e-9;  // of the stress itself
 
 }  // namespace
 
-std::vector<materials::Law> laws_of_regions(const exchange::MeshSnapshot& mesh,
-                                            const scene::Scene& scene, const std::string& file) {
+std::vector<materials::Law> laws_of(std::span<const SoilOfPoints> soils) {
     std::vector<materials::Law> laws;
-    std::vector<fault::Fault> faults;
-    const std::string remedy = "use the scene that the snapshot was made with";
-    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-        const std::string& name = mesh.regions[r];
-        const auto region = std::ranges::find(scene.section.regions, name, &scene::Region::name);
-        if (region == scene.section.regions.end()) {
-            faults.push_back({"/section/regions",
-                              "the snapshot's region \"" + name + "\" is not in the scene",
-                              remedy});
-            continue;
-        }
-        const scene::Material& material = scene.materials[region->material];
-        if (material.name != mesh.materials_of_regions[r])
-            faults.push_back(
-                {"/section/regions/" + std::to_string(region - scene.section.regions.begin()) +
-                     "/material",
-                 "\"" + name + "\" is of \"" + material.name + "\" in the scene and of \"" +
-                     mesh.materials_of_regions[r] + "\" in the snapshot",
-                 remedy});
-        laws.push_back(material.law);
-    }
-    if (!faults.empty()) throw fault::BadInput(file, faults);
+    for (const SoilOfPoints& soil : soils) laws.push_back(soil.law);
     return laws;
 }
 
-void start_softening(scene::SofteningStart start, exchange::ParticleState& state) {
-    if (start == scene::SofteningStart::zero) std::ranges::fill(state.epsilon_q_plastic, 0.0);
+void start_softening(scene::SofteningStart start, std::span<const materials::Law> laws,
+                     exchange::ParticleState& state) {
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        if (start == scene::SofteningStart::zero) state.epsilon_q_plastic[p] = 0.0;
+        if (start == scene::SofteningStart::zero) continue;
+        const auto* law = std::get_if<materials::MohrCoulomb>(&laws[state.region[p]]);
+        if (law != nullptr && law->softening &&
+            law->softening->driver == materials::SofteningDriver::total)
+            state.epsilon_q_plastic[p] = state.epsilon_q[p];
+    }
+}
+
+std::vector<SofteningShare> softening_of(std::span<const materials::Law> laws,
+                                         const exchange::ParticleState& state) {
+    std::vector<SofteningShare> shares(laws.size());
+    std::vector<double> mass(laws.size(), 0.0);
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        SofteningShare& share = shares[state.region[p]];
+        share.mean += state.mass[p] * state.epsilon_q_plastic[p];
+        share.largest = std::max(share.largest, state.epsilon_q_plastic[p]);
+        mass[state.region[p]] += state.mass[p];
+    }
+    std::vector<SofteningShare> softening;
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+        const auto* law = std::get_if<materials::MohrCoulomb>(&laws[i]);
+        if (law == nullptr || !law->softening || mass[i] == 0.0) continue;
+        softening.push_back(
+            {i, law->softening->driver, shares[i].mean / mass[i], shares[i].largest});
+    }
+    return softening;
 }
 
 YieldReport return_to_yield_surface(std::span<const materials::Law> laws,

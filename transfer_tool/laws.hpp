@@ -8,21 +8,32 @@
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
 #include "core/scene/scene.hpp"
+#include "transfer_tool/soils.hpp"
 
 namespace breach::transfer {
 
-/// The law of each region of the snapshot, matched by region name. Throws BadInput when the scene
-/// lacks a region or gives it another material than the snapshot does.
-std::vector<materials::Law> laws_of_regions(const exchange::MeshSnapshot& mesh,
-                                            const scene::Scene& scene, const std::string& file);
+std::vector<materials::Law> laws_of(std::span<const SoilOfPoints> soils);
 
 struct YieldReport {
     std::size_t returned = 0;     ///< points found outside the yield surface by more than round-off
     double largest_excess = 0.0;  ///< how far outside [Pa]
 };
 
-/// carried: keeps epsilon_q_plastic; zero: softening starts anew.
-void start_softening(scene::SofteningStart start, exchange::ParticleState& state);
+/// zero: softening starts anew. carried: where the law softens with total strain its driver starts
+/// at the FEM's epsilon_q, everywhere else at epsilon_q_plastic.
+void start_softening(scene::SofteningStart start, std::span<const materials::Law> laws,
+                     exchange::ParticleState& state);
+
+/// Where the softening of one soil starts.
+struct SofteningShare {
+    std::size_t soil = 0;
+    materials::SofteningDriver driver = materials::SofteningDriver::plastic;
+    double mean = 0.0;     ///< by mass [-]
+    double largest = 0.0;  ///< [-]
+};
+/// Soils that soften and have points.
+std::vector<SofteningShare> softening_of(std::span<const materials::Law> laws,
+                                         const exchange::ParticleState& state);
 
 /// Puts stresses outside the law's yield surface, at the strength that belongs to
 /// epsilon_q_plastic, back on it with the law's own return. The plastic strain of that return is

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/fault/fault.hpp"
-#include "transfer_tool/points.hpp"
+#include "transfer_tool/grid_force.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -15,6 +15,7 @@ namespace {
 using exchange::Ledger;
 using exchange::MeshSnapshot;
 using exchange::ParticleState;
+using mechanics::Voigt;
 
 /// A sum with the round-off of its additions carried along (Neumaier 1974): with a million equal
 /// points a plain sum would already miss 1e-12.
@@ -62,6 +63,15 @@ struct Amounts {
     }
 };
 
+/// Everything that both sides of the ledger are computed from.
+struct Books {
+    const MeshSnapshot& mesh;
+    const Points& points;
+    const SoilMap& map;
+    double gravity;
+    double datum;  ///< level of the lowest node [m]
+};
+
 double lowest_node(const MeshSnapshot& mesh) {
     double y = mesh.position_0.front().y() + mesh.displacement.front().y();
     for (std::size_t i = 0; i < mesh.position_0.size(); ++i)
@@ -92,11 +102,11 @@ std::vector<double> gauss_weights(const MeshSnapshot& mesh, const std::string& f
 }
 
 /// Exact integrals of the finite-element fields over element e.
-Amounts on_element(const MeshSnapshot& mesh, std::size_t e, double gravity, double datum) {
+Amounts on_element(const Books& books, std::size_t e) {
+    const MeshSnapshot& mesh = books.mesh;
     const Eigen::Vector4d J_0 = corner_jacobians(undeformed_corners(mesh, e));
-    const Corners x = deformed_corners(mesh, e);
-    Corners v;
-    for (int i = 0; i < 4; ++i) v.col(i) = mesh.velocity[mesh.quads[e][i]];
+    const Corners& x = books.points.shape[e];
+    const Corners v = corner_values(mesh.velocity, mesh.quads[e]);
     const double rho_t = mesh.density[e] * mesh.thickness;
     Amounts a;
     a.mass += rho_t * J_0.sum();
@@ -106,56 +116,84 @@ Amounts on_element(const MeshSnapshot& mesh, std::size_t e, double gravity, doub
             const double m_ik = rho_t * integral(i, k) * J_0[k];
             a.momentum_x += m_ik * v(0, i);
             a.momentum_y += m_ik * v(1, i);
-            a.potential += m_ik * gravity * (x(1, i) - datum);
+            a.potential += m_ik * books.gravity * (x(1, i) - books.datum);
             for (int j = 0; j < 4; ++j)
                 a.kinetic += 0.5 * rho_t * integral(i, j, k) * J_0[k] * v.col(i).dot(v.col(j));
         }
     return a;
 }
 
-double elastic_energy_on_element(const MeshSnapshot& mesh, std::size_t e,
-                                 const std::vector<double>& weights, const materials::Law& law) {
-    const Corners x = deformed_corners(mesh, e);
+double elastic_energy_on_element(const Books& books, std::size_t e,
+                                 const std::vector<double>& weights) {
+    const MeshSnapshot& mesh = books.mesh;
+    Eigen::Vector4d u = Eigen::Vector4d::Zero();
+    if (!mesh.pore_pressure.empty()) u = corner_values(mesh.pore_pressure, mesh.quads[e]);
     double energy = 0.0;
     for (std::size_t g = 0; g < weights.size(); ++g) {
-        const double V = jacobian(x, mesh.gauss_positions[g]).determinant() * weights[g];
+        const Vec2& xi = mesh.gauss_positions[g];
+        const double V = jacobian(books.points.shape[e], xi).determinant() * weights[g];
+        const SoilOfPoints& soil = books.map.soils()[books.map.at(e, xi)];
+        const Voigt sigma =
+            stress_of(soil, mesh.stress[e * weights.size() + g], u.dot(shape_functions(xi)));
         energy += V * mesh.thickness *
-                  mechanics::elastic_energy_density(materials::elasticity(law),
-                                                    mesh.stress[e * weights.size() + g]);
+                  mechanics::elastic_energy_density(materials::elasticity(soil.law), sigma);
     }
     return energy;
 }
 
-std::vector<Amounts> on_mesh(const MeshSnapshot& mesh, std::span<const materials::Law> laws,
-                             double gravity, double datum, const std::string& file) {
-    const std::vector<double> weights = gauss_weights(mesh, file);
-    std::vector<Amounts> regions(mesh.regions.size());
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        const std::int32_t r = mesh.region_of_element[e];
-        regions[r] += on_element(mesh, e, gravity, datum);
-        regions[r].elastic += elastic_energy_on_element(mesh, e, weights, laws[r]);
+std::vector<Amounts> on_mesh(const Books& books, const std::string& file) {
+    const std::vector<double> weights = gauss_weights(books.mesh, file);
+    std::vector<Amounts> regions(books.mesh.regions.size());
+    for (std::size_t e = 0; e < books.mesh.quads.size(); ++e) {
+        Amounts& a = regions[books.mesh.region_of_element[e]];
+        a += on_element(books, e);
+        a.elastic += elastic_energy_on_element(books, e, weights);
     }
     return regions;
 }
 
-std::vector<Amounts> on_points(const ParticleState& points, std::span<const materials::Law> laws,
-                               double gravity, double datum) {
-    std::vector<Amounts> regions(points.regions.size());
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const std::int32_t r = points.region[p];
-        Amounts& a = regions[r];
-        const double m = points.mass[p];
-        const Vec2& v = points.velocity[p];
+/// Index into the mesh's regions of each soil; soils of regions that the mesh lacks: 0, without
+/// points.
+std::vector<std::size_t> mesh_regions(const Books& books) {
+    std::vector<std::size_t> regions;
+    for (const SoilOfPoints& soil : books.map.soils()) {
+        const auto found = std::ranges::find(books.mesh.regions, soil.region);
+        regions.push_back(found == books.mesh.regions.end()
+                              ? 0
+                              : static_cast<std::size_t>(found - books.mesh.regions.begin()));
+    }
+    return regions;
+}
+
+std::vector<Amounts> on_points(const Books& books) {
+    const ParticleState& s = books.points.state;
+    const std::vector<std::size_t> region_of_soil = mesh_regions(books);
+    std::vector<Amounts> regions(books.mesh.regions.size());
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        const std::int32_t soil = s.region[p];
+        Amounts& a = regions[region_of_soil[soil]];
+        const double m = s.mass[p];
+        const Vec2& v = s.velocity[p];
         a.mass += m;
-        a.volume += points.volume[p];
+        a.volume += s.volume[p];
         a.momentum_x += m * v.x();
         a.momentum_y += m * v.y();
         a.momentum_scale += m * v.norm();
         a.kinetic += 0.5 * m * v.squaredNorm();
-        a.potential += m * gravity * (points.position[p].y() - datum);
-        a.elastic += points.volume[p] * mechanics::elastic_energy_density(
-                                            materials::elasticity(laws[r]), points.stress[p]);
+        a.potential += m * books.gravity * (s.position[p].y() - books.datum);
+        a.elastic +=
+            s.volume[p] * mechanics::elastic_energy_density(
+                              materials::elasticity(books.map.soils()[soil].law), s.stress[p]);
     }
+    return regions;
+}
+
+/// By region of the mesh.
+std::vector<GridForce> on_grid(const Books& books, const scene::Scene& scene) {
+    const std::vector<std::size_t> region_of_soil = mesh_regions(books);
+    const std::vector<GridForce> soils = grid_force(scene, books.points);
+    std::vector<GridForce> regions(books.mesh.regions.size());
+    for (std::size_t i = 0; i < soils.size(); ++i) regions[region_of_soil[i]] += soils[i];
     return regions;
 }
 
@@ -207,21 +245,32 @@ void add_nodal_rows(Ledger& ledger, const MeshSnapshot& mesh, const Amounts& a) 
 
 }  // namespace
 
-Ledger ledger_of(const MeshSnapshot& mesh, const ParticleState& points,
-                 std::span<const materials::Law> laws, double gravity, const std::string& file) {
-    const double datum = lowest_node(mesh);
-    const std::vector<Amounts> before = on_mesh(mesh, laws, gravity, datum, file);
-    const std::vector<Amounts> after = on_points(points, laws, gravity, datum);
+Ledger ledger_of(const MeshSnapshot& mesh, const Points& points, const SoilMap& map,
+                 const scene::Scene& scene, const std::string& file) {
+    const Books books{mesh, points, map, scene.gravity, lowest_node(mesh)};
+    const std::vector<Amounts> before = on_mesh(books, file);
+    const std::vector<Amounts> after = on_points(books);
+    const std::vector<GridForce> balance =
+        scene.mpm ? on_grid(books, scene) : std::vector<GridForce>(before.size());
     Ledger ledger;
     Amounts total_before;
     Amounts total_after;
+    GridForce whole;
+    const auto add_balance = [&](const std::string& region, const GridForce& f) {
+        if (!scene.mpm) return;
+        ledger.push_back({region, "out-of-balance force", "N", f.inertia, f.force,
+                          (f.force - f.inertia) / std::max(f.weight, 1e-300)});
+    };
     for (std::size_t r = 0; r < before.size(); ++r) {
         if (before[r].mass.total() == 0.0) continue;  // a region without elements
         add_rows(ledger, mesh.regions[r], before[r], after[r]);
+        add_balance(mesh.regions[r], balance[r]);
         total_before += before[r];
         total_after += after[r];
+        whole += balance[r];
     }
     add_rows(ledger, "total", total_before, total_after);
+    add_balance("total", whole);
     add_nodal_rows(ledger, mesh, total_after);
     return ledger;
 }
@@ -256,6 +305,8 @@ void refuse_losses(const Ledger& ledger, const scene::Transfer& settings) {
             allowed = settings.largest_mass_loss;
         else if (row.quantity == "momentum x" || row.quantity == "momentum y")
             allowed = settings.largest_momentum_loss;
+        else if (row.quantity == "kinetic energy")
+            allowed = settings.largest_kinetic_energy_loss;
         else
             continue;
         if (std::abs(row.difference) <= allowed) continue;

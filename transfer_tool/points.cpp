@@ -1,100 +1,83 @@
 #include "transfer_tool/points.hpp"
 
 #include <Eigen/LU>
-#include <cstdio>
-
-#include "core/fault/fault.hpp"
+#include <utility>
 
 namespace breach::transfer {
 namespace {
 
 using exchange::MeshSnapshot;
 
-constexpr std::size_t most_listed = 5;
-
-std::string describe(const MeshSnapshot& mesh, std::size_t e,
-                     const mechanics::JacobianRatio& ratio) {
-    const Vec2 centre = deformed_corners(mesh, e).rowwise().mean();
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "element %zu of region \"%s\" at (%.3f, %.3f) m: |J_t|/|J_0| = %.3g at its "
-                  "centre, %.3g at its worst corner",
-                  e, mesh.regions[mesh.region_of_element[e]].c_str(), centre.x(), centre.y(),
-                  ratio.centre, ratio.least);
-    return text;
+void place_in_element(const MeshSnapshot& mesh, std::size_t e, const Panels& panels, int n,
+                      Points& points) {
+    const GaussRule along = gauss_legendre(n, panels[0]);
+    const GaussRule across = gauss_legendre(n, panels[1]);
+    const Corners x_0 = undeformed_corners(mesh, e);
+    const Corners& x = points.shape[e];
+    exchange::ParticleState& s = points.state;
+    for (std::size_t j = 0; j < across.position.size(); ++j)
+        for (std::size_t i = 0; i < along.position.size(); ++i) {
+            const Vec2 xi(along.position[i], across.position[j]);
+            const double w_t = along.weight[i] * across.weight[j] * mesh.thickness;
+            points.xi.push_back(xi);
+            s.position.emplace_back(x * shape_functions(xi));
+            s.mass.push_back(mesh.density[e] * jacobian(x_0, xi).determinant() * w_t);
+            s.volume.push_back(jacobian(x, xi).determinant() * w_t);
+            s.region.push_back(mesh.region_of_element[e]);
+        }
+    points.first.push_back(s.position.size());
 }
 
-Corners nodal_values(const std::vector<Vec2>& field, const std::array<std::int32_t, 4>& quad) {
-    Corners values;
-    for (int i = 0; i < 4; ++i) values.col(i) = field[quad[i]];
-    return values;
+void carry_motion(const MeshSnapshot& mesh, std::size_t e, Points& points) {
+    exchange::ParticleState& s = points.state;
+    const Corners v = corner_values(mesh.velocity, mesh.quads[e]);
+    const Corners a = corner_values(mesh.acceleration, mesh.quads[e]);
+    for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
+        const Vec2& xi = points.xi[p];
+        const Matrix2 dx_dxi = jacobian(points.shape[e], xi);
+        const Corners dN_dx = dx_dxi.inverse().transpose() * shape_gradients(xi);
+        const Eigen::Vector4d N = shape_functions(xi);
+        s.velocity[p] = v * N;
+        s.velocity_gradient[p] = v * dN_dx.transpose();
+        points.acceleration[p] = a * N;
+    }
 }
 
-void check_undeformed(const MeshSnapshot& mesh, const std::string& file) {
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e)
-        if (corner_jacobians(undeformed_corners(mesh, e)).minCoeff() <= 0.0)
-            throw fault::BadInput(
-                file, {{"/breachline/quads",
-                        "element " + std::to_string(e) + " is inverted before any deformation",
-                        "give a snapshot whose mesh has convex quads, corners counter-clockwise"}});
+void carry_water(const MeshSnapshot& mesh, std::size_t e, Points& points) {
+    const Eigen::Vector4d u = corner_values(mesh.pore_pressure, mesh.quads[e]);
+    for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
+        points.state.pore_pressure[p] = u.dot(shape_functions(points.xi[p]));
+}
+
+void carry_ratio(const MeshSnapshot& mesh, std::size_t e, Points& points) {
+    const Eigen::Vector4d d_u = corner_values(mesh.pore_pressure, mesh.quads[e]) -
+                                corner_values(mesh.pore_pressure_0, mesh.quads[e]);
+    const Eigen::Vector4d sigma_v0 = corner_values(mesh.sigma_v0, mesh.quads[e]);
+    for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
+        const Eigen::Vector4d N = shape_functions(points.xi[p]);
+        points.state.r_u[p] = pore_pressure_ratio(d_u.dot(N), sigma_v0.dot(N));
+    }
 }
 
 }  // namespace
 
-Corners undeformed_corners(const MeshSnapshot& mesh, std::size_t element) {
-    return nodal_values(mesh.position_0, mesh.quads[element]);
-}
-
-Corners deformed_corners(const MeshSnapshot& mesh, std::size_t element) {
-    return undeformed_corners(mesh, element) + nodal_values(mesh.displacement, mesh.quads[element]);
-}
-
-void refuse_entangled(const MeshSnapshot& mesh, const std::string& file) {
-    check_undeformed(mesh, file);
-    std::size_t count = 0;
-    std::string list;
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        const auto ratio =
-            mechanics::jacobian_ratio(deformed_corners(mesh, e), undeformed_corners(mesh, e));
-        if (ratio.least > 0.0) continue;
-        if (count++ < most_listed) list += "\n  " + describe(mesh, e, ratio);
-    }
-    if (count == 0) return;
-    if (count > most_listed) list += "\n  and " + std::to_string(count - most_listed) + " more";
-    throw fault::Breakdown(file + ": the mesh is entangled at t = " + std::to_string(mesh.time) +
-                           " s and cannot be transferred" + list +
-                           "\n  remedy: transfer an earlier snapshot");
-}
-
-Points place_points(const MeshSnapshot& mesh, int n) {
-    const GaussRule rule = gauss_legendre(n);
-    const std::size_t per_element = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-    const std::size_t count = per_element * mesh.quads.size();
+Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
+                    const std::vector<Panels>& panels, int n) {
     Points points;
+    points.shape = std::move(shapes);
     exchange::ParticleState& s = points.state;
     s.transfer_time = mesh.time;
     s.thickness = mesh.thickness;
     s.regions = mesh.regions;
     s.materials_of_regions = mesh.materials_of_regions;
+    std::size_t count = 0;
+    for (const Panels& each : panels) count += static_cast<std::size_t>(n * each[0] * n * each[1]);
     for (auto* field : {&s.mass, &s.volume}) field->reserve(count);
     s.position.reserve(count);
     points.xi.reserve(count);
     points.first.push_back(0);
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        const Corners x_0 = undeformed_corners(mesh, e);
-        const Corners x = deformed_corners(mesh, e);
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) {
-                const Vec2 xi(rule.position[i], rule.position[j]);
-                const double w_t = rule.weight[i] * rule.weight[j] * mesh.thickness;
-                points.xi.push_back(xi);
-                s.position.emplace_back(x * shape_functions(xi));
-                s.mass.push_back(mesh.density[e] * jacobian(x_0, xi).determinant() * w_t);
-                s.volume.push_back(jacobian(x, xi).determinant() * w_t);
-                s.region.push_back(mesh.region_of_element[e]);
-            }
-        points.first.push_back(s.position.size());
-    }
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e)
+        place_in_element(mesh, e, panels[e], n, points);
     s.gap.assign(count, 0.0);
     return points;
 }
@@ -103,18 +86,18 @@ void carry_nodal_fields(const MeshSnapshot& mesh, Points& points) {
     exchange::ParticleState& s = points.state;
     s.velocity.resize(s.size());
     s.velocity_gradient.resize(s.size());
+    points.acceleration.resize(s.size());
+    if (!mesh.pore_pressure.empty()) s.pore_pressure.resize(s.size());
+    if (!mesh.sigma_v0.empty()) s.r_u.resize(s.size());
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        const Corners x = deformed_corners(mesh, e);
-        const Corners v = nodal_values(mesh.velocity, mesh.quads[e]);
-        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
-            const Vec2& xi = points.xi[p];
-            const Corners dN_dxi = shape_gradients(xi);
-            const Matrix2 dx_dxi = jacobian(x, xi);
-            const Corners dN_dx = dx_dxi.inverse().transpose() * dN_dxi;
-            s.velocity[p] = v * shape_functions(xi);
-            s.velocity_gradient[p] = v * dN_dx.transpose();
-        }
+        carry_motion(mesh, e, points);
+        if (!mesh.pore_pressure.empty()) carry_water(mesh, e, points);
+        if (!mesh.sigma_v0.empty()) carry_ratio(mesh, e, points);
     }
+}
+
+double pore_pressure_ratio(double d_u, double sigma_v0) {
+    return sigma_v0 > 0.0 ? d_u / sigma_v0 : 0.0;
 }
 
 }  // namespace breach::transfer

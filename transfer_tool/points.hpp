@@ -5,31 +5,32 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
-#include "transfer_tool/quad.hpp"
+#include "transfer_tool/sampling.hpp"
+#include "transfer_tool/shapes.hpp"
 
 namespace breach::transfer {
-
-/// Places of an element's corners [m].
-Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
-Corners deformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 
 /// The new material points, element after element, and where in its element each one lies.
 struct Points {
     exchange::ParticleState state;
+    std::vector<Corners> shape;      ///< [n_elements] corners that the points lie between [m]
     std::vector<std::size_t> first;  ///< [n_elements + 1] first point of each element
     std::vector<Vec2> xi;            ///< [n_points] natural coordinates
+    std::vector<Vec2> acceleration;  ///< [n_points] for the ledger only [m/s2]
 };
 
-/// Throws Breakdown, naming the elements, the time and |J_t|/|J_0|, when a deformed element is
-/// inverted or entangled (J <= 0 at a corner); BadInput when an undeformed one is.
-void refuse_entangled(const exchange::MeshSnapshot& mesh, const std::string& file);
+/// n x n points at the Gauss positions of each panel of each deformed element. With weights w and
+/// the thickness t: mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for every n,
+/// since J is linear.
+Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> shapes,
+                    const std::vector<Panels>& panels, int n);
 
-/// n x n points at the Gauss positions of each deformed element. With weights w and the thickness
-/// t: mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for every n, since J is
-/// linear.
-Points place_points(const exchange::MeshSnapshot& mesh, int n);
-
-/// Velocity v = sum N_i v_i and its gradient L = sum v_i (dN_i/dx)^T on the deformed element.
+/// By shape functions: velocity v = sum N_i v_i and its gradient L = sum v_i (dN_i/dx)^T on the
+/// deformed element, acceleration, and where the snapshot has them pore pressure u = sum N_i u_i
+/// and r_u = sum N_i (u - u_0)_i / sum N_i sigma'_v0,i (0 where no stress was).
 void carry_nodal_fields(const exchange::MeshSnapshot& mesh, Points& points);
+
+/// (u - u_0) / sigma'_v0 [-]; 0 where sigma_v0 is not positive: nothing there can liquefy.
+double pore_pressure_ratio(double d_u, double sigma_v0);
 
 }  // namespace breach::transfer

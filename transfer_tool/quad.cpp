@@ -74,4 +74,16 @@ GaussRule gauss_legendre(int n) {
     return rule;
 }
 
+GaussRule gauss_legendre(int n, int panels) {
+    if (panels == 1) return gauss_legendre(n);
+    const GaussRule one = gauss_legendre(n);
+    GaussRule rule;
+    for (int p = 0; p < panels; ++p)
+        for (int i = 0; i < n; ++i) {
+            rule.position.push_back((2 * p + 1 + one.position[i]) / panels - 1.0);
+            rule.weight.push_back(one.weight[i] / panels);
+        }
+    return rule;
+}
+
 }  // namespace breach::transfer

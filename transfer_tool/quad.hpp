@@ -33,5 +33,8 @@ struct GaussRule {
     std::vector<double> weight;
 };
 GaussRule gauss_legendre(int n);
+/// The same rule in each of `panels` equal parts of [-1, 1]: n * panels points, ascending, exact to
+/// the same degree. With two points per panel all weights are equal, whatever their number.
+GaussRule gauss_legendre(int n, int panels);
 
 }  // namespace breach::transfer

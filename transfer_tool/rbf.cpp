@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transfer_tool/dense_system.hpp"
+
 namespace breach::transfer {
 namespace {
 
@@ -121,14 +123,24 @@ void LocalInterpolant::at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> valu
 GlobalInterpolant::GlobalInterpolant(Centres centres)
     : centre_(std::move(centres.position)),
       epsilon_(average_distance(centre_)),
-      mean_(centres.value.colwise().mean()) {
+      mean_(centres.value.colwise().mean()),
+      coefficient_(centres.value.rowwise() - mean_) {}
+
+Eigen::MatrixXd GlobalInterpolant::system() const {
     const auto N = static_cast<Eigen::Index>(centre_.size());
     Eigen::MatrixXd system(N, N);
     for (Eigen::Index j = 0; j < N; ++j)
         for (Eigen::Index i = 0; i < N; ++i) system(i, j) = phi(centre_[i], centre_[j], epsilon_);
-    coefficient_ = centres.value.rowwise() - mean_;
-    const Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> in_place(system);
-    coefficient_ = in_place.solve(coefficient_).eval();
+    return system;
+}
+
+std::optional<GlobalInterpolant> GlobalInterpolant::through(Centres centres, int threads,
+                                                            const Watch& watch) {
+    GlobalInterpolant interpolant(std::move(centres));
+    Eigen::MatrixXd system = interpolant.system();
+    if (solve_in_place(system, interpolant.coefficient_, threads, watch) == Solved::stopped)
+        return std::nullopt;
+    return interpolant;
 }
 
 void GlobalInterpolant::at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/mechanics/tensor.hpp"
+#include "transfer_tool/watch.hpp"
 
 namespace breach::transfer {
 
@@ -58,10 +60,15 @@ class LocalInterpolant {
 /// not take out the mean.
 class GlobalInterpolant {
   public:
-    explicit GlobalInterpolant(Centres centres);
+    /// Nothing when the watch stopped it.
+    static std::optional<GlobalInterpolant> through(Centres centres, int threads = 1,
+                                                    const Watch& watch = {});
     void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;
 
   private:
+    explicit GlobalInterpolant(Centres centres);
+    Eigen::MatrixXd system() const;
+
     std::vector<Vec2> centre_;
     double epsilon_;
     Eigen::RowVectorXd mean_;

@@ -19,15 +19,99 @@ nlohmann::json as_json(const exchange::Ledger& ledger) {
     return rows;
 }
 
-void report(process::Session& session, const Transferred& t) {
-    const scene::Transfer& settings = scene::transfer_of(session.scene());
+std::string named(const SoilOfPoints& soil) { return soil.region + " / " + soil.material; }
+
+nlohmann::json soils_as_json(const Transferred& t) {
+    nlohmann::json soils = nlohmann::json::array();
+    for (const SoilShare& each : t.shares) {
+        const SoilOfPoints& soil = t.soils[each.soil];
+        const bool total = soil.stress == exchange::StressMeasure::total;
+        soils.push_back({{"region", soil.region},
+                         {"material", soil.material},
+                         {"stress", total ? "total" : "effective"},
+                         {"points", each.points},
+                         {"mass", each.mass}});
+    }
+    return soils;
+}
+
+nlohmann::json softening_as_json(const Transferred& t, scene::SofteningStart start) {
+    nlohmann::json softening = nlohmann::json::array();
+    for (const SofteningShare& each : t.softening) {
+        const bool total = each.driver == materials::SofteningDriver::total;
+        softening.push_back(
+            {{"region", t.soils[each.soil].region},
+             {"material", t.soils[each.soil].material},
+             {"start", start == scene::SofteningStart::carried ? "carried" : "zero"},
+             {"driver", total ? "total" : "plastic"},
+             {"mean_epsilon_q", each.mean},
+             {"largest_epsilon_q", each.largest}});
+    }
+    return softening;
+}
+
+nlohmann::json rebuilt_as_json(const std::vector<RebuiltElement>& rebuilt) {
+    nlohmann::json elements = nlohmann::json::array();
+    for (const RebuiltElement& each : rebuilt)
+        elements.push_back({{"element", each.element},
+                            {"region", each.region},
+                            {"centre", {each.centre.x(), each.centre.y()}},
+                            {"least_jacobian_ratio", each.least},
+                            {"area_on_mesh", each.area_on_mesh},
+                            {"area", each.area}});
+    return elements;
+}
+
+/// What only some transfers have.
+void report_options(const Transferred& t, nlohmann::json& result) {
+    if (t.supply)
+        result["cells"] = {{"occupied", t.supply->occupied},
+                           {"filled", t.supply->filled},
+                           {"least_points_in_a_filled_cell", t.supply->least_in_filled},
+                           {"short", t.supply->short_cells}};
+    if (t.liquefaction) {
+        result["liquefied_nodes"] = t.liquefaction->nodes;
+        if (t.liquefaction->nodes > 0)
+            result["deepest_liquefied_level"] = t.liquefaction->deepest_level;
+    }
+    if (t.round_trip)
+        result["round_trip"] = {{"stress_rms", t.round_trip->stress_rms},
+                                {"stress_largest", t.round_trip->stress_largest},
+                                {"stress_scale", t.round_trip->stress_scale},
+                                {"epsilon_q_rms", t.round_trip->epsilon_q_rms},
+                                {"velocity_rms", t.round_trip->velocity_rms},
+                                {"velocity_scale", t.round_trip->velocity_scale}};
+}
+
+void log(const Transferred& t) {
     spdlog::info("{} points at t_T = {} s\n{}", t.state.size(), t.state.transfer_time,
                  as_text(t.ledger));
+    for (const SoilShare& each : t.shares)
+        spdlog::info(
+            "{}: {} points, {:.6g} kg, {} stress", named(t.soils[each.soil]), each.points,
+            each.mass,
+            t.soils[each.soil].stress == exchange::StressMeasure::total ? "total" : "effective");
+    for (const SofteningShare& each : t.softening)
+        spdlog::info("{} softens from epsilon_q {:.3g} on the mean, {:.3g} at most",
+                     named(t.soils[each.soil]), each.mean, each.largest);
+    for (const RebuiltElement& each : t.rebuilt)
+        spdlog::warn(
+            "element {} of region {} at ({:.3f}, {:.3f}) m, worst |J_t|/|J_0| {:.3g}, was "
+            "rebuilt: {:.4g} m2 instead of {:.4g} m2",
+            each.element, each.region, each.centre.x(), each.centre.y(), each.least, each.area,
+            each.area_on_mesh);
+    if (t.supply && t.supply->short_cells > 0)
+        spdlog::warn("{} cells have fewer points than asked", t.supply->short_cells);
     spdlog::info(
         "{} points returned to the yield surface (largest excess {:.3g} Pa), {} strains "
         "raised to zero, {} coincident Gauss points merged",
         t.yield.returned, t.yield.largest_excess, t.gauss_fields.raised_strains,
         t.gauss_fields.merged_centres);
+}
+
+void report(process::Session& session, const Transferred& t) {
+    const scene::Transfer& settings = scene::transfer_of(session.scene());
+    log(t);
     nlohmann::json& result = session.result();
     result["transfer_time"] = t.state.transfer_time;
     result["points"] = t.state.size();
@@ -36,11 +120,15 @@ void report(process::Session& session, const Transferred& t) {
         settings.interpolation == scene::Interpolation::local ? "local" : "paper";
     result["softening_start"] =
         settings.softening_start == scene::SofteningStart::carried ? "carried" : "zero";
+    result["soils"] = soils_as_json(t);
+    result["softening"] = softening_as_json(t, settings.softening_start);
+    result["rebuilt_elements"] = rebuilt_as_json(t.rebuilt);
     result["returned_to_yield_surface"] = t.yield.returned;
     result["largest_yield_excess"] = t.yield.largest_excess;
     result["strains_raised_to_zero"] = t.gauss_fields.raised_strains;
     result["coincident_gauss_points"] = t.gauss_fields.merged_centres;
     result["ledger"] = as_json(t.ledger);
+    report_options(t, result);
 }
 
 }  // namespace
@@ -52,19 +140,23 @@ process::Outcome run(process::Session& session) {
     session.progress(0.0, "reading");
     const exchange::MeshSnapshot mesh = exchange::read_mesh_snapshot(session.input()).snapshot;
     if (session.stop_requested()) return process::Outcome::stopped;
-    session.progress(0.1, "transferring " + std::to_string(mesh.quads.size()) + " elements");
-    const Transferred transferred =
-        transfer(mesh, session.scene(), session.settings().threads, file);
-    if (session.stop_requested()) return process::Outcome::stopped;
-    report(session, transferred);
-    refuse_losses(transferred.ledger, scene::transfer_of(session.scene()));
+    const std::string message = "transferring " + std::to_string(mesh.quads.size()) + " elements";
+    const Work work{.threads = session.settings().threads, .watch = {[&](double share) {
+                                                               session.progress(0.1 + 0.8 * share,
+                                                                                message);
+                                                               return !session.stop_requested();
+                                                           }}};
+    const auto transferred = transfer(mesh, session.scene(), work, file);
+    if (!transferred) return process::Outcome::stopped;
+    report(session, *transferred);
+    refuse_losses(transferred->ledger, scene::transfer_of(session.scene()));
 
-    exchange::write_particle_state(output, transferred.state, session.provenance(),
-                                   transferred.ledger);
+    exchange::write_particle_state(output, transferred->state, session.provenance(),
+                                   transferred->ledger);
     session.result()["particles"] = output.filename().string();
     session.announce(output, {{"kind", "particles"},
-                              {"transfer_time", transferred.state.transfer_time},
-                              {"points", transferred.state.size()}});
+                              {"transfer_time", transferred->state.transfer_time},
+                              {"points", transferred->state.size()}});
     session.progress(1.0, "done");
     return process::Outcome::done;
 }

@@ -5,30 +5,58 @@
 namespace breach::transfer {
 namespace {
 
-void refuse_water(const exchange::MeshSnapshot& mesh, const std::string& file) {
-    if (mesh.pore_pressure.empty()) return;
-    throw fault::BadInput(file, {{"/VTKHDF/PointData/pore_pressure",
-                                  "material points of this version carry no pore pressure",
-                                  "give a snapshot of a dry or drained scene"}});
+Sampling sampling_of(const std::vector<Corners>& shapes, const scene::Scene& scene) {
+    const scene::Transfer& settings = scene::transfer_of(scene);
+    if (!settings.points_per_cell) return one_panel_each(shapes.size());
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    return sampling_for_cells(shapes, {.cell_size = mpm.cell_size,
+                                       .origin = {mpm.domain_x[0], mpm.floor.level},
+                                       .points_per_cell = *settings.points_per_cell,
+                                       .points_per_panel = settings.points_per_direction});
+}
+
+std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map) {
+    if (!map.liquefied()) return std::nullopt;
+    return LiquefactionReport{map.liquefied()->liquefied_nodes(), map.liquefied()->deepest_level()};
 }
 
 }  // namespace
 
-Transferred transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene, int threads,
-                     const std::string& file) {
+std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
+                                    const Work& work, const std::string& file) {
     const scene::Transfer& settings = scene::transfer_of(scene);
-    const std::vector<materials::Law> laws = laws_of_regions(mesh, scene, file);
-    refuse_water(mesh, file);
-    refuse_entangled(mesh, file);
+    const SoilMap map(mesh, scene, file);
+    const std::vector<materials::Law> laws = laws_of(map.soils());
+    Transferred t;
 
-    Points points = place_points(mesh, settings.points_per_direction);
+    Shapes shapes = shapes_of_elements(mesh, settings.entangled, file);
+    t.rebuilt = std::move(shapes.rebuilt);
+    const Sampling sampling = sampling_of(shapes.corners, scene);
+    t.supply = sampling.supply;
+    Points points = place_points(mesh, std::move(shapes.corners), sampling.panels,
+                                 settings.points_per_direction);
     carry_nodal_fields(mesh, points);
-    const GaussFieldReport gauss_fields = carry_gauss_fields(mesh, settings, threads, points);
-    start_softening(settings.softening_start, points.state);
-    const YieldReport yield = return_to_yield_surface(laws, points.state);
+    const auto gauss_fields = carry_gauss_fields(mesh, settings, work, points);
+    if (!gauss_fields) return std::nullopt;
+    t.gauss_fields = *gauss_fields;
+    if (settings.round_trip) {
+        t.round_trip = round_trip(mesh, settings, work, points);
+        if (!t.round_trip) return std::nullopt;
+    }
+
+    assign_soils(map, points);
+    settle_stress(map, points.state);
+    start_softening(settings.softening_start, laws, points.state);
+    t.yield = return_to_yield_surface(laws, points.state);
     find_reference_volumes(laws, points.state);
-    exchange::Ledger ledger = ledger_of(mesh, points.state, laws, scene.gravity, file);
-    return {std::move(points.state), std::move(ledger), gauss_fields, yield};
+
+    t.ledger = ledger_of(mesh, points, map, scene, file);
+    t.soils = map.soils();
+    t.shares = shares_of_soils(map, points.state);
+    t.softening = softening_of(laws, points.state);
+    t.liquefaction = liquefaction_of(map);
+    t.state = std::move(points.state);
+    return t;
 }
 
 }  // namespace breach::transfer

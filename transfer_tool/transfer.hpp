@@ -1,24 +1,40 @@
 // From a FEM snapshot to material points: the verbs in order. No files here.
 #pragma once
 
+#include <optional>
+
 #include "transfer_tool/gauss_fields.hpp"
 #include "transfer_tool/laws.hpp"
 #include "transfer_tool/ledger.hpp"
 #include "transfer_tool/points.hpp"
+#include "transfer_tool/soils.hpp"
 
 namespace breach::transfer {
+
+/// What the liquefied zone was.
+struct LiquefactionReport {
+    std::size_t nodes;     ///< liquefied
+    double deepest_level;  ///< of them, undeformed [m]; +infinity: none
+};
 
 struct Transferred {
     exchange::ParticleState state;
     exchange::Ledger ledger;
+    std::vector<RebuiltElement> rebuilt;
+    std::optional<CellSupply> supply;
+    std::vector<SoilOfPoints> soils;
+    std::vector<SoilShare> shares;
+    std::vector<SofteningShare> softening;
+    std::optional<LiquefactionReport> liquefaction;
     GaussFieldReport gauss_fields;
     YieldReport yield;
+    std::optional<RoundTrip> round_trip;
 };
 
-/// `file` is named in messages. Throws Breakdown when the mesh is entangled, BadInput when mesh and
-/// scene do not belong together. Whether the ledger is good enough is the caller's question
-/// (refuse_losses).
-Transferred transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene, int threads,
-                     const std::string& file);
+/// `file` is named in messages. Nothing when the watch stopped it. Throws Breakdown when the mesh
+/// is entangled, BadInput when mesh and scene do not belong together. Whether the ledger is good
+/// enough is the caller's question (refuse_losses).
+std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
+                                    const Work& work, const std::string& file);
 
 }  // namespace breach::transfer

@@ -34,12 +34,12 @@ meshes::MeshSnapshot graded(int nx, int ny) {
 
 void row(const char* name, const meshes::MeshSnapshot& mesh, const meshes::Field& field,
          const breach::scene::Transfer& how) {
-    const Points points = place_points(mesh, how.points_per_direction);
+    const Points points = meshes::points_on(mesh, how.points_per_direction);
     Values values(static_cast<Eigen::Index>(mesh.stress.size()),
                   6);  // as many fields as a transfer
     values.colwise() = meshes::at_gauss(mesh, field).col(0);
     const auto began = std::chrono::steady_clock::now();
-    const Interpolated carried = interpolate(mesh, values, how, 1, points);
+    const Interpolated carried = *interpolate(mesh, values, how, {}, points);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     double largest = 0.0;

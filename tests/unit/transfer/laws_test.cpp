@@ -49,12 +49,30 @@ TEST(YieldReturn, UsesTheStrengthThatSofteningHasLeft) {
     const Voigt sigma(-60e3, -110e3, -60e3, 0.0);  // inside at peak, outside at residual strength
     auto carried = points_with({sigma}, 0.1);
     auto anew = points_with({sigma}, 0.1);
-    start_softening(scene::SofteningStart::carried, carried);
-    start_softening(scene::SofteningStart::zero, anew);
+    start_softening(scene::SofteningStart::carried, laws, carried);
+    start_softening(scene::SofteningStart::zero, laws, anew);
     EXPECT_EQ(return_to_yield_surface(laws, carried).returned, 1u);
     EXPECT_EQ(return_to_yield_surface(laws, anew).returned, 0u);
     EXPECT_EQ(carried.epsilon_q_plastic[0], 0.1) << "the return is not soil's plastic strain";
     EXPECT_EQ(anew.epsilon_q_plastic[0], 0.0);
+}
+
+TEST(SofteningStart, TotalStrainDrivesWhereTheLawSaysSo) {
+    materials::MohrCoulomb by_total = softening_soil();
+    by_total.softening->driver = materials::SofteningDriver::total;
+    const std::vector<materials::Law> laws{softening_soil(), by_total, meshes::elastic};
+    auto s = points_with({Voigt::Zero(), Voigt::Zero(), Voigt::Zero()}, 0.02);
+    s.mass.assign(3, 5.0);
+    s.region = {0, 1, 2};
+    s.epsilon_q = {0.03, 0.04, 0.05};
+    start_softening(scene::SofteningStart::carried, laws, s);
+    EXPECT_EQ(s.epsilon_q_plastic, (std::vector<double>{0.02, 0.04, 0.02}));
+    const auto report = softening_of(laws, s);
+    ASSERT_EQ(report.size(), 2u) << "the elastic soil does not soften";
+    EXPECT_EQ(report[1].driver, materials::SofteningDriver::total);
+    EXPECT_EQ(report[1].mean, 0.04);
+    start_softening(scene::SofteningStart::zero, laws, s);
+    EXPECT_EQ(s.epsilon_q_plastic, (std::vector<double>(3, 0.0)));
 }
 
 TEST(ReferenceVolume, IsTheVolumeAtZeroMeanStress) {
@@ -73,13 +91,13 @@ TEST(ReferenceVolume, RefusesACompressionBeyondTheLaw) {
     EXPECT_THROW(find_reference_volumes(laws, s), fault::Breakdown);
 }
 
-TEST(LawsOfRegions, RefusesASceneThatTheSnapshotWasNotMadeWith) {
+TEST(SoilMap, RefusesASceneThatTheSnapshotWasNotMadeWith) {
     const auto mesh = meshes::grid({.regions = 2});
     auto scene = meshes::scene_for(mesh, meshes::elastic, meshes::settings());
     scene.section.regions[0].name = "other";
     scene.materials[0].name = "clay";
     try {
-        laws_of_regions(mesh, scene, "snapshot.vtkhdf");
+        SoilMap(mesh, scene, "snapshot.vtkhdf");
         FAIL();
     } catch (const fault::BadInput& refusal) {
         EXPECT_EQ(refusal.faults().size(), 2u) << "the lost region and the other's material";

@@ -37,9 +37,10 @@ TEST(Ledger, PrintsOneAlignedLinePerRow) {
 TEST(Ledger, RefusesGaussPointsOfNoKnownRule) {
     auto mesh = meshes::grid({});
     mesh.gauss_positions[0].x() *= 0.9;
-    const Points points = place_points(mesh, 2);
-    const std::vector<materials::Law> laws{meshes::elastic};
-    EXPECT_THROW(ledger_of(mesh, points.state, laws, 9.81, "snapshot"), fault::BadInput);
+    const Points points = meshes::points_on(mesh, 2);
+    const auto scene = meshes::scene_for(mesh, meshes::elastic, meshes::settings(2));
+    const SoilMap map(mesh, scene, "snapshot");
+    EXPECT_THROW(ledger_of(mesh, points, map, scene, "snapshot"), fault::BadInput);
 }
 
 }  // namespace

@@ -88,11 +88,12 @@ TEST(MergeCoincident, AllInOnePlaceBecomeOneCentre) {
 
 TEST(GlobalInterpolant, IsExactForAConstantAndPassesThroughItsCentres) {
     const auto constant = [](const Vec2&) { return -7e4; };
-    const GlobalInterpolant flat(centres(scattered(100, 20.0, 5.0), constant));
+    const GlobalInterpolant flat =
+        *GlobalInterpolant::through(centres(scattered(100, 20.0, 5.0), constant));
     EXPECT_DOUBLE_EQ(at(flat, {30, 9}), -7e4);
     const auto wavy = [](const Vec2& x) { return std::sin(x.x()) * x.y(); };
     const Centres c = centres(scattered(100, 6.0, 5.0), wavy);
-    const GlobalInterpolant f(c);
+    const GlobalInterpolant f = *GlobalInterpolant::through(c);
     for (std::size_t i = 0; i < c.position.size(); ++i)
         EXPECT_NEAR(at(f, c.position[i]), wavy(c.position[i]), 1e-10);
 }

@@ -31,7 +31,7 @@ TEST_P(DistortedMesh, KeepsMassVolumeMomentumAndEnergiesInEveryRegion) {
     auto mesh = meshes::grid({.nx = 9, .ny = 7, .skew = 0.2, .regions = 3});
     meshes::set_in_motion(mesh);
     const auto how = meshes::settings(GetParam());
-    const auto t = transfer(mesh, meshes::scene_for(mesh, meshes::elastic, how), 1, "mesh");
+    const auto t = meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, how), 1);
     for (const std::string region : {"strip 0", "strip 1", "strip 2", "total"}) {
         EXPECT_LT(difference(t.ledger, region, "mass"), 1e-12);
         EXPECT_LT(difference(t.ledger, region, "volume"), 1e-12);
@@ -53,7 +53,7 @@ TEST(Conservation, TheFemsRowSumMassHasTheSameMassAndMomentum) {
     auto mesh = meshes::grid({.skew = 0.2, .regions = 2});
     meshes::set_in_motion(mesh);
     const auto t =
-        transfer(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(2)), 1, "mesh");
+        meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(2)), 1);
     EXPECT_LT(difference(t.ledger, "total", "mass of the nodes"), 1e-12);
     EXPECT_LT(difference(t.ledger, "total", "momentum x of the nodes"), 1e-10);
     EXPECT_LT(difference(t.ledger, "total", "momentum y of the nodes"), 1e-10);
@@ -65,7 +65,7 @@ TEST(Conservation, ARectangleInTranslationHasTheTextbookAmounts) {
     for (auto& v : mesh.velocity) v = {3.0, -4.0};
     for (auto& sigma : mesh.stress) sigma = {-1e5, -1e5, -1e5, 0.0};
     const auto t =
-        transfer(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(2)), 1, "mesh");
+        meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(2)), 1);
     const double V = 12.0 * 10.0 * 1.5;
     const double m = 1800.0 * V;
     EXPECT_NEAR(before(t.ledger, "mass") / m, 1.0, 1e-13);
@@ -83,11 +83,11 @@ TEST(Conservation, ARectangleInTranslationHasTheTextbookAmounts) {
 TEST(Conservation, ManyPointsDoNotWearOutTheSums) {
     auto mesh = meshes::grid({.nx = 300, .ny = 300});
     for (auto& v : mesh.velocity) v = {0.1, -0.7};
-    Points points = place_points(mesh, 2);
+    Points points = meshes::points_on(mesh, 2);
     carry_nodal_fields(mesh, points);
     points.state.stress.assign(points.state.size(), mechanics::Voigt::Zero());
-    const std::vector<materials::Law> laws{meshes::elastic};
-    const auto ledger = ledger_of(mesh, points.state, laws, 9.81, "mesh");
+    const auto scene = meshes::scene_for(mesh, meshes::elastic, meshes::settings(2));
+    const auto ledger = ledger_of(mesh, points, SoilMap(mesh, scene, "mesh"), scene, "mesh");
     for (const std::string quantity : {"mass", "volume", "momentum x", "momentum y"})
         EXPECT_LT(difference(ledger, "total", quantity), 1e-14) << quantity;
 }
@@ -97,7 +97,7 @@ TEST(Conservation, OnePointPerElementIsCaughtByTheLedger) {
     auto mesh = meshes::grid({.skew = 0.2});
     meshes::set_in_motion(mesh);
     const auto how = meshes::settings(1);
-    const auto t = transfer(mesh, meshes::scene_for(mesh, meshes::elastic, how), 1, "mesh");
+    const auto t = meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, how), 1);
     EXPECT_LT(difference(t.ledger, "total", "mass"), 1e-12);
     EXPECT_THROW(refuse_losses(t.ledger, how), fault::Breakdown);
 }
@@ -107,7 +107,7 @@ TEST(Conservation, PointsAtTheFemsOwnGaussPointsKeepStressBitForBit) {
     for (std::size_t g = 0; g < mesh.stress.size(); ++g)
         mesh.stress[g] = {-1e4 * std::sin(double(g)), -2e4, -1e4 / 3.0, 1e3 * double(g % 7)};
     const auto t =
-        transfer(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(2)), 2, "mesh");
+        meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(2)), 2);
     EXPECT_EQ(t.state.stress, mesh.stress);
 }
 
@@ -117,8 +117,8 @@ TEST(Conservation, ThreadsDoNotChangeABit) {
     for (std::size_t g = 0; g < mesh.stress.size(); ++g)
         mesh.stress[g] = {-1e4 * std::sin(double(g)), -2e4, -1e4 / 3.0, 1e3 * double(g % 7)};
     const auto scene = meshes::scene_for(mesh, meshes::frictional, meshes::settings(3));
-    const auto one = transfer(mesh, scene, 1, "mesh");
-    const auto three = transfer(mesh, scene, 3, "mesh");
+    const auto one = meshes::transferred(mesh, scene, 1);
+    const auto three = meshes::transferred(mesh, scene, 3);
     EXPECT_EQ(one.state.stress, three.state.stress);
     EXPECT_EQ(one.state.volume_0, three.state.volume_0);
 }

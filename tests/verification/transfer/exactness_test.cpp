@@ -39,9 +39,9 @@ TEST(LocalMode, AJumpBetweenRegionsLeavesNoTrace) {
     const auto weak_only = [](const Vec2& x, int region) {
         return region == 0 ? jump(x, 0) : 1e4 * jump(x, 1);
     };
-    const Points points = place_points(mesh, 3);
+    const Points points = meshes::points_on(mesh, 3);
     const auto carried =
-        interpolate(mesh, meshes::at_gauss(mesh, weak_only), meshes::settings(3), 1, points);
+        *interpolate(mesh, meshes::at_gauss(mesh, weak_only), meshes::settings(3), {}, points);
     double largest = 0.0;
     for (std::size_t p = 0; p < points.state.size(); ++p)
         if (points.state.region[p] == 0)
@@ -89,7 +89,7 @@ TEST(LocalMode, AnElementSquashedToAThousandthIsStillTransferred) {
     }
     expect_exact(mesh, linear, meshes::settings(3), 1e-5);
     const auto t =
-        transfer(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(3)), 1, "mesh");
+        meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, meshes::settings(3)));
     EXPECT_NO_THROW(refuse_losses(t.ledger, meshes::settings(3)));
 }
 
@@ -100,7 +100,7 @@ TEST(NodalFields, ALinearVelocityKeepsItsValueAndItsGradient) {
     L << 0.5, -1.5, 2.0, 0.25;
     for (std::size_t i = 0; i < mesh.velocity.size(); ++i)
         mesh.velocity[i] = Vec2(1.0, 2.0) + L * (mesh.position_0[i] + mesh.displacement[i]);
-    Points points = place_points(mesh, 3);
+    Points points = meshes::points_on(mesh, 3);
     carry_nodal_fields(mesh, points);
     for (std::size_t p = 0; p < points.state.size(); ++p) {
         const Vec2 exact = Vec2(1.0, 2.0) + L * points.state.position[p];
@@ -114,8 +114,8 @@ TEST(GaussFields, EquivalentStrainNeverSwingsBelowZero) {
     const auto places = meshes::gauss_places(mesh);
     for (std::size_t g = 0; g < places.size(); ++g)  // a shear band one element wide
         mesh.epsilon_q[g] = std::abs(places[g].x() - places[g].y()) < 1.0 ? 0.5 : 0.0;
-    Points points = place_points(mesh, 3);
-    const GaussFieldReport report = carry_gauss_fields(mesh, meshes::settings(3), 1, points);
+    Points points = meshes::points_on(mesh, 3);
+    const GaussFieldReport report = *carry_gauss_fields(mesh, meshes::settings(3), {}, points);
     EXPECT_GT(report.raised_strains, 0u) << "the band does make the interpolant swing";
     for (const double epsilon_q : points.state.epsilon_q) EXPECT_GE(epsilon_q, 0.0);
 }

@@ -108,6 +108,17 @@ inline scene::Transfer settings(int n = 3,
             .largest_momentum_loss = 1e-10};
 }
 
+/// n x n points in every element, fields not yet carried.
+inline Points points_on(const MeshSnapshot& s, int n) {
+    return place_points(s, shapes_of_elements(s, scene::Entangled::refuse, "mesh").corners,
+                        one_panel_each(s.quads.size()).panels, n);
+}
+
+/// A transfer that nobody stops.
+inline Transferred transferred(const MeshSnapshot& s, const scene::Scene& scene, int threads = 1) {
+    return *transfer(s, scene, {.threads = threads}, "mesh");
+}
+
 /// Largest and mean-square error of the interpolated field at n x n points per element.
 struct FieldError {
     double largest = 0.0;
@@ -116,8 +127,8 @@ struct FieldError {
 };
 inline FieldError field_error(const MeshSnapshot& s, const Field& field,
                               const scene::Transfer& how) {
-    const Points points = place_points(s, how.points_per_direction);
-    const Interpolated carried = interpolate(s, at_gauss(s, field), how, 2, points);
+    const Points points = points_on(s, how.points_per_direction);
+    const Interpolated carried = *interpolate(s, at_gauss(s, field), how, {.threads = 2}, points);
     FieldError error{.report = carried.report};
     for (std::size_t p = 0; p < points.state.size(); ++p) {
         const double difference = std::abs(carried.value(static_cast<Eigen::Index>(p), 0) -

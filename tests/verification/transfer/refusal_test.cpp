@@ -12,7 +12,7 @@ scene::Scene scene_of(const exchange::MeshSnapshot& mesh) {
 
 std::string refusal_of(const exchange::MeshSnapshot& mesh) {
     try {
-        transfer(mesh, scene_of(mesh), 1, "snapshot_3.5.vtkhdf");
+        transfer(mesh, scene_of(mesh), {}, "snapshot_3.5.vtkhdf");
     } catch (const fault::Breakdown& refusal) {
         return refusal.what();
     }
@@ -48,13 +48,7 @@ TEST(EntangledMesh, ManyElementsAreCountedNotListed) {
 TEST(EntangledMesh, AMeshThatWasNeverRightIsBadInput) {
     auto mesh = meshes::grid({});
     std::swap(mesh.quads[3][1], mesh.quads[3][3]);
-    EXPECT_THROW(transfer(mesh, scene_of(mesh), 1, "snapshot"), fault::BadInput);
-}
-
-TEST(Water, IsRefusedNotDropped) {
-    auto mesh = meshes::grid({});
-    mesh.pore_pressure.assign(mesh.position_0.size(), 1e4);
-    EXPECT_THROW(transfer(mesh, scene_of(mesh), 1, "snapshot"), fault::BadInput);
+    EXPECT_THROW(transfer(mesh, scene_of(mesh), {}, "snapshot"), fault::BadInput);
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// A large dense system, solved block by block so that it can be watched, stopped and shared among
+// threads.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "transfer_tool/watch.hpp"
+
+namespace breach::transfer {
+
+enum class Solved { done, stopped };
+
+/// Overwrites A by its LU factors (partial pivoting, Golub & Van Loan, blocked outer products) and
+/// B by the solution of A X = B. 2/3 N^3 operations; the result does not depend on the threads.
+Solved solve_in_place(Eigen::MatrixXd& A, Eigen::MatrixXd& B, int threads, const Watch& watch);
+
+}  // namespace breach::transfer

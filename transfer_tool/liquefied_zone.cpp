@@ -1,0 +1,82 @@
+#include "transfer_tool/liquefied_zone.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "transfer_tool/points.hpp"
+
+namespace breach::transfer {
+namespace {
+
+using exchange::MeshSnapshot;
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Half of the farthest corner to the left and to the right of each node, over its elements in the
+/// regions that can liquefy: what the node stands for.
+struct Reach {
+    double left = 0.0;
+    double right = 0.0;
+    bool counts = false;
+};
+
+std::vector<Reach> reaches(const MeshSnapshot& mesh, const std::vector<char>& regions) {
+    std::vector<Reach> reach(mesh.position_0.size());
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        if (!regions[mesh.region_of_element[e]]) continue;
+        const Corners x = undeformed_corners(mesh, e);
+        const double low = x.row(0).minCoeff();
+        const double high = x.row(0).maxCoeff();
+        for (const std::int32_t node : mesh.quads[e]) {
+            const double here = mesh.position_0[node].x();
+            Reach& r = reach[node];
+            r.counts = true;
+            r.left = std::max(r.left, 0.5 * (here - low));
+            r.right = std::max(r.right, 0.5 * (high - here));
+        }
+    }
+    return reach;
+}
+
+struct Edge {
+    double x;
+    double level;
+    bool begins;
+};
+
+}  // namespace
+
+LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& regions,
+                             double threshold)
+    : deepest_(nowhere) {
+    std::vector<Edge> edges;
+    const std::vector<Reach> reach = reaches(mesh, regions);
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+        if (!reach[i].counts) continue;
+        const double d_u = mesh.pore_pressure[i] - mesh.pore_pressure_0[i];
+        if (pore_pressure_ratio(d_u, mesh.sigma_v0[i]) <= threshold) continue;
+        const Vec2& place = mesh.position_0[i];
+        edges.push_back({place.x() - reach[i].left, place.y(), true});
+        edges.push_back({place.x() + reach[i].right, place.y(), false});
+        deepest_ = std::min(deepest_, place.y());
+        ++nodes_;
+    }
+    std::ranges::sort(edges, {}, &Edge::x);
+    std::multiset<double> open;  // levels of the nodes whose columns hold the current x
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (edges[i].begins)
+            open.insert(edges[i].level);
+        else
+            open.erase(open.find(edges[i].level));
+        if (i + 1 < edges.size() && edges[i + 1].x == edges[i].x) continue;
+        level_from_[edges[i].x] = open.empty() ? nowhere : *open.begin();
+    }
+}
+
+bool LiquefiedZone::holds(const Vec2& place) const {
+    const auto after = level_from_.upper_bound(place.x());
+    return after != level_from_.begin() && place.y() >= std::prev(after)->second;
+}
+
+}  // namespace breach::transfer

@@ -1,0 +1,201 @@
+#include "transfer_tool/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::transfer {
+namespace {
+
+constexpr double most_points = 50e6;
+constexpr double round_off = 1e-9;  // of a cell's area
+constexpr int most_rounds = 40;
+
+/// The cells under the mesh's bounding box, and which element covers how much of each.
+class CellCover {
+  public:
+    struct Part {
+        std::size_t cell;
+        std::size_t element;
+    };
+
+    CellCover(const std::vector<Corners>& elements, const CellDemand& demand)
+        : h_(demand.cell_size), origin_(demand.origin) {
+        Vec2 low = elements.front().rowwise().minCoeff();
+        Vec2 high = elements.front().rowwise().maxCoeff();
+        for (const Corners& x : elements) {
+            low = low.cwiseMin(x.rowwise().minCoeff());
+            high = high.cwiseMax(x.rowwise().maxCoeff());
+        }
+        first_ = cell_of(low);
+        const Eigen::Array2i last = cell_of(high);
+        columns_ = last.x() - first_.x() + 1;
+        rows_ = last.y() - first_.y() + 1;
+        share.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0);
+        for (std::size_t e = 0; e < elements.size(); ++e) cover(elements[e], e);
+    }
+
+    std::size_t cell(const Vec2& place) const {
+        const Eigen::Array2i at = (cell_of(place) - first_).max(0);
+        return static_cast<std::size_t>(std::min(at.x(), columns_ - 1)) *
+                   static_cast<std::size_t>(rows_) +
+               static_cast<std::size_t>(std::min(at.y(), rows_ - 1));
+    }
+
+    std::vector<double> share;  ///< of each cell's area that elements cover [-]
+    std::vector<Part> parts;    ///< every element that covers some of a cell
+
+  private:
+    Eigen::Array2i cell_of(const Vec2& place) const {
+        return ((place - origin_) / h_).array().floor().cast<int>();
+    }
+
+    /// Adds the areas of the element within each cell.
+    void cover(const Corners& x, std::size_t element) {
+        const Eigen::Array2i from = cell_of(x.rowwise().minCoeff());
+        const Eigen::Array2i to = cell_of(x.rowwise().maxCoeff());
+        for (int i = from.x(); i <= to.x(); ++i)
+            for (int j = from.y(); j <= to.y(); ++j) {
+                const Vec2 low = origin_ + h_ * Vec2(i, j);
+                const double part = area_within(x, low) / (h_ * h_);
+                if (part <= round_off) continue;
+                const auto c =
+                    static_cast<std::size_t>(i - first_.x()) * static_cast<std::size_t>(rows_) +
+                    static_cast<std::size_t>(j - first_.y());
+                share[c] += part;
+                parts.push_back({c, element});
+            }
+    }
+
+    /// Area of a convex quad within the cell, clipped side by side (Sutherland & Hodgman 1974).
+    double area_within(const Corners& x, const Vec2& low) const {
+        std::array<Vec2, 8> ring;
+        std::size_t n = 4;
+        for (int k = 0; k < 4; ++k) ring[k] = x.col(k);
+        for (int d = 0; d < 2; ++d) {
+            n = clip(ring, n, d, low[d], 1.0);
+            n = clip(ring, n, d, low[d] + h_, -1.0);
+        }
+        double twice = 0.0;
+        for (std::size_t k = 0; k < n; ++k) {
+            const Vec2 a = ring[k] - low;
+            const Vec2 b = ring[(k + 1) % n] - low;
+            twice += a.x() * b.y() - a.y() * b.x();
+        }
+        return 0.5 * twice;
+    }
+
+    static std::size_t clip(std::array<Vec2, 8>& ring, std::size_t n, int d, double at,
+                            double side) {
+        std::array<Vec2, 8> kept;
+        std::size_t m = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            const Vec2& a = ring[k];
+            const Vec2& b = ring[(k + 1) % n];
+            const double to_a = side * (a[d] - at);
+            const double to_b = side * (b[d] - at);
+            if (to_a >= 0.0) kept[m++] = a;
+            if ((to_a > 0.0 && to_b < 0.0) || (to_a < 0.0 && to_b > 0.0))
+                kept[m++] = a + (b - a) * (to_a / (to_a - to_b));
+        }
+        ring = kept;
+        return m;
+    }
+
+    double h_;
+    Vec2 origin_;
+    Eigen::Array2i first_;
+    int columns_ = 0;
+    int rows_ = 0;
+};
+
+/// Longer of the two edges along xi, and along eta [m].
+Vec2 lengths(const Corners& x) {
+    return {std::max((x.col(1) - x.col(0)).norm(), (x.col(2) - x.col(3)).norm()),
+            std::max((x.col(3) - x.col(0)).norm(), (x.col(2) - x.col(1)).norm())};
+}
+
+void refuse_too_many(const std::vector<Panels>& panels, int n) {
+    double points = 0.0;
+    for (const Panels& p : panels) points += static_cast<double>(n * p[0]) * (n * p[1]);
+    if (points <= most_points) return;
+    throw fault::BadInput(
+        "scene", {{"/transfer/points_per_cell",
+                   "would take " + std::to_string(static_cast<long long>(points)) + " points",
+                   "ask for fewer points per cell, or give larger cells (/mpm/cell_size)"}});
+}
+
+std::vector<std::size_t> counts(const std::vector<Corners>& elements,
+                                const std::vector<Panels>& panels, int n, const CellCover& cover) {
+    std::vector<std::size_t> count(cover.share.size(), 0);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        const GaussRule along = gauss_legendre(n, panels[e][0]);
+        const GaussRule across = gauss_legendre(n, panels[e][1]);
+        for (const double eta : across.position)
+            for (const double xi : along.position)
+                ++count[cover.cell(elements[e] * shape_functions({xi, eta}))];
+    }
+    return count;
+}
+
+std::size_t owed(double share, int asked) {
+    return static_cast<std::size_t>(std::floor((share + 1e-6) * asked));
+}
+
+CellSupply supply_of(const CellCover& cover, const std::vector<std::size_t>& count, int asked) {
+    CellSupply supply;
+    for (std::size_t c = 0; c < count.size(); ++c) {
+        if (cover.share[c] <= round_off) continue;
+        ++supply.occupied;
+        if (count[c] < owed(cover.share[c], asked)) ++supply.short_cells;
+        if (cover.share[c] < 1.0 - 1e-6) continue;
+        if (supply.filled++ == 0 || count[c] < supply.least_in_filled)
+            supply.least_in_filled = count[c];
+    }
+    return supply;
+}
+
+}  // namespace
+
+Sampling one_panel_each(std::size_t elements) {
+    return {std::vector<Panels>(elements, Panels{1, 1}), std::nullopt};
+}
+
+Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand) {
+    const int n = demand.points_per_panel;
+    const int asked = demand.points_per_cell;
+    const double distance =
+        demand.cell_size / std::ceil(std::sqrt(static_cast<double>(asked)) - 1e-9);
+    Sampling sampling = one_panel_each(elements.size());
+    for (std::size_t e = 0; e < elements.size(); ++e)
+        for (int d = 0; d < 2; ++d)
+            sampling.panels[e][d] = std::max(
+                1, static_cast<int>(std::ceil(lengths(elements[e])[d] / (n * distance) - 1e-9)));
+    refuse_too_many(sampling.panels, n);
+
+    const CellCover cover(elements, demand);
+    std::vector<std::size_t> count = counts(elements, sampling.panels, n, cover);
+    std::vector<char> refined(elements.size());
+    for (int round = 0; round < most_rounds; ++round) {
+        std::ranges::fill(refined, char{0});
+        bool any = false;
+        for (const CellCover::Part& part : cover.parts) {
+            if (count[part.cell] >= owed(cover.share[part.cell], asked)) continue;
+            if (refined[part.element]) continue;
+            refined[part.element] = 1;
+            any = true;
+            Panels& panels = sampling.panels[part.element];
+            const Vec2 length = lengths(elements[part.element]);
+            ++panels[length[0] / panels[0] >= length[1] / panels[1] ? 0 : 1];
+        }
+        if (!any) break;
+        refuse_too_many(sampling.panels, n);
+        count = counts(elements, sampling.panels, n, cover);
+    }
+    sampling.supply = supply_of(cover, count, asked);
+    return sampling;
+}
+
+}  // namespace breach::transfer

@@ -1,0 +1,57 @@
+// Values carried between two sets of places that lie in the same regions: from Gauss points to
+// material points, and back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "transfer_tool/rbf.hpp"
+#include "transfer_tool/watch.hpp"
+
+namespace breach::transfer {
+
+/// Where values are known.
+struct Sources {
+    std::vector<Vec2> place;           ///< [m]
+    std::vector<std::int32_t> region;  ///< of each
+    std::size_t regions = 0;
+};
+
+/// Where they are wanted, in groups of neighbours (one per element).
+struct Targets {
+    std::vector<Vec2> place;           ///< [m]
+    std::vector<std::size_t> first;    ///< [n_groups + 1]
+    std::vector<std::int32_t> region;  ///< [n_groups]
+    std::vector<Vec2> middle;          ///< [n_groups]
+    std::vector<std::int64_t> same;    ///< [n_targets] the source at this very place, or -1
+};
+
+/// What the interpolation had to do beside interpolating.
+struct GaussFieldReport {
+    std::size_t merged_centres = 0;          ///< coincident sources that were taken as one
+    std::size_t raised_strains = 0;          ///< epsilon_q below zero, set to zero
+    std::size_t smallest_neighbourhood = 0;  ///< fewest centres that any group had; local only
+};
+
+struct Interpolated {
+    Values value;  ///< one row per target
+    GaussFieldReport report;
+};
+
+struct Work {
+    int threads = 1;
+    Watch watch = {};
+};
+
+/// local: one interpolant per group through the `neighbours` sources of its region that are nearest
+/// to its middle, so nothing crosses a region's border, memory is linear in the number of targets
+/// and the result does not depend on the number of threads. A target at a source takes its value.
+/// paper: one interpolant through all sources. Throws BadInput when they are too many for a dense
+/// system. Nothing when the watch stopped it.
+std::optional<Interpolated> interpolate(const Sources& from, const Values& value, const Targets& to,
+                                        const scene::Transfer& settings, const Work& work);
+
+}  // namespace breach::transfer

@@ -1,0 +1,114 @@
+#include "transfer_tool/shapes.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::transfer {
+namespace {
+
+using exchange::MeshSnapshot;
+
+constexpr std::size_t most_listed = 5;
+
+std::string describe(const MeshSnapshot& mesh, std::size_t e,
+                     const mechanics::JacobianRatio& ratio) {
+    const Vec2 centre = deformed_corners(mesh, e).rowwise().mean();
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "element %zu of region \"%s\" at (%.3f, %.3f) m: |J_t|/|J_0| = %.3g at its "
+                  "centre, %.3g at its worst corner",
+                  e, mesh.regions[mesh.region_of_element[e]].c_str(), centre.x(), centre.y(),
+                  ratio.centre, ratio.least);
+    return text;
+}
+
+void check_undeformed(const MeshSnapshot& mesh, const std::string& file) {
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e)
+        if (corner_jacobians(undeformed_corners(mesh, e)).minCoeff() <= 0.0)
+            throw fault::BadInput(
+                file, {{"/breachline/quads",
+                        "element " + std::to_string(e) + " is inverted before any deformation",
+                        "give a snapshot whose mesh has convex quads, corners counter-clockwise"}});
+}
+
+/// The undeformed element turned by the angle that brings its corners nearest to the displaced ones
+/// (least squares, no reflection), about the mean of the displaced corners.
+Corners rebuilt(const Corners& x_0, const Corners& x) {
+    const Vec2 middle_0 = x_0.rowwise().mean();
+    const Vec2 middle = x.rowwise().mean();
+    const Corners r_0 = x_0.colwise() - middle_0;
+    const Corners r = x.colwise() - middle;
+    const double along = (r_0.array() * r.array()).sum();
+    const double across =
+        (r_0.row(0).array() * r.row(1).array() - r_0.row(1).array() * r.row(0).array()).sum();
+    const double angle = along == 0.0 && across == 0.0 ? 0.0 : std::atan2(across, along);
+    Matrix2 R;
+    R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    return (R * r_0).colwise() + middle;
+}
+
+[[noreturn]] void refuse(const MeshSnapshot& mesh, const std::vector<RebuiltElement>& entangled,
+                         const std::string& file) {
+    std::string list;
+    for (std::size_t k = 0; k < std::min(entangled.size(), most_listed); ++k) {
+        const std::size_t e = entangled[k].element;
+        list += "\n  " + describe(mesh, e,
+                                  mechanics::jacobian_ratio(deformed_corners(mesh, e),
+                                                            undeformed_corners(mesh, e)));
+    }
+    if (entangled.size() > most_listed)
+        list += "\n  and " + std::to_string(entangled.size() - most_listed) + " more";
+    throw fault::Breakdown(file + ": the mesh is entangled at t = " + std::to_string(mesh.time) +
+                           " s and cannot be transferred" + list +
+                           "\n  remedy: transfer an earlier snapshot, or rebuild such elements "
+                           "(/transfer/entangled \"rebuild\")");
+}
+
+}  // namespace
+
+Corners corner_values(const std::vector<Vec2>& field, const std::array<std::int32_t, 4>& quad) {
+    Corners values;
+    for (int i = 0; i < 4; ++i) values.col(i) = field[quad[i]];
+    return values;
+}
+
+Eigen::Vector4d corner_values(const std::vector<double>& field,
+                              const std::array<std::int32_t, 4>& quad) {
+    return {field[quad[0]], field[quad[1]], field[quad[2]], field[quad[3]]};
+}
+
+Corners undeformed_corners(const MeshSnapshot& mesh, std::size_t element) {
+    return corner_values(mesh.position_0, mesh.quads[element]);
+}
+
+Corners deformed_corners(const MeshSnapshot& mesh, std::size_t element) {
+    return undeformed_corners(mesh, element) +
+           corner_values(mesh.displacement, mesh.quads[element]);
+}
+
+Shapes shapes_of_elements(const MeshSnapshot& mesh, scene::Entangled policy,
+                          const std::string& file) {
+    check_undeformed(mesh, file);
+    Shapes shapes;
+    shapes.corners.reserve(mesh.quads.size());
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        const Corners x_0 = undeformed_corners(mesh, e);
+        const Corners x = deformed_corners(mesh, e);
+        shapes.corners.push_back(x);
+        if (corner_jacobians(x).minCoeff() > 0.0) continue;
+        shapes.corners.back() = rebuilt(x_0, x);
+        shapes.rebuilt.push_back({.element = e,
+                                  .region = mesh.regions[mesh.region_of_element[e]],
+                                  .centre = x.rowwise().mean(),
+                                  .least = mechanics::jacobian_ratio(x, x_0).least,
+                                  .area_on_mesh = corner_jacobians(x).sum(),
+                                  .area = corner_jacobians(x_0).sum()});
+    }
+    if (policy == scene::Entangled::refuse && !shapes.rebuilt.empty())
+        refuse(mesh, shapes.rebuilt, file);
+    return shapes;
+}
+
+}  // namespace breach::transfer

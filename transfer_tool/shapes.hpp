@@ -1,0 +1,45 @@
+// The places of the elements' corners that a transfer works with: those of the deformed mesh, and
+// for an inverted element, if the scene asks for it, its undistorted shape.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/scene/scene.hpp"
+#include "transfer_tool/quad.hpp"
+
+namespace breach::transfer {
+
+/// Any nodal field at an element's corners, columns are corners.
+Corners corner_values(const std::vector<Vec2>& field, const std::array<std::int32_t, 4>& quad);
+Eigen::Vector4d corner_values(const std::vector<double>& field,
+                              const std::array<std::int32_t, 4>& quad);
+
+/// Places of an element's corners [m].
+Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
+Corners deformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
+
+/// An element that was inverted or entangled (J <= 0 at a corner).
+struct RebuiltElement {
+    std::size_t element;
+    std::string region;
+    Vec2 centre;          ///< [m]
+    double least;         ///< worst corner's |J_t|/|J_0| on the mesh [-]
+    double area_on_mesh;  ///< signed [m2]
+    double area;          ///< of the shape that it got: the undeformed one [m2]
+};
+
+struct Shapes {
+    std::vector<Corners> corners;  ///< [n_elements], every one with J > 0 at its corners [m]
+    std::vector<RebuiltElement> rebuilt;
+};
+
+/// refuse: throws Breakdown, naming the elements, the time and |J_t|/|J_0|, when a deformed element
+/// is inverted or entangled. rebuild: such an element takes its undeformed shape, its centre at the
+/// mean of its displaced corners, turned with its edges as far as they still agree. BadInput when
+/// an undeformed element is inverted.
+Shapes shapes_of_elements(const exchange::MeshSnapshot& mesh, scene::Entangled policy,
+                          const std::string& file);
+
+}  // namespace breach::transfer

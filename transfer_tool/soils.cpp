@@ -1,0 +1,168 @@
+#include "transfer_tool/soils.hpp"
+
+#include <algorithm>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::transfer {
+namespace {
+
+using exchange::MeshSnapshot;
+using exchange::StressMeasure;
+
+/// Only a law with friction can tell an effective stress from a total one.
+StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
+    const auto* frictional = std::get_if<materials::MohrCoulomb>(&law);
+    const bool effective = frictional != nullptr && frictional->phi > 0.0 &&
+                           wanted == scene::TransferredStress::effective;
+    return effective ? StressMeasure::effective : StressMeasure::total;
+}
+
+/// Index into the section's regions of each region of the mesh; faults where the scene does not
+/// fit.
+std::vector<std::size_t> match_regions(const MeshSnapshot& mesh, const scene::Scene& scene,
+                                       std::vector<fault::Fault>& faults) {
+    const std::string remedy = "use the scene that the snapshot was made with";
+    const auto& regions = scene.section.regions;
+    std::vector<std::size_t> match;
+    for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
+        const std::string& name = mesh.regions[r];
+        const auto region = std::ranges::find(regions, name, &scene::Region::name);
+        match.push_back(static_cast<std::size_t>(region - regions.begin()));
+        if (region == regions.end()) {
+            faults.push_back({"/section/regions",
+                              "the snapshot's region \"" + name + "\" is not in the scene",
+                              remedy});
+            continue;
+        }
+        const std::string& material = scene.materials[region->material].name;
+        if (material == mesh.materials_of_regions[r]) continue;
+        faults.push_back({"/section/regions/" + std::to_string(match.back()) + "/material",
+                          "\"" + name + "\" is of \"" + material + "\" in the scene and of \"" +
+                              mesh.materials_of_regions[r] + "\" in the snapshot",
+                          remedy});
+    }
+    return match;
+}
+
+void check_snapshot(const MeshSnapshot& mesh, const scene::Transfer& settings,
+                    std::vector<fault::Fault>& faults) {
+    if (settings.liquefied && mesh.sigma_v0.empty())
+        faults.push_back({"/transfer/liquefied",
+                          "the snapshot has no sigma_v0 and pore_pressure_0: nobody can tell what "
+                          "has liquefied",
+                          "give a snapshot of a FEM with pore water, or remove this part"});
+}
+
+}  // namespace
+
+SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std::string& file)
+    : mesh_(mesh) {
+    const scene::Transfer& settings = scene::transfer_of(scene);
+    std::vector<fault::Fault> faults;
+    const std::vector<std::size_t> match = match_regions(mesh, scene, faults);
+    check_snapshot(mesh, settings, faults);
+    if (!faults.empty()) throw fault::BadInput(file, faults);
+
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    for (const scene::Soil& soil : soils) {
+        const scene::Material& material = scene.materials[soil.material];
+        soils_.push_back({scene.section.regions[soil.region].name, material.name, material.law,
+                          measure_for(material.law, settings.stress)});
+    }
+    for (const std::size_t region : match) {
+        if (std::holds_alternative<materials::PM4Sand>(soils_[region].law))
+            faults.push_back(
+                {"/section/regions/" + std::to_string(region) + "/material",
+                 "\"" + soils_[region].material + "\" is pm4sand, which particles cannot have",
+                 "map \"" + soils_[region].region + "\" to another material in /transfer/mapping"});
+        add_rule(scene, soils, region);
+    }
+    if (!faults.empty()) throw fault::BadInput(file, faults);
+    phreatic_line_ = settings.phreatic_line;
+    if (!settings.liquefied) return;
+    for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
+        layer_ends_.push_back(layer.to);
+    std::vector<char> can_liquefy;
+    for (const RegionRule& rule : rules_) can_liquefy.push_back(rule.layers.empty() ? 0 : 1);
+    liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u);
+}
+
+void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
+                       std::size_t region) {
+    const scene::Transfer& settings = *scene.transfer;
+    const auto index = [&](std::size_t material) {
+        return static_cast<std::int32_t>(std::ranges::find(soils, scene::Soil{region, material}) -
+                                         soils.begin());
+    };
+    RegionRule rule{static_cast<std::int32_t>(region), std::nullopt, {}};
+    for (const scene::SoilMapping& each : settings.mapping)
+        if (each.region == region && each.saturated) rule.saturated = index(*each.saturated);
+    if (settings.liquefied && std::ranges::count(settings.liquefied->regions, region) > 0)
+        for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
+            rule.layers.push_back(index(layer.material));
+    rules_.push_back(std::move(rule));
+}
+
+std::int32_t SoilMap::at(std::size_t element, const Vec2& xi) const {
+    const RegionRule& rule = rules_[mesh_.region_of_element[element]];
+    if (!rule.saturated && rule.layers.empty()) return rule.soil;
+    const Eigen::Vector4d N = shape_functions(xi);
+    const Vec2 place = undeformed_corners(mesh_, element) * N;
+    if (!rule.layers.empty() && liquefied_->holds(place)) {
+        const double sigma_v0 = corner_values(mesh_.sigma_v0, mesh_.quads[element]).dot(N);
+        const auto layer = std::ranges::upper_bound(layer_ends_, sigma_v0) - layer_ends_.begin();
+        return rule.layers[std::min(static_cast<std::size_t>(layer), rule.layers.size() - 1)];
+    }
+    if (rule.saturated && place.y() < level_at(phreatic_line_, place.x())) return *rule.saturated;
+    return rule.soil;
+}
+
+double level_at(const std::vector<Vec2>& line, double x) {
+    const auto after = std::ranges::upper_bound(line, x, {}, [](const Vec2& p) { return p.x(); });
+    if (after == line.begin()) return line.front().y();
+    if (after == line.end()) return line.back().y();
+    const Vec2& a = *std::prev(after);
+    const Vec2& b = *after;
+    return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
+}
+
+void assign_soils(const SoilMap& map, Points& points) {
+    exchange::ParticleState& s = points.state;
+    s.regions.clear();
+    s.materials_of_regions.clear();
+    for (const SoilOfPoints& soil : map.soils()) {
+        s.regions.push_back(soil.region);
+        s.materials_of_regions.push_back(soil.material);
+        if (!s.pore_pressure.empty()) s.stress_of_regions.push_back(soil.stress);
+    }
+    for (std::size_t e = 0; e + 1 < points.first.size(); ++e)
+        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
+            s.region[p] = map.at(e, points.xi[p]);
+}
+
+mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,
+                           double u) {
+    if (soil.stress == StressMeasure::effective) return sigma_effective;
+    return sigma_effective - u * mechanics::Voigt(1.0, 1.0, 1.0, 0.0);
+}
+
+void settle_stress(const SoilMap& map, exchange::ParticleState& state) {
+    if (state.pore_pressure.empty()) return;
+    for (std::size_t p = 0; p < state.size(); ++p)
+        state.stress[p] =
+            stress_of(map.soils()[state.region[p]], state.stress[p], state.pore_pressure[p]);
+}
+
+std::vector<SoilShare> shares_of_soils(const SoilMap& map, const exchange::ParticleState& state) {
+    std::vector<SoilShare> shares(map.soils().size());
+    for (std::size_t i = 0; i < shares.size(); ++i) shares[i].soil = i;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        ++shares[state.region[p]].points;
+        shares[state.region[p]].mass += state.mass[p];
+    }
+    std::erase_if(shares, [](const SoilShare& each) { return each.points == 0; });
+    return shares;
+}
+
+}  // namespace breach::transfer

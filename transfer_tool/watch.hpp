@@ -1,0 +1,13 @@
+// How long work tells how far it is and hears that it should stop.
+#pragma once
+
+#include <functional>
+
+namespace breach::transfer {
+
+struct Watch {
+    /// Takes the share that is done, in [0, 1]; false: stop. Called on one thread only.
+    std::function<bool(double)> go_on = [](double) { return true; };
+};
+
+}  // namespace breach::transfer
