@@ -1,6 +1,7 @@
 // A chart as data, and its picture as self-contained SVG. Knows nothing of soils or files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace breach::report {
 
-enum class Style { line, points, line_and_points, area };
+/// segments: points 0-1, 2-3, ... are joined (meshes); dots: one small dot per point (clouds).
+enum class Style { line, points, line_and_points, area, segments, dots };
 enum class Aspect { free, equal };  ///< equal: a unit of x is as long as a unit of y
 
 struct Axis {
@@ -21,6 +23,16 @@ struct Series {
     std::vector<double> x;
     std::vector<double> y;
     Style style = Style::line;
+};
+
+/// Polygons (or, with one corner each, dots) coloured by a value.
+struct Field {
+    std::string label;          ///< of the value, with its unit
+    std::size_t corners;        ///< of each polygon
+    std::vector<double> x;      ///< [n * corners], corner after corner
+    std::vector<double> y;      ///< [n * corners]
+    std::vector<double> value;  ///< [n]
+    Range range;  ///< of the colours; what lies beyond has the colour of the nearer end
 };
 
 /// A line across the chart at one value.
@@ -37,10 +49,16 @@ struct Chart {
     std::vector<Series> series;
     std::vector<Mark> marks = {};
     Aspect aspect = Aspect::free;
+    std::optional<Field> field = {};  ///< drawn beneath the series
 };
 
-/// Axes cover all series and marks. Values are finite, and positive on a logarithmic axis: throws
-/// std::invalid_argument otherwise, or when there is nothing to draw.
+/// Axes cover all series, marks and the field. Values are finite, and positive on a logarithmic
+/// axis; columns of a series are equally long, of segments even; throws std::invalid_argument
+/// otherwise, or when there is nothing to draw. A flat chart of equal aspect is drawn with heights
+/// exaggerated by a whole number, which its y axis states.
 std::string as_svg(const Chart& chart);
+
+/// Throws std::invalid_argument when columns that belong together differ in length.
+void check_columns(const Chart& chart);
 
 }  // namespace breach::report

@@ -13,9 +13,27 @@ std::string quoted(const std::string& text) {
     return out + '"';
 }
 
+std::string as_csv(const Field& field) {
+    std::string csv;
+    for (std::size_t k = 0; k < field.corners; ++k) {
+        const std::string of = field.corners > 1 ? std::to_string(k + 1) : "";
+        csv += "x" + of + " [m],y" + of + " [m],";
+    }
+    csv += quoted(field.label) + '\n';
+    for (std::size_t i = 0; i < field.value.size(); ++i) {
+        for (std::size_t k = i * field.corners; k < (i + 1) * field.corners; ++k) {
+            csv += exact(field.x[k]) + ',' + exact(field.y[k]) + ',';
+        }
+        csv += exact(field.value[i]) + '\n';
+    }
+    return csv;
+}
+
 }  // namespace
 
 std::string as_csv(const Chart& chart) {
+    check_columns(chart);
+    if (chart.field) return as_csv(*chart.field);
     std::string csv = "series," + quoted(chart.x.label) + ',' + quoted(chart.y.label) + '\n';
     for (const Series& each : chart.series) {
         for (std::size_t i = 0; i < each.x.size(); ++i) {

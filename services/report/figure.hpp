@@ -12,9 +12,12 @@ namespace breach::report {
 struct Figure {
     std::string name;  ///< file name without extension
     Chart chart;
+    std::string caption = {};  ///< what is seen, in a sentence or two
 };
 
-/// Columns series, x, y (with the axes' labels as heads), one row per point, every digit.
+/// Columns series, x, y (with the axes' labels as heads), one row per point, every digit. A chart
+/// with a field instead: x and y of each corner and the value, one row per place; what is drawn
+/// over it is not data.
 std::string as_csv(const Chart& chart);
 /// Writes name.svg and name.csv. Throws IoError; BadInput if the name would leave the folder.
 void write_figures(const std::filesystem::path& folder, const std::vector<Figure>& figures);
