@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "transfer_tool/run.hpp"
 
@@ -8,13 +9,82 @@ namespace {
 using process::PlanLine;
 using process::Use;
 
-bool yields(const scene::Material& material) {
-    return std::holds_alternative<materials::MohrCoulomb>(material.law);
+/// Materials that points can get, each once.
+std::vector<const scene::Material*> materials_of_points(const scene::Scene& scene) {
+    std::vector<const scene::Material*> materials;
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        const scene::Material* material = &scene.materials[soil.material];
+        if (std::ranges::find(materials, material) == materials.end())
+            materials.push_back(material);
+    }
+    return materials;
 }
 
-bool softens(const scene::Material& material) {
-    const auto* law = std::get_if<materials::MohrCoulomb>(&material.law);
+bool yields(const scene::Material* material) {
+    return std::holds_alternative<materials::MohrCoulomb>(material->law);
+}
+
+bool softens(const scene::Material* material) {
+    const auto* law = std::get_if<materials::MohrCoulomb>(&material->law);
     return law != nullptr && law->softening.has_value();
+}
+
+bool rubs(const scene::Material* material) {
+    const auto* law = std::get_if<materials::MohrCoulomb>(&material->law);
+    return law != nullptr && law->phi > 0.0;
+}
+
+PlanLine stress_line(const scene::Scene& scene, const scene::Transfer& settings) {
+    const bool wet = scene.fem && scene.fem->water;
+    if (!wet)
+        return {"pore pressure", Use::left_out,
+                "the scene's FEM has no water; a snapshot with water is carried all the same",
+                "/fem/water"};
+    if (settings.stress == scene::TransferredStress::total ||
+        std::ranges::none_of(materials_of_points(scene), rubs))
+        return {"pore pressure", Use::on, "all points get the total stress sigma' - u I",
+                "/transfer/stress"};
+    return {"pore pressure", Use::on,
+            "frictional materials keep the effective stress beside u, all others get the total one",
+            "/transfer/stress"};
+}
+
+PlanLine cells_line(const scene::Transfer& settings) {
+    if (!settings.points_per_cell)
+        return {"elements cut for the MPM's cells", Use::left_out,
+                "every element gets its points per direction", "/transfer/points_per_cell"};
+    return {
+        "elements cut for the MPM's cells", Use::on,
+        "every filled cell gets at least " + std::to_string(*settings.points_per_cell) + " points",
+        "/transfer/points_per_cell"};
+}
+
+PlanLine liquefied_line(const scene::Transfer& settings) {
+    if (!settings.liquefied)
+        return {"liquefied layers", Use::left_out, "the scene names none", "/transfer/liquefied"};
+    char reason[128];
+    std::snprintf(reason, sizeof reason, "%zu layers above the deepest node with r_u > %g",
+                  settings.liquefied->layers.size(), settings.liquefied->r_u);
+    return {"liquefied layers", Use::on, reason, "/transfer/liquefied"};
+}
+
+PlanLine entangled_line(const scene::Transfer& settings) {
+    if (settings.entangled == scene::Entangled::refuse)
+        return {"rebuilding of inverted elements", Use::left_out, "they end the transfer",
+                "/transfer/entangled"};
+    return {"rebuilding of inverted elements", Use::on, "from their undistorted shape",
+            "/transfer/entangled"};
+}
+
+PlanLine round_trip_line(const scene::Transfer& settings) {
+    return {"round trip", settings.round_trip ? Use::on : Use::left_out,
+            settings.round_trip ? "points back to the mesh, to measure the error" : "not asked for",
+            "/transfer/round_trip"};
+}
+
+PlanLine balance_line(const scene::Scene& scene) {
+    return {"out-of-balance force", scene.mpm ? Use::on : Use::left_out,
+            scene.mpm ? "of the points on the MPM's grid" : "the scene has no MPM grid", "/mpm"};
 }
 
 PlanLine interpolation_line(const scene::Transfer& settings) {
@@ -28,11 +98,13 @@ PlanLine interpolation_line(const scene::Transfer& settings) {
 }
 
 PlanLine gauss_line(const scene::Transfer& settings) {
-    const bool same =
-        settings.interpolation == scene::Interpolation::local && settings.points_per_direction == 2;
+    const bool same = settings.interpolation == scene::Interpolation::local &&
+                      settings.points_per_direction == 2 && !settings.points_per_cell;
     if (same)
         return {"radial basis functions", Use::left_out,
-                "2 points per direction lie at the FEM's own Gauss points and take their values",
+                "2 points per direction take the values of 2 x 2 Gauss points that lie there; a "
+                "FEM with "
+                "other Gauss points is interpolated",
                 "/transfer/points_per_direction"};
     return {"radial basis functions", Use::on,
             std::to_string(settings.points_per_direction) + " points per direction",
@@ -40,7 +112,7 @@ PlanLine gauss_line(const scene::Transfer& settings) {
 }
 
 PlanLine softening_line(const scene::Scene& scene, const scene::Transfer& settings) {
-    if (std::ranges::none_of(scene.materials, softens))
+    if (std::ranges::none_of(materials_of_points(scene), softens))
         return {"softening carried over", Use::left_out, "no material softens", "/materials"};
     if (settings.softening_start == scene::SofteningStart::zero)
         return {"softening carried over", Use::left_out, "\"zero\": it starts anew in the MPM",
@@ -53,14 +125,18 @@ PlanLine softening_line(const scene::Scene& scene, const scene::Transfer& settin
 
 process::Plan plan(const scene::Scene& scene) {
     const scene::Transfer& settings = scene::transfer_of(scene);
-    const bool any_yields = std::ranges::any_of(scene.materials, yields);
+    const bool any_yields = std::ranges::any_of(materials_of_points(scene), yields);
     return {{"return to the yield surface", any_yields ? Use::on : Use::left_out,
              any_yields ? "a Mohr-Coulomb material" : "all materials are elastic", "/materials"},
             softening_line(scene, settings),
             gauss_line(settings),
             interpolation_line(settings),
-            {"pore pressure", Use::left_out, "every material is dry or drained", "/materials"},
-            {"liquefied layers", Use::left_out, "no material liquefies", "/materials"}};
+            stress_line(scene, settings),
+            liquefied_line(settings),
+            cells_line(settings),
+            entangled_line(settings),
+            round_trip_line(settings),
+            balance_line(scene)};
 }
 
 }  // namespace breach::transfer

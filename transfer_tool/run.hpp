@@ -1,4 +1,5 @@
-// The transfer as a phase: its plan, and one snapshot in, one particle file out.
+// The transfer as a phase: its plan, and one snapshot in, one particle file out; and its advice as
+// another.
 #pragma once
 
 #include "core/process/phase.hpp"
@@ -7,5 +8,10 @@ namespace breach::transfer {
 
 process::Plan plan(const scene::Scene& scene);
 process::Outcome run(process::Session& session);
+/// The scene, and whether its advice window can be read.
+scene::Scene read(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+/// `transfer_tool advise`: telemetry in, result.json out.
+process::Phase advise_phase();
 
 }  // namespace breach::transfer

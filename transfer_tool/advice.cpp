@@ -1,0 +1,172 @@
+#include "transfer_tool/advice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <span>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::transfer {
+namespace {
+
+using criteria::Criterion;
+using criteria::TelemetryLine;
+
+/// What the case document names as signs, in the order of a failure's course.
+struct KnownSign {
+    const char* name;
+    const char* condition;
+};
+constexpr std::array known_signs{
+    KnownSign{"liquefaction reaches 10 m", "liquefaction_depth > 10"},
+    KnownSign{"first failure surface", "failure_surfaces >= 1"},
+    KnownSign{"second failure surface", "failure_surfaces >= 2"},
+    KnownSign{"energy grows e-fold in a second", "growth(kinetic_energy, 1) > 1"},
+    KnownSign{"strained elements: mean epsilon_q above 20 %", "epsilon_q_avg > 0.2"},
+    KnownSign{"strained elements: mean least |J_t|/|J_0| below 0.97", "jacobian_least_avg < 0.97"},
+    KnownSign{"strained elements: mean area |J_t|/|J_0| below 0.97", "jacobian_centre_avg < 0.97"},
+};
+
+std::vector<std::string> missing_fields(const criteria::Expression& expression,
+                                        std::span<const TelemetryLine> telemetry) {
+    std::vector<std::string> missing;
+    for (const std::string& field : expression.fields)
+        if (std::ranges::none_of(telemetry,
+                                 [&](const auto& line) { return line.values.contains(field); }))
+            missing.push_back(field);
+    return missing;
+}
+
+Sign sign_of(const std::string& name, const std::string& condition,
+             std::span<const TelemetryLine> telemetry) {
+    const auto expression = criteria::parse(condition, criteria::Kind::condition, "");
+    Sign sign{name, condition, missing_fields(expression, telemetry).empty(), {}};
+    criteria::Evaluation evaluation(expression);
+    bool before = false;
+    for (const TelemetryLine& line : telemetry) {
+        const bool now = evaluation(line.time, line_for(expression, line).values) == 1.0;
+        if (now && !before) sign.onsets.push_back(line.time);
+        before = now;
+    }
+    return sign;
+}
+
+std::optional<Edge> edge_of(const Criterion& criterion) {
+    if (criterion.state() != Criterion::State::met) return std::nullopt;
+    Edge edge{criterion.expression().text, criterion.crossing()->time, {}};
+    for (std::size_t i = 0; i < criterion.expression().fields.size(); ++i)
+        edge.values[criterion.expression().fields[i]] = criterion.crossing()->values[i];
+    return edge;
+}
+
+std::string line_of(const char* format, double value) {
+    char text[160];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string edge_text(const char* name, const Edge& edge) {
+    std::string text = std::string(name) + line_of(" %.6g s: ", edge.time) + edge.condition;
+    for (const auto& [field, value] : edge.values) text += ", " + field + line_of(" = %.4g", value);
+    return text + "\n";
+}
+
+std::string sign_text(const Sign& sign) {
+    std::string text = "  " + sign.name + " (" + sign.condition + "): ";
+    if (!sign.known) return text + "the telemetry has no such field\n";
+    if (sign.onsets.empty()) return text + "never\n";
+    for (std::size_t i = 0; i < sign.onsets.size(); ++i)
+        text += (i == 0 ? "from " : ", again from ") + line_of("%.6g s", sign.onsets[i]);
+    return text + "\n";
+}
+
+}  // namespace
+
+criteria::Window window_of(const scene::Scene& scene) {
+    const auto& window = scene::transfer_of(scene).window;
+    if (!window)
+        throw fault::BadInput(scene.name, {{"/transfer/window", "is missing, and advice needs it",
+                                            "say in \"lower\" when the failure has developed"}});
+    std::vector<fault::Fault> faults;
+    const auto parsed = [&](const std::string& text, const char* pointer) {
+        try {
+            return criteria::parse(text, criteria::Kind::condition, pointer);
+        } catch (const fault::BadInput& refusal) {
+            faults.insert(faults.end(), refusal.faults().begin(), refusal.faults().end());
+            return criteria::Expression{};
+        }
+    };
+    criteria::Expression lower = parsed(window->lower, "/transfer/window/lower");
+    criteria::Expression upper = parsed(window->upper, "/transfer/window/upper");
+    if (!faults.empty()) throw fault::BadInput(scene.name, faults);
+    return {std::move(lower), std::move(upper), window->hold};
+}
+
+Advice advise(const scene::Scene& scene, const std::vector<TelemetryLine>& telemetry,
+              const std::vector<double>& snapshots) {
+    criteria::Window window = window_of(scene);
+    Advice advice;
+    advice.begin = telemetry.front().time;
+    advice.end = telemetry.back().time;
+    for (const TelemetryLine& line : telemetry) {
+        window.take_lower(line_for(window.lower().expression(), line));
+        window.take_upper(line_for(window.upper().expression(), line));
+    }
+    for (const Criterion* each : {&window.lower(), &window.upper()})
+        for (const std::string& field : missing_fields(each->expression(), telemetry))
+            advice.missing.push_back(field);
+    for (const KnownSign& each : known_signs)
+        advice.signs.push_back(sign_of(each.name, each.condition, telemetry));
+    advice.lower = edge_of(window.lower());
+    if (!advice.lower) return advice;
+    advice.upper = edge_of(window.upper());
+    const double from = advice.lower->time;
+    const double to = advice.until();
+    advice.half_way = 0.5 * (from + to);
+    for (const double t : snapshots)
+        if (t >= from && t <= to) advice.snapshots.push_back(t);
+    advice.pick = criteria::picked(*criteria::pick_named(scene.transfer->window->pick), from, to,
+                                   advice.snapshots);
+    return advice;
+}
+
+std::vector<double> snapshot_times(const std::filesystem::path& folder) {
+    constexpr std::string_view head = "snapshot_";
+    constexpr std::string_view tail = ".vtkhdf";
+    std::vector<double> times;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(head) || !name.ends_with(tail)) continue;
+        const char* begin = name.data() + head.size();
+        const char* end = name.data() + name.size() - tail.size();
+        double time = 0.0;
+        if (std::from_chars(begin, end, time).ptr == end && begin != end) times.push_back(time);
+    }
+    std::ranges::sort(times);
+    return times;
+}
+
+std::string as_text(const Advice& advice) {
+    std::string text =
+        line_of("telemetry from %.6g s", advice.begin) + line_of(" to %.6g s\n", advice.end);
+    for (const std::string& field : advice.missing)
+        text += "the telemetry has no \"" + field + "\": a condition on it is never true\n";
+    if (!advice.lower) {
+        text += "no window: the failure has not developed\n";
+    } else {
+        text += edge_text("lower edge", *advice.lower);
+        text += advice.upper ? edge_text("upper edge", *advice.upper)
+                             : line_of("upper edge %.6g s: the telemetry's end\n", advice.end);
+        text += line_of("half-way %.6g s\n", *advice.half_way);
+        text += std::to_string(advice.snapshots.size()) + " snapshots in the window" +
+                (advice.pick ? line_of("; take the one at %.6g s\n", *advice.pick)
+                             : std::string("; run the FEM with one there\n"));
+    }
+    text += "signs\n";
+    for (const Sign& sign : advice.signs) text += sign_text(sign);
+    return text;
+}
+
+}  // namespace breach::transfer

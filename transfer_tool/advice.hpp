@@ -1,0 +1,61 @@
+// Which transfer times are sound, and why: the window of /transfer/window over a FEM's telemetry,
+// found by the code that a study's window trigger uses, and the signs that speak for it. Sordo et
+// al. 2024: after the failure has developed, before the mesh is too distorted, half-way between.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/criteria/telemetry.hpp"
+#include "core/criteria/window.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::transfer {
+
+/// One reading of the telemetry that speaks for an edge of the window.
+struct Sign {
+    std::string name;            ///< "energy growth"
+    std::string condition;       ///< as evaluated
+    bool known;                  ///< whether the telemetry has its fields
+    std::vector<double> onsets;  ///< every time at which it became true [s]
+};
+
+/// Where a condition of the window was first true for its hold.
+struct Edge {
+    std::string condition;
+    double time;                           ///< [s]
+    std::map<std::string, double> values;  ///< of its fields on that line
+};
+
+struct Advice {
+    double begin = 0.0;  ///< of the telemetry [s]
+    double end = 0.0;
+    std::optional<Edge> lower;       ///< nothing: the failure has not developed
+    std::optional<Edge> upper;       ///< nothing: the telemetry ends first, and closes the window
+    std::vector<double> snapshots;   ///< in the window [s]
+    std::optional<double> half_way;  ///< between the edges [s]
+    std::optional<double> pick;      ///< the snapshot to take [s]
+    std::vector<Sign> signs;
+    std::vector<std::string> missing;  ///< fields of the window that the telemetry lacks
+
+    /// The end of the window: the upper edge, or the telemetry's end [s].
+    double until() const { return upper ? upper->time : end; }
+};
+
+/// The window's conditions, parsed. Throws BadInput with the JSON pointer of what cannot be read,
+/// or when the scene has no /transfer/window.
+criteria::Window window_of(const scene::Scene& scene);
+
+/// snapshots: times at which the FEM wrote one, ascending [s].
+Advice advise(const scene::Scene& scene, const std::vector<criteria::TelemetryLine>& telemetry,
+              const std::vector<double>& snapshots);
+
+/// Times in the names of the snapshots that lie in a folder, ascending [s].
+std::vector<double> snapshot_times(const std::filesystem::path& folder);
+
+/// A few lines for people.
+std::string as_text(const Advice& advice);
+
+}  // namespace breach::transfer
