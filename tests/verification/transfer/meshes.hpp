@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "transfer_tool/transfer.hpp"
@@ -67,6 +68,18 @@ inline MeshSnapshot grid(const Grid& g) {
                 s.nodal_mass[s.quads[e][i]] += s.density[e] * s.thickness * integral(i, k) * J[k];
     }
     return s;
+}
+
+/// Groundwater up to `level`, hydrostatic, and as much excess pore pressure as r_u(place) asks for.
+inline void soak(MeshSnapshot& s, double level,
+                 const std::function<double(const mechanics::Vec2&)>& r_u) {
+    for (const auto& x : s.position_0) {
+        const double u_0 = std::max(0.0, 9810.0 * (level - x.y()));
+        const double sigma_v0 = std::max(0.0, 9000.0 * (level - x.y()));
+        s.pore_pressure_0.push_back(u_0);
+        s.sigma_v0.push_back(sigma_v0);
+        s.pore_pressure.push_back(u_0 + r_u(x) * sigma_v0);
+    }
 }
 
 /// A displacement with shear, bulging and area change, and a velocity with every kind of gradient.
@@ -153,6 +166,27 @@ inline scene::Scene scene_for(const MeshSnapshot& s, const materials::Law& law,
             {.name = name, .material = 0, .polygon = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
     scene.transfer = how;
     return scene;
+}
+
+/// An MPM grid of square cells from the origin.
+inline scene::Mpm cells(double size, double width, double height,
+                        scene::Kernel kernel = scene::Kernel::linear) {
+    scene::Mpm mpm{};
+    mpm.cell_size = size;
+    mpm.domain_x = {0.0, width};
+    mpm.domain_y = {0.0, height};
+    mpm.left = mpm.right = scene::Wall::roller;
+    mpm.kernel = kernel;
+    mpm.gimp_half_size = 0.25;
+    return mpm;
+}
+
+/// The row of a ledger; a failure when there is none.
+inline exchange::LedgerRow row_of(const exchange::Ledger& ledger, const std::string& region,
+                                  const std::string& quantity) {
+    for (const auto& row : ledger)
+        if (row.region == region && row.quantity == quantity) return row;
+    throw std::logic_error("no row " + region + ", " + quantity);
 }
 
 inline const materials::LinearElastic elastic{{.E = 20e6, .nu = 0.3}};

@@ -1,0 +1,96 @@
+#include "transfer_tool/sampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/fault/fault.hpp"
+#include "tests/verification/transfer/meshes.hpp"
+
+namespace breach::transfer {
+namespace {
+
+TEST(PanelledRule, HasTheRulesDegreeAndWithTwoPointsEqualWeights) {
+    for (const int n : {1, 2, 3})
+        for (const int panels : {1, 2, 5}) {
+            const GaussRule rule = gauss_legendre(n, panels);
+            ASSERT_EQ(rule.position.size(), static_cast<std::size_t>(n * panels));
+            for (int degree = 0; degree < 2 * n; ++degree) {
+                double sum = 0.0;
+                for (std::size_t i = 0; i < rule.position.size(); ++i)
+                    sum += rule.weight[i] * std::pow(rule.position[i], degree);
+                EXPECT_NEAR(sum, degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0, 1e-14);
+            }
+            EXPECT_TRUE(std::ranges::is_sorted(rule.position));
+        }
+    for (const double w : gauss_legendre(2, 7).weight) EXPECT_DOUBLE_EQ(w, 1.0 / 7.0);
+}
+
+/// Columns of 1 m, then of 10 m; rows of 1 m: the wide ones leave gaps with 2 points per direction.
+meshes::MeshSnapshot narrow_and_wide() {
+    auto mesh = meshes::grid({.nx = 10, .ny = 10, .width = 10.0, .height = 10.0});
+    for (auto& x : mesh.position_0) x.x() = x.x() <= 5.0 ? x.x() : 5.0 + 10.0 * (x.x() - 5.0);
+    return mesh;
+}
+
+/// Counted anew: points per cell of 2.5 m.
+std::map<std::pair<int, int>, int> counted(const Points& points) {
+    std::map<std::pair<int, int>, int> count;
+    for (const auto& x : points.state.position)
+        ++count[{static_cast<int>(x.x() / 2.5), static_cast<int>(x.y() / 2.5)}];
+    return count;
+}
+
+std::vector<Corners> shapes(const meshes::MeshSnapshot& mesh) {
+    return shapes_of_elements(mesh, scene::Entangled::refuse, "mesh").corners;
+}
+
+TEST(Sampling, AWideElementBesideSmallCellsLeavesNoGaps) {
+    const auto mesh = narrow_and_wide();
+    // 10 m wide, 2 points per direction: cells 2.5 m wide go without.
+    const Points plain = meshes::points_on(mesh, 2);
+    EXPECT_LT(counted(plain).size(), 22u * 4u);
+
+    const Sampling sampling = sampling_for_cells(shapes(mesh), {2.5, {0.0, 0.0}, 4, 2});
+    const Points points = place_points(mesh, shapes(mesh), sampling.panels, 2);
+    const auto count = counted(points);
+    EXPECT_EQ(count.size(), 22u * 4u);
+    for (const auto& [cell, n] : count) EXPECT_GE(n, 4);
+    ASSERT_TRUE(sampling.supply.has_value());
+    EXPECT_EQ(sampling.supply->filled, 22u * 4u);
+    EXPECT_EQ(sampling.supply->short_cells, 0u);
+    EXPECT_GE(sampling.supply->least_in_filled, 4u);
+    EXPECT_EQ(sampling.panels.front(), (Panels{1, 1})) << "small elements stay as they are";
+    EXPECT_EQ(sampling.panels.back()[1], 1) << "only the long direction is cut";
+}
+
+TEST(Sampling, ADeformedMeshThatFitsNoCellIsStillServed) {
+    auto mesh = meshes::grid({.nx = 7, .ny = 5, .width = 40.0, .height = 9.0, .skew = 0.25});
+    meshes::set_in_motion(mesh);
+    for (const int asked : {1, 4, 9}) {
+        const Sampling sampling = sampling_for_cells(shapes(mesh), {0.7, {-3.0, -2.0}, asked, 2});
+        EXPECT_EQ(sampling.supply->short_cells, 0u) << asked;
+        EXPECT_GE(sampling.supply->least_in_filled, static_cast<std::size_t>(asked));
+    }
+}
+
+TEST(Sampling, TooManyPointsAreRefusedBeforeTheyAreMade) {
+    const auto mesh = narrow_and_wide();
+    EXPECT_THROW(sampling_for_cells(shapes(mesh), {1e-3, {0.0, 0.0}, 4, 2}), fault::BadInput);
+}
+
+// Panels change neither the sums nor their exactness.
+TEST(Sampling, TheLedgerIsExactWithPanelsToo) {
+    auto mesh = narrow_and_wide();
+    meshes::set_in_motion(mesh);
+    auto how = meshes::settings(2);
+    how.points_per_cell = 4;
+    auto scene = meshes::scene_for(mesh, meshes::elastic, how);
+    scene.mpm = meshes::cells(2.5, 60.0, 20.0);
+    const auto t = meshes::transferred(mesh, scene);
+    EXPECT_NO_THROW(refuse_losses(t.ledger, how));
+    EXPECT_GT(t.state.size(), 4 * mesh.quads.size());
+}
+
+}  // namespace
+}  // namespace breach::transfer
