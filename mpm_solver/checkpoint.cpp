@@ -9,8 +9,8 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 2;
-constexpr const char* history_prefix = "history.";
+constexpr int version = 3;
+constexpr const char* records_prefix = "records.";
 
 /// The numbers of the run that are not per point. Calls visit(name, value).
 template <class AnyClock, class AnyStart, class AnyTally, class Visit>
@@ -76,7 +76,10 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
     archive.integers["run.frames"] = {clock.frames};
     archive.integers["run.looks"] = {clock.looks};
     archive.integers["run.telemetry_lines"] = {telemetry_lines};
-    store(simulation.history(), history_prefix, archive);
+    const Records& records = simulation.records();
+    store(records.history, records_prefix, archive);
+    store(simulation.gauges(), records.gauges, records_prefix, archive);
+    store(records.profiles, simulation.view(), records_prefix, archive);
     archive.texts["scene"] = provenance.scene;
     archive.texts["inputs"] = digests(provenance);
     write_archive(file, archive, provenance);
@@ -99,7 +102,10 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         clock.step = archive.integers.at("run.step").at(0);
         clock.frames = archive.integers.at("run.frames").at(0);
         clock.looks = archive.integers.at("run.looks").at(0);
-        return {Simulation(scene, std::move(body), clock, start, load(archive, history_prefix)),
+        Records records{load(archive, records_prefix),
+                        load_gauges(scene::mpm_of(scene).gauges, archive, records_prefix),
+                        load_profiles(archive, records_prefix)};
+        return {Simulation(scene, std::move(body), clock, start, std::move(records)),
                 archive.integers.at("run.telemetry_lines").at(0)};
     } catch (const std::out_of_range&) {
         throw fault::BadInput(file.string(), {{"/", "lacks an array of a checkpoint",

@@ -15,7 +15,11 @@ struct Row {
     double dt = 0.0;
     double runout = 0.0;
     double runout_beyond_toe = 0.0;
+    double runout_beyond_toe_95 = 0.0;
+    double runout_beyond_toe_50 = 0.0;
     double runout_largest = 0.0;
+    double runout_front = 0.0;     ///< farthest place with the front's depth, beyond the toe
+    double area_beyond_toe = 0.0;  ///< of the section
     double kinetic_energy = 0.0;
     double gravitational_energy = 0.0;
     double elastic_energy = 0.0;
@@ -35,7 +39,10 @@ template <class AnyRow, class Visit>
 void for_each_column(AnyRow& row, Visit&& visit) {
     visit("time", "s", row.time), visit("step", "1", row.step), visit("dt", "s", row.dt);
     visit("runout", "m", row.runout), visit("runout_beyond_toe", "m", row.runout_beyond_toe);
-    visit("runout_largest", "m", row.runout_largest);
+    visit("runout_beyond_toe_95", "m", row.runout_beyond_toe_95);
+    visit("runout_beyond_toe_50", "m", row.runout_beyond_toe_50);
+    visit("runout_largest", "m", row.runout_largest), visit("runout_front", "m", row.runout_front);
+    visit("area_beyond_toe", "m2", row.area_beyond_toe);
     visit("kinetic_energy", "J", row.kinetic_energy);
     visit("gravitational_energy", "J", row.gravitational_energy);
     visit("elastic_energy", "J", row.elastic_energy);

@@ -6,6 +6,7 @@
 
 #include "mpm_solver/checkpoint.hpp"
 #include "mpm_solver/fill.hpp"
+#include "mpm_solver/results.hpp"
 #include "mpm_solver/simulation.hpp"
 
 namespace breach::mpm {
@@ -67,15 +68,21 @@ void write_frame(Session& session, Simulation& simulation) {
     std::snprintf(name, sizeof name, "particles_%.6f.vtkhdf", simulation.clock().time);
     const auto file = session.output(name);
     exchange::write_particle_state(file, simulation.state(), session.provenance());
-    simulation.frame_taken();
+    simulation.take_frame();
     session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
 }
 
-void report(Session& session, const Row& row, double toe_x) {
+void report(Session& session, const Simulation& simulation) {
+    const Row& row = simulation.last_row();
     json line{{"phase", "mpm_solver"}};
     for_each_column(row, [&](const char* name, const char*, double value) { line[name] = value; });
     line["step"] = static_cast<std::int64_t>(row.step);
-    line["front"] = toe_x + row.runout_beyond_toe;
+    line["front"] = session.scene().mpm->runout.toe.x() + row.runout_beyond_toe;
+    for (std::size_t k = 0; k < simulation.gauges().size(); ++k) {
+        const std::string gauge = "gauge." + simulation.gauges()[k].name;
+        line[gauge + ".depth"] = simulation.records().gauges[k].depth.back();
+        line[gauge + ".velocity"] = simulation.records().gauges[k].velocity.back();
+    }
     session.telemetry(line);
 }
 
@@ -88,7 +95,8 @@ void show_progress(Session& session, const Simulation& simulation) {
 
 void look_and_write(Session& session, Simulation& simulation) {
     if (simulation.look_due()) {
-        report(session, simulation.look(), session.scene().mpm->runout.toe.x());
+        simulation.look();
+        report(session, simulation);
         show_progress(session, simulation);
     }
     if (simulation.frame_due()) write_frame(session, simulation);
@@ -112,61 +120,15 @@ Outcome advance_to_the_end(Session& session, Simulation& simulation) {
     return Outcome::done;
 }
 
-json energy_json(const Simulation& simulation, const Row& row) {
-    const Energy now = energy_of(simulation.body());
-    const Energy& start = simulation.start().energy;
-    const double available = released(start, now);
-    const auto share = [&](double J) { return available > 0.0 ? J / available : 0.0; };
-    const auto entry = [&](double J) { return json{{"J", J}, {"share", share(J)}}; };
-    return {{"released", entry(available)},
-            {"kinetic", entry(now.kinetic)},
-            {"gravitational", {{"J", now.gravitational}}},
-            {"elastic_change", entry(now.elastic - start.elastic)},
-            {"plastic", entry(now.plastic)},
-            {"friction", entry(now.friction)},
-            {"viscous", entry(now.viscous)},
-            {"overlap_correction", entry(row.overlap_energy)},
-            {"numerical", entry(row.energy_numerical)}};
-}
-
-void conclude(Session& session, const Simulation& simulation, const Row& row, double speed) {
-    const Clock& clock = simulation.clock();
-    const scene::Mpm& mpm = *session.scene().mpm;
-    json& result = session.result();
-    result["runout"] = row.runout;
-    result["runout_beyond_toe"] = row.runout_beyond_toe;
-    result["runout_largest"] = row.runout_largest;
-    result["at_rest"] = simulation.verdict() == Verdict::rests;
-    result["end_time"] = clock.time;
-    result["transfer_time"] = clock.transfer_time;
-    result["energy"] = energy_json(simulation, row);
-    result["volume_ratio"] = row.volume_ratio;
-    result["overlap"] = row.overlap;
-    result["steps"] = clock.step;
-    result["dt_min"] = clock.dt_min;
-    result["dt_max"] = clock.dt_max;
-    result["particles"] = simulation.body().points.size();
-    result["particle_steps_per_second"] = speed;
-    result["order"] = mpm.order == scene::UpdateOrder::usl ? "usl" : "musl";
-    result["stiffness_scale"] = mpm.stiffness_scale;
-}
-
-void write_history(const Session& session, const History& history) {
-    exchange::Archive archive{
-        .kind = "mpm_history", .version = 1, .reals = {}, .integers = {}, .texts = {}, .units = {}};
-    store(history, "", archive);
-    write_archive(session.output("history.h5"), archive, session.provenance());
-}
-
 void finish(Session& session, Simulation& simulation, double speed) {
-    if (simulation.history().back().step < static_cast<double>(simulation.clock().step)) {
-        report(session, simulation.look(), session.scene().mpm->runout.toe.x());
+    if (simulation.last_row().step < static_cast<double>(simulation.clock().step)) {
+        simulation.look();
+        report(session, simulation);
     }
     const auto file = session.output("final.vtkhdf");
     exchange::write_particle_state(file, simulation.state(), session.provenance());
     session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
-    write_history(session, simulation.history());
-    conclude(session, simulation, simulation.history().back(), speed);
+    write_results(session, simulation, speed);
     std::filesystem::remove(session.output(checkpoint_name));
     session.progress(1.0, "done");
 }

@@ -1,7 +1,6 @@
 #include "mpm_solver/runout.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace breach::mpm {
 
@@ -17,9 +16,8 @@ std::vector<std::uint8_t> mobile_regions(const scene::Scene& scene) {
     return mobile;
 }
 
-double percentile(std::vector<std::pair<double, double>>& x_and_mass, double share) {
+double percentile(std::span<const std::pair<double, double>> x_and_mass, double share) {
     if (x_and_mass.empty()) return 0.0;
-    std::sort(x_and_mass.begin(), x_and_mass.end());
     double whole = 0.0;
     for (const auto& [x, mass] : x_and_mass) whole += mass;
     double below = 0.0;
@@ -32,17 +30,24 @@ double percentile(std::vector<std::pair<double, double>>& x_and_mass, double sha
 
 Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, double toe_x) {
     std::vector<std::pair<double, double>> all;
-    std::vector<std::pair<double, double>> beyond;
-    double largest = -std::numeric_limits<double>::infinity();
+    double volume_beyond = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (!mobile[points.region[p]]) continue;
         const double distance = points.x[p] - toe_x;
         all.emplace_back(distance, points.m[p]);
-        if (distance > 0.0) beyond.emplace_back(distance, points.m[p]);
-        largest = std::max(largest, distance);
+        if (distance > 0.0) volume_beyond += points.volume[p];
     }
     if (all.empty()) return {};
-    return {percentile(all, 0.99), percentile(beyond, 0.99), largest};
+    std::sort(all.begin(), all.end());
+    const auto first_beyond =
+        std::find_if(all.begin(), all.end(), [](const auto& each) { return each.first > 0.0; });
+    const std::span beyond(first_beyond, all.end());
+    return {.all = percentile(all, 0.99),
+            .beyond = percentile(beyond, 0.99),
+            .beyond_95 = percentile(beyond, 0.95),
+            .beyond_50 = percentile(beyond, 0.5),
+            .largest = all.back().first,
+            .volume_beyond = volume_beyond};
 }
 
 }  // namespace breach::mpm

@@ -10,19 +10,19 @@ namespace breach::mpm {
 
 Simulation::Simulation(const scene::Scene& scene, Body body, double transfer_time)
     : Simulation(scene, std::move(body), Clock{.transfer_time = transfer_time}, Start{}, {}) {
-    start_ = {energy_of(body_), volume_of(body_.points, mobile_)};
+    start_ = {energy_of(body_), volume_of(body_.points, view_.mobile)};
     limits_ = limits_of(body_, mpm_, start_.energy);
 }
 
 Simulation::Simulation(const scene::Scene& scene, Body body, Clock clock, Start start,
-                       History history)
+                       Records records)
     : scene_(scene),
       mpm_(scene::mpm_of(scene)),
       body_(std::move(body)),
       clock_(clock),
       start_(start),
-      history_(std::move(history)),
-      mobile_(mobile_regions(scene)),
+      records_(std::move(records)),
+      view_(flow_view(scene, body_.grid)),
       overlap_(body_, scene.thickness),
       sorter_(body_),
       limits_(limits_of(body_, mpm_, start_.energy)),
@@ -62,21 +62,33 @@ bool Simulation::frame_due() const {
     return clock_.time >= static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
 }
 
+void Simulation::take_frame() {
+    records_.profiles.add(clock_.time, profile());
+    ++clock_.frames;
+}
+
 bool Simulation::look_due() const {
     return clock_.time >= static_cast<double>(clock_.looks) * mpm_.telemetry_interval;
 }
 
 const Row& Simulation::look() {
     const Energy now = energy_of(body_);
-    const Runout runout = runout_of(body_.points, mobile_, mpm_.runout.toe.x());
-    const double volume = volume_of(body_.points, mobile_);
-    history_.push_back(
+    const double toe_x = mpm_.runout.toe.x();
+    const Runout runout = runout_of(body_.points, view_.mobile, toe_x);
+    const double volume = volume_of(body_.points, view_.mobile);
+    const double front = front_of(profile(), view_, mpm_.runout.front_depth);
+    read_gauges(mpm_.gauges, body_.points, view_, records_.gauges);
+    records_.history.push_back(
         {.time = clock_.time,
          .step = static_cast<double>(clock_.step),
          .dt = clock_.dt,
          .runout = runout.all,
          .runout_beyond_toe = runout.beyond,
+         .runout_beyond_toe_95 = runout.beyond_95,
+         .runout_beyond_toe_50 = runout.beyond_50,
          .runout_largest = runout.largest,
+         .runout_front = front - toe_x,
+         .area_beyond_toe = runout.volume_beyond / scene_.thickness,
          .kinetic_energy = now.kinetic,
          .gravitational_energy = now.gravitational,
          .elastic_energy = now.elastic,
@@ -89,7 +101,7 @@ const Row& Simulation::look() {
          .overlap = overlap_.measure(body_),
          .overlap_energy = body_.tally.pushed_in,
          .fastest = body_.tally.fastest});
-    const Row& row = history_.back();
+    const Row& row = last_row();
     if (const auto complaint = budget_complaint(limits_, start_.energy, now, row.volume_ratio)) {
         break_down(*complaint);
     }
@@ -103,7 +115,7 @@ const Row& Simulation::look() {
 }
 
 Verdict Simulation::verdict() const {
-    if (at_rest(history_, mpm_)) return Verdict::rests;
+    if (at_rest(records_.history, mpm_)) return Verdict::rests;
     return clock_.time >= mpm_.duration ? Verdict::time_is_up : Verdict::goes_on;
 }
 

@@ -5,6 +5,7 @@
 #include "core/process/session.hpp"
 #include "mpm_solver/body.hpp"
 #include "mpm_solver/energy.hpp"
+#include "mpm_solver/gauges.hpp"
 #include "mpm_solver/guard.hpp"
 #include "mpm_solver/history.hpp"
 #include "mpm_solver/overlap.hpp"
@@ -30,6 +31,13 @@ struct Start {
     double mobile_volume = 0.0;  ///< [m3]
 };
 
+/// What a run has seen so far.
+struct Records {
+    History history;
+    GaugeRecords gauges;
+    Profiles profiles;  ///< one per snapshot
+};
+
 enum class Verdict { goes_on, rests, time_is_up };
 
 class Simulation {
@@ -37,14 +45,15 @@ class Simulation {
     /// `body` at time 0.
     Simulation(const scene::Scene& scene, Body body, double transfer_time);
     /// From a checkpoint.
-    Simulation(const scene::Scene& scene, Body body, Clock clock, Start start, History history);
+    Simulation(const scene::Scene& scene, Body body, Clock clock, Start start, Records records);
 
     /// One step; never past the next snapshot or the end. Throws Breakdown.
     void advance();
     /// Is a snapshot (a look) due at this time?
     bool frame_due() const;
     bool look_due() const;
-    void frame_taken() { ++clock_.frames; }
+    /// Keeps the profile that belongs to a snapshot.
+    void take_frame();
     /// Measures, checks the budget (throws Breakdown) and adds a row to the history.
     const Row& look();
     Verdict verdict() const;
@@ -52,7 +61,12 @@ class Simulation {
     const Body& body() const { return body_; }
     const Clock& clock() const { return clock_; }
     const Start& start() const { return start_; }
-    const History& history() const { return history_; }
+    const Records& records() const { return records_; }
+    const Row& last_row() const { return records_.history.back(); }
+    /// The profile now.
+    std::vector<Flow> profile() const { return flow_profile(body_.points, view_); }
+    const FlowView& view() const { return view_; }
+    const std::vector<scene::Gauge>& gauges() const { return mpm_.gauges; }
     /// The points now, and at the last look that found all well.
     exchange::ParticleState state() const;
     exchange::ParticleState last_good_state() const;
@@ -67,8 +81,8 @@ class Simulation {
     Body body_;
     Clock clock_;
     Start start_;
-    History history_;
-    std::vector<std::uint8_t> mobile_;
+    Records records_;
+    FlowView view_;
     OverlapMeter overlap_;
     Sorter sorter_;
     Limits limits_;

@@ -11,7 +11,7 @@ namespace breach::mpm::test {
 namespace {
 
 TEST(Runout, PercentileIsWeightedByMass) {
-    std::vector<std::pair<double, double>> x{{3.0, 1.0}, {1.0, 97.0}, {2.0, 2.0}};
+    std::vector<std::pair<double, double>> x{{1.0, 97.0}, {2.0, 2.0}, {3.0, 1.0}};
     EXPECT_EQ(percentile(x, 0.97), 1.0);
     EXPECT_EQ(percentile(x, 0.99), 2.0);
     EXPECT_EQ(percentile(x, 0.995), 3.0);
@@ -22,10 +22,14 @@ TEST(Runout, CountsMobileRegionsOnlyAndSignsDistances) {
     points.resize(4);
     points.x = {-5.0, 1.0, 4.0, 50.0};
     points.m = {1.0, 1.0, 1.0, 1.0};
+    points.volume = {1.0, 2.0, 3.0, 4.0};
     points.region = {0, 0, 0, 1};
     const Runout runout = runout_of(points, {1, 0}, 2.0);
     EXPECT_EQ(runout.largest, 2.0);
     EXPECT_EQ(runout.beyond, 2.0);
+    EXPECT_EQ(runout.beyond_95, 2.0);
+    EXPECT_EQ(runout.beyond_50, 2.0);
+    EXPECT_EQ(runout.volume_beyond, 3.0);
     EXPECT_EQ(runout.all, 2.0);
     EXPECT_EQ(runout_of(points, {1, 0}, 10.0).beyond, 0.0);
     EXPECT_EQ(runout_of(points, {1, 0}, 10.0).all, -6.0);

@@ -26,7 +26,7 @@ void advance_looking(Simulation& simulation, std::int64_t steps) {
     for (std::int64_t k = 0; k < steps; ++k) {
         simulation.advance();
         if (simulation.look_due()) simulation.look();
-        if (simulation.frame_due()) simulation.frame_taken();
+        if (simulation.frame_due()) simulation.take_frame();
     }
 }
 
@@ -44,8 +44,9 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
     for_each_real(b.body().points, [&](const char* name, const auto& values) {
         EXPECT_TRUE(*arrays[k++] == values) << name;
     });
-    ASSERT_EQ(a.history().size(), b.history().size());
-    EXPECT_EQ(a.history().back().energy_numerical, b.history().back().energy_numerical);
+    ASSERT_EQ(a.records().history.size(), b.records().history.size());
+    EXPECT_EQ(a.records().history.back().energy_numerical,
+              b.records().history.back().energy_numerical);
 }
 
 class Resume : public testing::TestWithParam<scene::UpdateOrder> {};
@@ -86,7 +87,7 @@ TEST(Simulation, HitsSnapshotTimesExactly) {
     while (simulation.clock().time < 1.0) {
         if (simulation.frame_due()) {
             times.push_back(simulation.clock().time);
-            simulation.frame_taken();
+            simulation.take_frame();
         }
         simulation.advance();
     }

@@ -7,7 +7,8 @@ import numpy as np
 ROOT, BIN = os.environ["BREACH_ROOT"], os.environ["BREACH_BIN"]
 SOLVER = os.path.join(BIN, "mpm_solver")
 COLUMN = os.path.join(ROOT, "workflows/scenes/column.json")
-SHORT = ["--set", "/mpm/duration=2", "--set", "/mpm/cell_size=0.5", "--set", "/mpm/snapshot_interval=0.5"]
+SHORT = ["--set", "/mpm/duration=2", "--set", "/mpm/cell_size=0.5", "--set", "/mpm/snapshot_interval=0.5",
+         "--set", '/mpm/gauges=[{"name": "foot", "x": 12}, {"name": "far", "x": 50}]']
 
 
 def run(folder, *more):
@@ -41,12 +42,29 @@ def test_outputs_and_resume(scratch):
     first = run(whole, *SHORT)
     assert first.returncode == 0, first.stderr
     names = {os.path.basename(f) for f in glob.glob(whole + "/*")}
-    for name in ("result.json", "telemetry.jsonl", "history.h5", "final.vtkhdf", "particles_0.000000.vtkhdf", "particles_1.500000.vtkhdf"):
+    for name in ("result.json", "telemetry.jsonl", "history.h5", "profile.csv", "final.vtkhdf", "particles_0.000000.vtkhdf", "particles_1.500000.vtkhdf"):
         assert name in names, names
     result = json.load(open(os.path.join(whole, "result.json")))
     for key in ("runout", "runout_beyond_toe", "runout_largest", "at_rest", "energy", "volume_ratio", "overlap", "steps",
                 "dt_min", "dt_max", "particle_steps_per_second", "particles"):
         assert key in result, key
+    for key in ("runout_beyond_toe_95", "runout_beyond_toe_50", "runout_front", "area_beyond_toe"):
+        assert key in result, key
+    foot, far = result["gauges"]["foot"], result["gauges"]["far"]
+    assert 0.0 < foot["arrival_time"] < 2.0 and foot["largest_depth"] > 1.0 and foot["largest_velocity"] > 1.0, foot
+    assert far["arrival_time"] is None and far["largest_depth"] == 0.0, far
+    lines = telemetry(whole)
+    history = arrays(os.path.join(whole, "history.h5"))
+    depth = next(value for name, value in history.items() if name.endswith("gauge.foot.depth"))
+    assert [line["gauge.foot.depth"] for line in lines] == list(depth)
+    profiles = next(value for name, value in history.items() if name.endswith("profile.depths"))
+    places = next(value for name, value in history.items() if name.endswith("profile.x"))
+    widths = np.full(len(places), 0.5)
+    widths[[0, -1]] = 0.25
+    areas = profiles.reshape(-1, len(places)) @ widths
+    assert abs(areas[0] - 200.0) < 1e-6 and np.all(abs(areas / 200.0 - 1.0) < 0.02), areas  # 10 m x 20 m of sand
+    table = np.genfromtxt(os.path.join(whole, "profile.csv"), delimiter=",", names=True)
+    assert np.array_equal(table["x_m"], places) and abs(table["depth_m"] @ widths / 200.0 - 1.0) < 0.02
     assert result["at_rest"] is False  # 2 s are too short, and it says so
     child = subprocess.Popen([SOLVER, COLUMN, "--output", stopped, "--progress", "none", *SHORT], stderr=subprocess.DEVNULL)
     while child.poll() is None and len(glob.glob(stopped + "/particles_*")) < 2:

@@ -1,0 +1,112 @@
+#include "mpm_solver/results.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/exchange/publish.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+using nlohmann::json;
+using process::Session;
+
+json energy_json(const Simulation& simulation, const Row& row) {
+    const Energy now = energy_of(simulation.body());
+    const Energy& start = simulation.start().energy;
+    const double available = released(start, now);
+    const auto share = [&](double J) { return available > 0.0 ? J / available : 0.0; };
+    const auto entry = [&](double J) { return json{{"J", J}, {"share", share(J)}}; };
+    return {{"released", entry(available)},
+            {"kinetic", entry(now.kinetic)},
+            {"gravitational", {{"J", now.gravitational}}},
+            {"elastic_change", entry(now.elastic - start.elastic)},
+            {"plastic", entry(now.plastic)},
+            {"friction", entry(now.friction)},
+            {"viscous", entry(now.viscous)},
+            {"overlap_correction", entry(row.overlap_energy)},
+            {"numerical", entry(row.energy_numerical)}};
+}
+
+json gauges_json(const Simulation& simulation) {
+    std::vector<double> times;
+    for (const Row& row : simulation.records().history) times.push_back(row.time);
+    json result = json::object();
+    for (std::size_t k = 0; k < simulation.gauges().size(); ++k) {
+        const scene::Gauge& gauge = simulation.gauges()[k];
+        const GaugeRecord& record = simulation.records().gauges[k];
+        const auto deepest = std::max_element(record.depth.begin(), record.depth.end());
+        const auto arrival = arrival_time(times, record.depth, gauge.arrival_depth);
+        result[gauge.name] = {{"x", gauge.x},
+                              {"arrival_time", arrival ? json(*arrival) : json(nullptr)},
+                              {"largest_depth", *deepest},
+                              {"time_of_largest_depth", times[deepest - record.depth.begin()]},
+                              {"largest_velocity",
+                               *std::max_element(record.velocity.begin(), record.velocity.end())}};
+    }
+    return result;
+}
+
+void conclude(Session& session, const Simulation& simulation, double speed) {
+    const Row& row = simulation.last_row();
+    const Clock& clock = simulation.clock();
+    const scene::Mpm& mpm = *session.scene().mpm;
+    json& result = session.result();
+    result["runout"] = row.runout;
+    result["runout_beyond_toe"] = row.runout_beyond_toe;
+    result["runout_beyond_toe_95"] = row.runout_beyond_toe_95;
+    result["runout_beyond_toe_50"] = row.runout_beyond_toe_50;
+    result["runout_largest"] = row.runout_largest;
+    result["runout_front"] = row.runout_front;
+    result["area_beyond_toe"] = row.area_beyond_toe;
+    result["gauges"] = gauges_json(simulation);
+    result["at_rest"] = simulation.verdict() == Verdict::rests;
+    result["end_time"] = clock.time;
+    result["transfer_time"] = clock.transfer_time;
+    result["energy"] = energy_json(simulation, row);
+    result["volume_ratio"] = row.volume_ratio;
+    result["overlap"] = row.overlap;
+    result["steps"] = clock.step;
+    result["dt_min"] = clock.dt_min;
+    result["dt_max"] = clock.dt_max;
+    result["particles"] = simulation.body().points.size();
+    result["particle_steps_per_second"] = speed;
+    result["order"] = mpm.order == scene::UpdateOrder::usl ? "usl" : "musl";
+    result["stiffness_scale"] = mpm.stiffness_scale;
+}
+
+void write_history(const Session& session, const Simulation& simulation) {
+    exchange::Archive archive{
+        .kind = "mpm_history", .version = 1, .reals = {}, .integers = {}, .texts = {}, .units = {}};
+    const Records& records = simulation.records();
+    store(records.history, "", archive);
+    store(simulation.gauges(), records.gauges, "", archive);
+    store(records.profiles, simulation.view(), "", archive);
+    write_archive(session.output("history.h5"), archive, session.provenance());
+}
+
+/// The deposit as a table: for other programs, and for the eye.
+void write_profile(Session& session, const Simulation& simulation) {
+    const std::vector<double> places = profile_places(simulation.view());
+    const std::vector<Flow> profile = simulation.profile();
+    std::ostringstream table;
+    table.precision(10);
+    table << "x_m,depth_m,velocity_m_per_s\n";
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        table << places[k] << "," << profile[k].depth << "," << profile[k].velocity << "\n";
+    }
+    const auto file = session.output("profile.csv");
+    exchange::publish_text(file, table.str());
+    session.announce(file, {{"kind", "profile"}, {"time", simulation.clock().time}});
+}
+
+}  // namespace
+
+void write_results(Session& session, const Simulation& simulation, double speed) {
+    write_history(session, simulation);
+    write_profile(session, simulation);
+    conclude(session, simulation, speed);
+}
+
+}  // namespace breach::mpm

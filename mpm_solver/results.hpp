@@ -1,0 +1,13 @@
+// What a finished run leaves behind beside its points: result.json, history.h5 and the deposit's
+// profile.csv.
+#pragma once
+
+#include "core/process/session.hpp"
+#include "mpm_solver/simulation.hpp"
+
+namespace breach::mpm {
+
+/// speed: particle steps per CPU second.
+void write_results(process::Session& session, const Simulation& simulation, double speed);
+
+}  // namespace breach::mpm
