@@ -1,5 +1,8 @@
 #include "services/orchestrator/data_folder.hpp"
 
+#include <chrono>
+#include <thread>
+
 #include "core/fault/fault.hpp"
 
 namespace breach::orchestrator {
@@ -15,8 +18,13 @@ std::filesystem::path made(const std::filesystem::path& root) {
 }
 
 FileLock owned(const std::filesystem::path& root) {
-    auto lock = FileLock::try_take(root / "instance.lock");
-    if (lock) return std::move(*lock);
+    // A service that was killed while it started a supervisor leaves the lock to it for a moment.
+    constexpr auto pause = std::chrono::milliseconds(50);
+    for (int i = 0; i < 20; ++i) {
+        auto lock = FileLock::try_take(root / "instance.lock");
+        if (lock) return std::move(*lock);
+        std::this_thread::sleep_for(pause);
+    }
     throw fault::IoError(
         root.string() +
         ": another breachline service is running on this data folder; stop it first, or "

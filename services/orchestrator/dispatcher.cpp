@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "core/exchange/publish.hpp"
+#include "services/orchestrator/failpoint.hpp"
 #include "services/orchestrator/identity.hpp"
 
 namespace breach::orchestrator {
@@ -207,6 +208,7 @@ bool Dispatcher::leave_to_the_cache(const Task& task) {
 /// One commit before the processes are started and one after, for all of them.
 void Dispatcher::start(const std::vector<Task>& tasks) {
     std::vector<std::int64_t> numbers;
+    reach(Failpoint::claim_before);
     store_.write([&](Transaction& transaction) {
         numbers.clear();
         for (const Task& task : tasks) {
@@ -214,6 +216,7 @@ void Dispatcher::start(const std::vector<Task>& tasks) {
             numbers.push_back(claimed ? transaction.add_attempt(task.id) : 0);  // 0: cancelled
         }
     });
+    reach(Failpoint::claim_after);
     std::vector<Live*> started;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         not_cached_.erase(tasks[i].id);
@@ -223,6 +226,7 @@ void Dispatcher::start(const std::vector<Task>& tasks) {
         const Life life = executor_.probe(live.folder).life;
         if (life == Life::alive || life == Life::ended) started.push_back(&live);
     }
+    reach(Failpoint::start_after);
     note_starts(started);
     forget_the_ended();
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "services/orchestrator/dispatcher.hpp"
+#include "services/orchestrator/failpoint.hpp"
 #include "services/orchestrator/identity.hpp"
 #include "services/orchestrator/verdict.hpp"
 
@@ -115,6 +116,7 @@ void Dispatcher::note_exit(Live& live) {
                                                                            : "shutdown"};
     const TaskFault fault = verdict == Verdict::well ? TaskFault{} : fault_of(live, record);
     std::optional<TaskState> stopped;
+    reach(Failpoint::exit_before);
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(task, live.number, AttemptEvent::exit, end);
         stopped = transaction.try_move_task(task, TaskEvent::stopped);
@@ -135,6 +137,7 @@ void Dispatcher::note_exit(Live& live) {
                 break;
         }
     });
+    reach(Failpoint::exit_after);
     spdlog::info("{} ({}): attempt {} ended, {}", task, live.task.label, live.number,
                  in_words(record));
     live.over = true;

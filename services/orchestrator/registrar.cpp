@@ -8,6 +8,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/fault/fault.hpp"
+#include "services/orchestrator/failpoint.hpp"
 
 namespace breach::orchestrator {
 
@@ -111,6 +112,7 @@ void Registrar::finalize(const Task& task) {
     } catch (const std::exception& error) {
         trouble = std::string("the outputs cannot be read: ") + error.what();
     }
+    reach(Failpoint::outputs_before);
     store_.write([&](Transaction& transaction) {
         if (trouble.empty()) {
             transaction.finish_task(task.id, result, artifacts, input);
@@ -118,6 +120,7 @@ void Registrar::finalize(const Task& task) {
             transaction.fail_task(task.id, TaskEvent::refuse_outputs, {std::nullopt, trouble});
         }
     });
+    reach(Failpoint::outputs_after);
 }
 
 }  // namespace breach::orchestrator

@@ -9,6 +9,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "services/orchestrator/failpoint.hpp"
 
 namespace breach::orchestrator {
 
@@ -270,7 +271,9 @@ void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& ro
     try {
         for (std::size_t i = 0; i < batch.folders.size(); ++i)
             write_job_name(batch.folders[i], {batch.name, static_cast<std::int64_t>(i)});
+        reach(Failpoint::sbatch_before);
         answer = slurm_.submit(batch);
+        reach(Failpoint::sbatch_after);
     } catch (const std::exception& error) {
         answer = {Reply::refused, error.what()};
     }

@@ -21,6 +21,7 @@
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/executors/order.hpp"
 #include "services/orchestrator/executors/process_tree.hpp"
+#include "services/orchestrator/failpoint.hpp"
 #include "services/orchestrator/folder_watch.hpp"
 
 namespace breach::orchestrator {
@@ -53,6 +54,7 @@ class Supervision {
 
     void run() {
         if (!wait_for_fence()) return give_back();
+        reach(Failpoint::supervisor_before_phase);
         start();
         while (!phase_ended_) {
             beat();
@@ -62,7 +64,9 @@ class Supervision {
             reap();
         }
         kill_the_rest();
+        reach(Failpoint::supervisor_after_phase);
         record_exit();
+        reach(Failpoint::supervisor_after_record);
     }
 
   private:

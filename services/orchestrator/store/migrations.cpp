@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "services/orchestrator/failpoint.hpp"
 #include "services/orchestrator/store/versions.hpp"
 
 namespace breach::orchestrator {
@@ -35,8 +36,10 @@ void migrate(Connection& database, const std::filesystem::path& file) {
     }
     database.script("BEGIN IMMEDIATE");
     try {
-        for (std::int64_t v = version; v < newest; ++v)
+        for (std::int64_t v = version; v < newest; ++v) {
             database.script(versions[static_cast<std::size_t>(v)]);
+            reach(Failpoint::migration_half_way);
+        }
         database.script("PRAGMA user_version=" + std::to_string(newest));
         database.script("COMMIT");
     } catch (const StoreError&) {

@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "services/orchestrator/failpoint.hpp"
 #include "services/orchestrator/store/migrations.hpp"
 
 namespace breach::orchestrator {
@@ -69,7 +70,9 @@ void Store::commit(std::deque<Job>& jobs) {
             }
             writing_.script("RELEASE job");
         }
+        reach(Failpoint::store_before_commit);
         writing_.script("COMMIT");
+        reach(Failpoint::store_after_commit);
     } catch (const StoreError&) {
         const std::exception_ptr failure = std::current_exception();
         try {

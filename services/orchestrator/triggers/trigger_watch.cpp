@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/exchange/provenance.hpp"
+#include "services/orchestrator/failpoint.hpp"
 #include "services/orchestrator/frames.hpp"
 #include "services/orchestrator/identity.hpp"
 #include "services/orchestrator/study.hpp"
@@ -319,11 +320,13 @@ void TriggerWatch::take(Fem& fem, Armed& armed, const Snapshot& snapshot, double
         return;
     }
     const Firing firing = firing_of(fem, armed, snapshot, wanted);
+    reach(Failpoint::firing_before);
     store_.write([&](Transaction& transaction) {
         if (!transaction.add_firing(armed.trigger, firing)) return;
         transaction.move_trigger(armed.trigger, TriggerEvent::fire,
                                  {{"transfer_time", firing.transfer_time}});
     });
+    reach(Failpoint::firing_after);
     armed.trigger.state = TriggerState::fired;
     spdlog::info("{}: trigger {} fired, {} for {:.6f} s", fem.task.id, armed.trigger.name,
                  snapshot.name, wanted);

@@ -1,0 +1,56 @@
+// Places at which a test may kill this process, by name: before and after every write of a state,
+// and between what must follow each other.
+//
+//     BREACHLINE_FAILPOINT=name[:n[:file]]    kill -9 when `name` is reached for the n-th time;
+//     with
+//                                             a file: once only, the one that can remove the file
+//
+// Without the variable nothing happens. Names that are not in the list do not compile.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace breach::orchestrator {
+
+enum class Failpoint {
+    store_before_commit,
+    store_after_commit,
+    claim_before,        ///< a task is to be started, nothing is stored
+    claim_after,         ///< its attempt's row is stored, nothing is started
+    start_after,         ///< its process is started, which is not stored
+    exit_before,         ///< its exit record was read, nothing is stored
+    exit_after,          ///< its end is stored, its outputs are not registered
+    outputs_before,      ///< its outputs are hashed, nothing is stored
+    outputs_after,       ///< they are stored, nobody was told
+    firing_before,       ///< a trigger was met, nothing is stored
+    firing_after,        ///< the firing is stored
+    migration_half_way,  ///< between two versions of the database
+    supervisor_before_phase,
+    supervisor_after_phase,   ///< the phase has ended, there is no record
+    supervisor_after_record,  ///< there is
+    sbatch_before,            ///< the job's name is noted, sbatch is not called
+    sbatch_after,             ///< it has answered, which is not noted
+};
+
+constexpr std::array<std::string_view, 17> failpoint_names{"store_before_commit",
+                                                           "store_after_commit",
+                                                           "claim_before",
+                                                           "claim_after",
+                                                           "start_after",
+                                                           "exit_before",
+                                                           "exit_after",
+                                                           "outputs_before",
+                                                           "outputs_after",
+                                                           "firing_before",
+                                                           "firing_after",
+                                                           "migration_half_way",
+                                                           "supervisor_before_phase",
+                                                           "supervisor_after_phase",
+                                                           "supervisor_after_record",
+                                                           "sbatch_before",
+                                                           "sbatch_after"};
+
+void reach(Failpoint point);
+
+}  // namespace breach::orchestrator

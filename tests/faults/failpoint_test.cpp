@@ -1,0 +1,107 @@
+// kill -9 at each named place, once, then a restart: nothing acknowledged is lost, nothing comes
+// through twice, and the log of events is sound.
+#include "services/orchestrator/failpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "services/orchestrator/store/versions.hpp"
+#include "tests/faults/invariants.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+
+/// The places that a plain study on the local pool goes through.
+std::vector<std::string> places() {
+    std::vector<std::string> found;
+    for (const std::string_view each : orchestrator::failpoint_names) {
+        const bool elsewhere = each.starts_with("firing") || each.starts_with("migration") ||
+                               each.starts_with("sbatch");
+        if (!elsewhere) found.emplace_back(each);
+    }
+    return found;
+}
+
+class KilledAt : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(KilledAt, NothingIsLostAndNothingRunsTwice) {
+    const Sandbox sandbox;
+    const std::string wanted = study("", {0.25, 0.5}).dump();
+    const std::multimap<std::string, std::string> key{{"Idempotency-Key", "the-one"}};
+    const auto token = sandbox.root() / "token";
+    std::ofstream(token) << "\n";
+    std::string run;
+    {
+        Service first(sandbox, {}, {"BREACHLINE_FAILPOINT=" + GetParam() + ":1:" + token.string()});
+        ASSERT_TRUE(first.valid()) << first.complaint();
+        const Answer answer = first.post("/v1/runs", wanted, "application/json", key);
+        if (answer.status == 202) run = answer.body.at("id");
+        ASSERT_TRUE(eventually([&] { return !std::filesystem::exists(token); })) << "not reached";
+        const bool of_supervisor = GetParam().starts_with("supervisor");
+        if (of_supervisor) {
+            first.wait_for_end(run);
+        } else {
+            EXPECT_EQ(first.get("/healthz").status, 0) << "it is dead";
+            first.kill_at_once();
+        }
+    }
+    {
+        Service second(sandbox);
+        ASSERT_TRUE(second.valid()) << second.complaint();
+        const Answer again = second.post("/v1/runs", wanted, "application/json", key);
+        ASSERT_EQ(again.status, 202) << again.text;
+        if (!run.empty()) {
+            EXPECT_EQ(again.body.at("id"), run) << "acknowledged and lost";
+        }
+        run = again.body.at("id");
+        const json end = second.wait_for_end(run);
+        EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
+        const json rows = second.table(run);
+        ASSERT_EQ(rows.size(), 2u);
+        for (const json& row : rows) {
+            const double time = row.at("transfer_time");
+            EXPECT_EQ(row.at("runout"), 10 + time * time);
+        }
+        EXPECT_EQ(second.get("/v1/runs").body.at("runs").size(), 1u);
+    }
+    expect_sound_history(sandbox);
+}
+
+INSTANTIATE_TEST_SUITE_P(Place, KilledAt, ::testing::ValuesIn(places()),
+                         [](const auto& each) { return each.param; });
+
+TEST(Migration, KilledHalfWayIsDoneByTheNextStart) {
+    const Sandbox sandbox;
+    std::filesystem::create_directories(sandbox.data());
+    {
+        orchestrator::Connection old(sandbox.data() / "breachline.sqlite",
+                                     orchestrator::Access::read_write);
+        old.script(orchestrator::version_1);
+        old.script("PRAGMA user_version=1");
+        old.script(
+            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('old', 'old', '', "
+            "'2026-01-01T00:00:00.000Z', '{\"transfer_times\":[]}', '{}')");
+        old.script(
+            "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state) VALUES "
+            "('old-00000', 'old', 'lem_tool', 'lem', 'at_once', '', '[]', 'ready')");
+    }
+    Service killed(sandbox, {"--slots", "1"}, {"BREACHLINE_FAILPOINT=migration_half_way:1"});
+    EXPECT_FALSE(killed.valid());
+    {
+        orchestrator::Connection left(sandbox.data() / "breachline.sqlite",
+                                      orchestrator::Access::read_write);
+        std::int64_t version = 0;
+        left.query("PRAGMA user_version", {},
+                   [&](const orchestrator::Row& row) { version = row.integer(0); });
+        EXPECT_EQ(version, 1) << "nothing of a half migration is kept";
+    }
+    Service next(sandbox);
+    ASSERT_TRUE(next.valid()) << next.complaint();
+    EXPECT_EQ(next.get("/v1/runs/old").status, 200);
+}
+
+}  // namespace
+}  // namespace breach::testing

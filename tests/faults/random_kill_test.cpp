@@ -1,0 +1,202 @@
+// A service, its supervisors and its phases are killed at random, again and again, while studies
+// are submitted and cancelled. Half of the services carry a named failpoint, so that they die
+// exactly between two writes. At the end the event log must be sound, and nothing acknowledged
+// lost.
+//
+//     BREACH_KILLS (200)   how many kills     BREACH_SEED (1)   of the random choices
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <thread>
+
+#include "services/orchestrator/failpoint.hpp"
+#include "tests/faults/invariants.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+
+int setting(const char* name, int otherwise) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? otherwise : std::atoi(text);
+}
+
+pid_t parent_of(pid_t pid) {
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    std::string word;
+    pid_t parent = 0;
+    stat >> word >> word >> word >> parent;
+    return parent;
+}
+
+class Campaign {
+  public:
+    explicit Campaign(int seed) : random_(static_cast<std::mt19937::result_type>(seed)) {
+        for (const std::string_view each : orchestrator::failpoint_names) {
+            const bool elsewhere = each.starts_with("firing") || each.starts_with("migration") ||
+                                   each.starts_with("sbatch");
+            if (!elsewhere) places_.emplace_back(each);
+        }
+    }
+
+    void kill_about(int wanted) {
+        while (kills_ < wanted) live_once();
+        std::cout << kills_ << " kills: " << kills_of_service_ << " of the service ("
+                  << kills_at_failpoints_ << " at failpoints), " << kills_of_supervisors_
+                  << " of supervisors, " << kills_of_phases_ << " of phases; "
+                  << acknowledged_.size() << " runs acknowledged\n";
+    }
+
+    void settle_and_check() {
+        {
+            Service service(sandbox_, arguments());
+            ASSERT_TRUE(service.valid()) << service.complaint();
+            for (const auto& [key, run] : acknowledged_) {
+                const json end = service.wait_for_end(run, 120);
+                ASSERT_TRUE(end.is_object()) << key << " was acknowledged as " << run;
+                const bool cancelled = cancelled_.contains(run);
+                EXPECT_TRUE(end.at("state") == "succeeded" ||
+                            (cancelled && end.at("state") == "cancelled"))
+                    << run << " " << end.at("state") << " " << end.at("message");
+                if (end.at("state") == "succeeded") check_table(service, run);
+                EXPECT_EQ(run_of(service, key), run) << "one key, one run";
+            }
+        }
+        expect_sound_history(sandbox_);
+    }
+
+  private:
+    static std::vector<std::string> arguments() {
+        return {"--tries", "100", "--retry-delay", "0.01"};
+    }
+    int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(random_); }
+    void wait_a_moment(int most_ms) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(below(most_ms)));
+    }
+
+    /// One life of the service, until it is killed.
+    void live_once() {
+        std::vector<std::string> environment;
+        if (below(2) == 0) {
+            const auto token = sandbox_.root() / "token";
+            std::ofstream(token) << "\n";
+            environment.push_back(
+                "BREACHLINE_FAILPOINT=" +
+                places_[static_cast<std::size_t>(below(static_cast<int>(places_.size())))] + ":" +
+                std::to_string(1 + below(5)) + ":" + token.string());
+        }
+        Service service(sandbox_, arguments(), environment);
+        if (!service.valid()) {
+            EXPECT_EQ(service.exit_code(), -1) << service.complaint();
+            ++kills_at_failpoints_;
+            return count_death_of_service();
+        }
+        const int deeds = 2 + below(5);
+        for (int i = 0; i < deeds; ++i) {
+            submit(service);
+            wait_a_moment(60);
+            if (below(8) == 0) cancel_one(service);
+            if (below(3) == 0) kill_a_phase();
+            if (below(4) == 0) kill_a_supervisor();
+            if (service.get("/healthz").status == 0) {
+                ++kills_at_failpoints_;
+                break;
+            }
+        }
+        service.kill_at_once();
+        count_death_of_service();
+    }
+
+    void count_death_of_service() {
+        ++kills_of_service_;
+        ++kills_;
+    }
+
+    static Answer post(Service& service, const std::string& key) {
+        json wanted = study("fem_steps=3 mpm_steps=3", {0.25, 0.5});
+        wanted["reuse"] = false;
+        return service.post("/v1/runs", wanted.dump(), "application/json",
+                            {{"Idempotency-Key", key}});
+    }
+
+    /// A few unfinished at a time. A key whose answer was lost is sent again.
+    void submit(Service& service) {
+        if (unanswered_.empty() && below(3) > 0) return;
+        if (unanswered_.empty()) unanswered_ = "key-" + std::to_string(acknowledged_.size());
+        const Answer answer = post(service, unanswered_);
+        if (answer.status != 202) return;
+        acknowledged_[unanswered_] = answer.body.at("id");
+        unanswered_.clear();
+    }
+
+    static std::string run_of(Service& service, const std::string& key) {
+        return post(service, key).body.value("id", "");
+    }
+
+    void cancel_one(Service& service) {
+        if (acknowledged_.empty()) return;
+        auto chosen = acknowledged_.begin();
+        std::advance(chosen, below(static_cast<int>(acknowledged_.size())));
+        cancelled_.insert(chosen->second);  // even if the answer is lost
+        service.post("/v1/runs/" + chosen->second + "/cancel", "");
+    }
+
+    std::vector<pid_t> all_phases() const {
+        std::vector<pid_t> found;
+        for (const char* phase : {"fem_solver", "transfer_tool", "mpm_solver", "lem_tool"})
+            for (const pid_t pid : phases_alive(sandbox_, phase)) found.push_back(pid);
+        return found;
+    }
+
+    void kill_a_phase() {
+        const auto phases = all_phases();
+        if (phases.empty()) return;
+        kill(phases[static_cast<std::size_t>(below(static_cast<int>(phases.size())))], SIGKILL);
+        ++kills_of_phases_;
+        ++kills_;
+    }
+
+    void kill_a_supervisor() {
+        const auto phases = all_phases();
+        if (phases.empty()) return;
+        const pid_t parent = parent_of(phases.front());
+        std::ifstream stream("/proc/" + std::to_string(parent) + "/cmdline");
+        const std::string command{std::istreambuf_iterator<char>(stream), {}};
+        if (command.find("supervise") == std::string::npos) return;
+        kill(parent, SIGKILL);
+        ++kills_of_supervisors_;
+        ++kills_;
+    }
+
+    static void check_table(Service& service, const std::string& run) {
+        const json rows = service.table(run);
+        EXPECT_EQ(rows.size(), 2u) << run;
+        for (const json& row : rows) {
+            const double time = row.at("transfer_time");
+            EXPECT_EQ(row.at("runout"), 10 + time * time) << run;
+        }
+    }
+
+    std::vector<std::string> places_;  ///< failpoints that these studies reach
+    Sandbox sandbox_;
+    std::mt19937 random_;
+    int kills_ = 0;
+    int kills_of_service_ = 0, kills_at_failpoints_ = 0, kills_of_supervisors_ = 0,
+        kills_of_phases_ = 0;
+    std::map<std::string, std::string> acknowledged_;  ///< run, by key
+    std::string unanswered_;                           ///< key whose answer was lost
+    std::set<std::string> cancelled_;
+};
+
+TEST(RandomKills, LeaveASoundHistoryAndLoseNothing) {
+    Campaign campaign(setting("BREACH_SEED", 1));
+    campaign.kill_about(setting("BREACH_KILLS", 200));
+    campaign.settle_and_check();
+}
+
+}  // namespace
+}  // namespace breach::testing
