@@ -11,11 +11,20 @@ const content_types = { ".html": "text/html", ".js": "text/javascript", ".css": 
 
 const scene = {
     format: "breachline-scene/1", name: "column",
-    section: { regions: [{ name: "column", polygon: [[0, 0], [10, 0], [10, 20], [0, 20], [0, 0]] }] },
+    section: { regions: [{ name: "base", material: "rock", polygon: [[0, 0], [10, 0], [10, 5], [0, 5], [0, 0]] },
+                         { name: "column", material: "sand", polygon: [[0, 0], [10, 0], [10, 20], [0, 20], [0, 0]] }] },
     mpm: { runout: { toe: [10, 0] } },
 };
 export const study = { format: "breachline-study/1", name: "fake-column", title: "A column made of formulas", scene,
                        transfer_times: [0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2] };
+/// The same soil twice: softened, and not; with triggers that have fired.
+export const two_variants = {
+    ...study, name: "softened-or-not", title: "Softened, and not softened",
+    variants: [{ name: "softened", overrides: ["/materials/sand/softening=1"] }, { name: "not-softened", overrides: [] }],
+    triggers: [{ kind: "criterion", name: "strained", when: "epsilon_q_avg > 0.05 and time > 0.1", hold_s: 0.05 },
+               { kind: "window", name: "window", lower: "crest_dx > 0.2", upper: "0.9 > jacobian_ratio_avg", pick: "midpoint" },
+               { kind: "bisect", name: "edges", share: 0.75, tolerance_s: 0.05 }],
+};
 
 const digest = (text) => createHash("sha256").update(text).digest("hex");
 const clamp = (value) => Math.min(1, Math.max(0, value));
@@ -28,14 +37,17 @@ class FakeRun {
         const times = submitted.transfer_times;
         const [fem_end, mpm_time] = [0.4 * pace, (0.6 * pace * 2) / times.length];
         this.tasks = [{ phase: "lem_tool", from: 0, to: 0.1 * pace }, { phase: "fem_solver", from: 0, to: fem_end }];
+        const variants = (submitted.variants ?? [{ name: "" }]).map(({ name }) => name);
         times.forEach((transfer_time, i) => {
             const taken = ((i + 1) / times.length) * fem_end;
             const begin = Math.max(taken, fem_end + Math.floor(i / 2) * mpm_time);
             const broken = transfer_time === 1.25;
             this.tasks.push({ phase: "transfer_tool", transfer_time, from: taken, to: taken + 0.02 * pace, fails: broken });
-            this.tasks.push({ phase: "mpm_solver", transfer_time, from: begin, to: begin + mpm_time, skipped: broken });
+            for (const variant of variants) {
+                this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: begin, to: begin + mpm_time, skipped: broken });
+            }
         });
-        this.tasks.forEach((task, i) => Object.assign(task, { id: `${id}-task-${i}` }));
+        this.tasks.forEach((task, i) => Object.assign(task, { id: `${id}-task-${i}`, variant: task.variant ?? "" }));
     }
 
     age() {
@@ -60,21 +72,46 @@ class FakeRun {
         const started = !["blocked", "skipped"].includes(state) && this.age() > task.from;
         const ended = !["blocked", "running"].includes(state);
         return {
-            id: task.id, run: this.id, phase: task.phase, label: task.phase, transfer_time: task.transfer_time ?? null,
+            id: task.id, run: this.id, phase: task.phase, label: `${task.phase}_${task.transfer_time ?? ""}${task.variant}`,
+            transfer_time: task.transfer_time ?? null, variant: task.variant, same_as: null,
             state, progress: this.progress_of(task), message: state === "running" ? "step 120, dt 1.2 ms" : "",
-            result: state === "succeeded" && task.phase === "mpm_solver" ? this.runout(task.transfer_time) : null,
+            result: state === "succeeded" && task.phase === "mpm_solver" ? this.runout(task) : null,
             fault: state === "failed" ? { exit_code: 70, summary: "mass differs by 3e-9, 1e-12 is allowed" } : null,
             attempts: started ? [{ number: 1, state: ended ? "exited" : "running", started: at(task.from),
-                                   finished: ended ? at(task.to) : null, exit_code: ended ? (task.fails ? 70 : 0) : null,
+                                   finished: ended ? at(task.to) : null, exit_code: ended ? (task.fails ? 70 : 0) : null, signal: null,
                                    wall_seconds: ended ? task.to - task.from : null, cpu_seconds: ended ? 1.5 : null }] : [],
-            artifacts: state === "succeeded" ? [{ name: "result.json", sha256: digest(task.id), bytes: 2345 }] : [],
+            artifacts: state !== "succeeded" ? [] : ["result.json", "scene.completed.json", "telemetry.jsonl"].map((name) =>
+                ({ name, sha256: digest(task.id + name), bytes: 2345 })),
         };
     }
 
-    runout(transfer_time) {
-        const reach = 11 + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
+    runout({ transfer_time, variant = "" }) {
+        const reach = (variant === "not-softened" ? 0.4 : 1) * 11 + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
         return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
-                 volume_ratio: 1.01, numerical_share: 0.031, cpu_seconds: 7.25 };
+                 volume_ratio: 1.01, numerical_share: 0.031 + 0.01 * transfer_time, overlap: 0.004, cpu_seconds: 7.25 + transfer_time };
+    }
+
+    /// What the page traces a number with.
+    result_file(task) {
+        const sources = { mpm_solver: "transfer_tool", transfer_tool: "fem_solver" };
+        const source = this.tasks.find((other) => other.phase === sources[task.phase] && [undefined, task.transfer_time].includes(other.transfer_time));
+        const overrides = (this.study.variants ?? []).find(({ name }) => name === task.variant)?.overrides ?? [];
+        return { ...this.runout(task), provenance: { phase: task.phase, version: "0.1.0", threads: 1, overrides, cpu_seconds: 1.5,
+            inputs: source ? [{ path: `/data/${source.id}/particles.vtkhdf`, sha256: digest(`${source.id}particles`) }] : [] } };
+    }
+
+    triggers() {
+        const fem = this.tasks.find((task) => task.phase === "fem_solver");
+        const over = this.progress_of(fem) >= 1;
+        const firing = (time, crossed) => ({ transfer_time: time, wanted_time: time, lag_s: 0, snapshot: `snapshot_${time}.vtkhdf`,
+            sha256: digest(`snapshot${time}`), crossed, fem_step: 200 * time, snapshot_ms: 4, fired_ms: 9, start_ms: 40 });
+        const fired = { strained: [firing(0.75, { epsilon_q_avg: 0.0512, step: 140, time: 0.7 })],
+                        window: [firing(1, { lower: { crest_dx: 0.21, step: 160, time: 0.8 }, upper: { jacobian_ratio_avg: 0.899, step: 240, time: 1.2 } })],
+                        edges: [firing(0.5, null), firing(1.75, null)] };
+        return (this.study.triggers ?? []).map((spec, i) => ({ id: `${this.id}-t${i}`, name: spec.name, kind: spec.kind, fem_task: fem.id, spec,
+            state: over ? "fired" : "armed", reason: "", firings: over ? fired[spec.name] : [],
+            result: over && spec.kind === "bisect" ? { complete: true, runs: 5, uniform_runs: 40, largest_runout: 15.5, largest_at: 1,
+                lower: { off: 0.25, on: 0.5 }, upper: { off: 2, on: 1.5 } } : null }));
     }
 
     summary() {
@@ -86,18 +123,21 @@ class FakeRun {
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
-                 tasks_failed: count("failed"), message: "" };
+                 tasks_failed: count("failed"), message: "", paused: Boolean(this.paused),
+                 seconds_left: over || this.paused ? null : this.pace - this.age() };
     }
 
     rows() {
-        const find = (phase, time) => this.tasks.find((task) => task.phase === phase && task.transfer_time === time);
-        return this.study.transfer_times.map((transfer_time) => {
-            const [transfer, mpm] = [find("transfer_tool", transfer_time), find("mpm_solver", transfer_time)];
+        const trigger_of = (time) => this.triggers().find(({ firings }) => firings.some((firing) => firing.transfer_time === time));
+        return this.tasks.filter((task) => task.phase === "mpm_solver").map((mpm) => {
+            const { transfer_time, variant } = mpm;
+            const transfer = this.tasks.find((task) => task.phase === "transfer_tool" && task.transfer_time === transfer_time);
             const failed = this.state_of(transfer) === "failed";
             const state = failed ? "failed" : this.state_of(mpm);
-            const numbers = state === "succeeded" ? this.runout(transfer_time) : {};
-            return { transfer_time, state, transfer_task: transfer.id, mpm_task: mpm.id,
-                     ...Object.fromEntries(Object.keys(this.runout(1)).map((key) => [key, numbers[key] ?? null])) };
+            const numbers = state === "succeeded" ? this.runout(mpm) : {};
+            return { transfer_time, variant, state, transfer_task: transfer.id, mpm_task: mpm.id, reused: false,
+                     trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed" : "",
+                     ...Object.fromEntries(Object.keys(this.runout(mpm)).map((key) => [key, numbers[key] ?? null])) };
         });
     }
 
@@ -110,7 +150,9 @@ class FakeRun {
             const slip = Math.max(0, time - 0.3);
             lines.push({ time, crest_dx: 0.8 * slip ** 2, crest_dy: -1.1 * slip ** 2,
                          kinetic_energy: 4e5 * slip ** 2 * Math.exp(-slip), jacobian_ratio_avg: 1 - 0.12 * slip,
-                         epsilon_q_avg: 0.03 + 0.2 * slip ** 1.5, newton_iterations: 3 + (i % 4) });
+                         epsilon_q_avg: 0.03 + 0.2 * slip ** 1.5, newton_iterations: 3 + (i % 4), liquefaction_depth: 8 * Math.min(1, slip),
+                         critical_depth: 6, r_u_max: Math.min(1, slip), failure_surfaces: Math.floor(2 * slip),
+                         external_work: 5e5 * slip ** 2, internal_work: 1e5 * slip ** 2 });
         }
         return lines;
     }
@@ -128,7 +170,7 @@ class FakeRun {
         const rows = is_mesh ? 41 : Math.round(Math.sqrt(2 * this.points));
         const columns = is_mesh ? 21 : Math.round(this.points / rows);
         const spread = 1 - Math.exp(-index / (is_mesh ? 30 : 6));
-        const values = { x: [], y: [], speed: [], epsilon_q: [], region: [] };
+        const values = { x: [], y: [], speed: [], epsilon_q: [], region: [], r_u: [], pore_pressure: [] };
         for (let j = 0; j < rows; j += 1) {
             for (let i = 0; i < columns; i += 1) {
                 if (!is_mesh && (j * columns + i) % stride !== 0) continue;
@@ -139,6 +181,8 @@ class FakeRun {
                 values.speed.push(6 * spread * (1 - spread) * 4 * u * (1 - v));
                 values.epsilon_q.push(1.4 * spread * Math.exp(-(((v - 0.9 * (1 - u)) / 0.25) ** 2)));
                 values.region.push(v < 0.25 ? 0 : 1);
+                values.r_u.push(spread * (1 - v));
+                values.pore_pressure.push(2e5 * (0.7 - v)); // suction above the water
             }
         }
         const quads = [];
@@ -160,7 +204,7 @@ class FakeRun {
 export class FakeApi {
     /// pace: seconds per submitted run; points: particles per snapshot.
     constructor({ pace = 6, points = 5000 } = {}) {
-        Object.assign(this, { pace, points, runs: [], events: [], requests: [] });
+        Object.assign(this, { pace, points, runs: [], events: [], requests: [], most_per_page: 500 });
     }
 
     add_run(submitted, settings = {}) {
@@ -194,6 +238,7 @@ export class FakeApi {
         const parts = url.pathname.split("/").filter(Boolean);
         if (parts[0] !== "v1") return this.serve_file(response, url.pathname);
         const [, kind, id, ...rest] = parts;
+        if (kind === "artifacts") return this.serve_artifact(id, response);
         if (kind === "events") return this.serve_events(url, response);
         if (kind === "examples") {
             return json(response, id ? study : { examples: [{ name: study.name, title: study.title }] });
@@ -202,22 +247,47 @@ export class FakeApi {
         if (kind === "tasks") return this.serve_task(id, rest, url, response);
         if (kind === "runs" && !id) {
             if (request.method === "POST") return this.submit(request, response);
-            return json(response, { runs: this.runs.map((run) => run.summary()).reverse() });
+            return this.list_runs(url, response);
         }
         const run = this.runs.find((candidate) => candidate.id === id);
         if (kind !== "runs" || !run) return problem(response, 404, "there is no such thing");
-        if (rest[0] === "cancel") {
-            run.cancelled_at ??= Date.now();
-            this.tell(run.id, "cancelled");
-            return json(response, run.summary(), 202);
-        }
+        if (["cancel", "pause", "resume", "retry"].includes(rest[0])) return this.command(run, rest[0], response);
+        if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
         if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows() });
         if (rest[0] === "telemetry") {
             const from = Number(url.searchParams.get("from") ?? 0);
+            if (url.searchParams.has("variant")) return problem(response, 400, 'unknown query parameter "variant"');
             const lines = run.telemetry(url.searchParams.get("phase")).slice(from, from + 150);
             return json(response, { lines, next: from + lines.length });
         }
         return json(response, { ...run.summary(), study: run.study, tasks: run.tasks.map((task) => run.describe_task(task)) });
+    }
+
+    list_runs(url, response) {
+        const all = this.runs.map((run) => run.summary()).reverse();
+        const limit = Math.min(Number(url.searchParams.get("limit") ?? 100), this.most_per_page);
+        const from = Number(url.searchParams.get("cursor") ?? 0);
+        json(response, { runs: all.slice(from, from + limit), next: from + limit < all.length ? String(from + limit) : null });
+    }
+
+    command(run, order, response) {
+        if (order === "cancel") run.cancelled_at ??= Date.now();
+        if (order === "pause") run.paused = true;
+        if (order === "resume") run.paused = false;
+        if (order === "retry") Object.assign(run, { began: Date.now(), pace: 600, cancelled_at: null });
+        this.tell(run.id, order);
+        json(response, run.summary(), 202);
+    }
+
+    serve_artifact(sha256, response) {
+        for (const run of this.runs) {
+            for (const task of run.tasks) {
+                if (digest(`${task.id}result.json`) === sha256) return json(response, run.result_file(task));
+                if (digest(`${task.id}telemetry.jsonl`) !== sha256) continue;
+                return response.writeHead(200).end(run.telemetry(task.phase).map((line) => `${JSON.stringify(line)}\n`).join(""));
+            }
+        }
+        return problem(response, 404, "there is no such artifact");
     }
 
     async submit(request, response) {
@@ -262,7 +332,7 @@ export class FakeApi {
             response.writeHead(200, { "Content-Type": "text/plain; charset=utf-8", "X-Next-Offset": text.length });
             return response.end(text.slice(offset));
         }
-        if (rest[0] !== "frames") return json(response, run.describe_task(task));
+        if (rest[0] !== "frames") return json(response, { ...run.describe_task(task), why: { reason: "first of its kind", differs: [] } });
         if (rest.length === 1) return json(response, { frames: run.frames(task) });
         const bytes = run.points_of(task, Number(rest[1].slice(-5)), Number(url.searchParams.get("stride") ?? 1));
         response.writeHead(200, { "Content-Type": "application/octet-stream" });

@@ -1,8 +1,9 @@
 // The page against a stand-in server: what it shows, what it asks before it acts, what it does when the server goes.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
-import { FakeApi, study } from "./fake_api.mjs";
+import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { FakeApi, study, two_variants } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
 let url;
@@ -54,6 +55,7 @@ test("the curve has one marker per finished transfer time, and marks the failed 
     await open_run("run-1");
     await until("seven markers", async () => (await markers()) === 7);
     assert.equal(await page.locator("#runout-plot svg.plot > .mark.failed").count(), 1);
+    assert.equal(await page.isVisible("#runout-rows .variant"), false);
     assert.equal(await text_of("#runout-progress"), "7 of 8 transfer times finished");
     assert.equal(await page.locator("#runout-rows tr").count(), 8);
     assert.equal(await page.getAttribute("#runout-csv", "href"), "/v1/runs/run-1/results?format=csv");
@@ -66,10 +68,12 @@ test("the curve is read by pointer and by keyboard", async () => {
     await until("markers", async () => (await markers()) === 7);
     await page.focus("#runout-plot svg.plot");
     await page.keyboard.press("Home");
-    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: 99 % of the mobile soil 14.04 m · 99 % of what passed the toe 15.24 m/);
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: 99 % of the mobile soil 14.04 m$/);
     await page.keyboard.press("ArrowRight");
     assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.5 s/);
     await page.keyboard.press("Enter");
+    await page.waitForSelector("#provenance[open] .step");
+    await page.click("#provenance-look");
     await until("particles of 0.5 s", async () =>
         (await page.$eval("#view-source", (s) => s.selectedOptions[0].textContent)) === "MPM from t_T = 0.5 s");
     const picture = page.locator("#runout-plot svg.plot");
@@ -151,16 +155,41 @@ test("100,000 particles are drawn whole; the time per picture is printed", async
     const shown = (share) => times[Math.floor(share * (times.length - 1))].toFixed(1);
     console.log(`painting 100,000 points: median ${shown(0.5)} ms, slowest ${shown(1)} ms of ${times.length}`);
     assert.ok(times.length >= 10);
+
+    // Playing: once while the snapshots come, once from memory; what a person sees is the distance between pictures.
+    for (const round of ["while fetched", "from memory"]) {
+        const frames = await page.evaluate(async () => {
+            const pictures = [];
+            let last = performance.now();
+            let going = true;
+            const look = (now) => {
+                pictures.push(now - last);
+                last = now;
+                if (going) requestAnimationFrame(look);
+            };
+            requestAnimationFrame(look);
+            document.getElementById("view-play").click();
+            while (!document.getElementById("view-play").textContent.includes("Play")) await new Promise((go) => setTimeout(go, 50));
+            going = false;
+            return pictures.slice(1).sort((a, b) => a - b);
+        });
+        const at = (share) => frames[Math.floor(share * (frames.length - 1))].toFixed(1);
+        console.log(`playing 100,000 points ${round}: ${frames.length} pictures, median ${at(0.5)} ms apart, 95 % within ${at(0.95)} ms, ` +
+                    `longest ${at(1)} ms; ${frames.filter((each) => each > 33.4).length} above 33 ms`);
+        assert.match(await text_of("#view-now"), /25 of 25/);
+    }
 });
 
 test("telemetry is drawn as curves and the other monitors are at hand", async () => {
     await open_run("run-1");
-    await until("four panels", async () => (await page.locator("#telemetry-plots figure").count()) === 4);
+    await until("eight panels", async () => (await page.locator("#telemetry-plots figure").count()) === 8);
     assert.deepEqual(await page.locator("#telemetry-plots figcaption").allTextContents(),
-                     ["Crest displacement", "Kinetic energy", "Jacobian ratio, averages", "Deviatoric strain, average"]);
+                     ["Crest displacement", "Kinetic energy", "Liquefaction depth", "Pore pressure ratio", "Failure surfaces",
+                      "Jacobian ratio, averages", "Deviatoric strain, average", "Work"]);
     const path = await page.getAttribute("#telemetry-plots figure:nth-child(2) .curve.series-0[d*=L]", "d");
     assert.ok(path.length > 500, "the curve has many points");
     assert.equal(await page.locator("#telemetry-plots figure:nth-child(1) svg.plot > .event").count(), 8);
+    assert.ok(await page.isHidden("#triggers"), "this study has none");
     await page.click("#telemetry-more summary");
     await until("the other monitor", async () => (await page.locator("#telemetry-others figure .curve").count()) > 0);
 });
@@ -173,7 +202,7 @@ test("a task shows its fault, attempts, files with hashes, and log", async () =>
     await until("the log", async () => /transfer_tool step 59/.test(await text_of("#log")));
     await page.click("#task-rows tr:nth-child(2) button");
     await until("the FEM's log", async () => /fem_solver step 59/.test(await text_of("#log")));
-    const link = page.locator("#task-artifacts a");
+    const link = page.locator("#task-artifacts a").first();
     assert.match(await link.getAttribute("href"), /^\/v1\/artifacts\/[0-9a-f]{64}$/);
     assert.equal(await page.evaluate(() => document.activeElement.id), "task-title");
 });
@@ -215,7 +244,7 @@ test("an example is loaded, planned, submitted, and fills in live", async () => 
 test("cancelling asks first", async () => {
     api.add_run({ ...study, name: "to-cancel" }, { pace: 600 });
     await open_run("run-4");
-    const asked = () => api.requests.filter((line) => line.endsWith("/cancel")).length;
+    const asked = (order = "cancel") => api.requests.filter((line) => line.endsWith(`/${order}`)).length;
     await page.click("#cancel");
     assert.equal(await page.evaluate(() => document.activeElement.textContent), "Keep running");
     await page.keyboard.press("Enter");
@@ -228,6 +257,188 @@ test("cancelling asks first", async () => {
     await page.click("#cancel-dialog .danger");
     await until("cancelled", async () => /cancelled/.test(await text_of("#run-state")));
     assert.equal(asked(), 1);
+    await page.click("#retry");
+    await until("it runs again", async () => /running/.test(await text_of("#run-state")));
+    assert.equal(asked("retry"), 1);
+});
+
+test("a run is paused and resumed, and says how long it will take", async () => {
+    await open_run("run-4");
+    await until("time left", async () => /about 9 min \d+ s left/.test(await text_of("#run-summary")));
+    await page.click("#pause");
+    await until("paused", async () => /paused/.test(await text_of("#run-state")));
+    assert.match(await text_of("#run-summary"), /nothing new is started/);
+    assert.ok(await page.isHidden("#pause"));
+    await page.click("#resume");
+    await until("running", async () => /running/.test(await text_of("#run-state")));
+    assert.ok(await page.isHidden("#retry"), "nothing to retry while it runs");
+});
+
+test("every variant has its own curve, rows, chips and particles", async () => {
+    api.add_run(two_variants, { began: Date.now() - 60000 });
+    await open_run("run-5");
+    await until("two curves", async () => (await page.locator("#runout-plot svg.plot > .marker.series-1").count()) === 7);
+    assert.equal(await markers(), 7);
+    assert.deepEqual((await page.locator("#runout-plot .legend li").allTextContents()).map((name) => name.trim()),
+                     ["softened", "not-softened", "failed", "window", "plateau"]);
+    assert.equal(await text_of("#runout-progress"), "14 of 16 runs (transfer times × 2 variants) finished");
+    assert.equal(await page.locator("#runout-rows tr").count(), 16);
+    const cells = async (key) => page.locator(`#runout-rows tr[data-key="${key}"] td`).allTextContents();
+    assert.deepEqual((await cells("1/softened")).slice(0, 3), ["softened", "✓ succeeded", "15.5"]);
+    assert.deepEqual((await cells("1/not-softened")).slice(0, 3), ["not-softened", "✓ succeeded", "8.9"]);
+    assert.deepEqual((await page.locator("#flow-head span").allTextContents()),
+                     ["t_T [s]", "transfer", "MPM, softened", "MPM, not-softened"]);
+    assert.equal(await page.locator(".flow-column:nth-child(1) .flow-chip").count(), 3);
+    await page.selectOption("#runout-measure", "runout_largest");
+    await page.focus("#runout-plot svg.plot");
+    await page.keyboard.press("Home");
+    assert.match(await text_of("#runout-plot .readout"), /softened 16.54 m · not-softened 9.944 m/);
+    await page.click('#runout-rows tr[data-key="1.5/not-softened"] th button');
+    await until("its particles", async () =>
+        (await page.$eval("#view-source", (s) => s.selectedOptions[0].textContent)) === "MPM from t_T = 1.5 s, not-softened");
+    const sources = await page.locator("#view-source option").allTextContents();
+    assert.equal(new Set(sources).size, 17, "every source has a name of its own");
+});
+
+test("window, plateau, thresholds and firings of triggers are drawn where they belong", async () => {
+    await open_run("run-5");
+    assert.deepEqual(await page.locator("#runout-plot .band title").allTextContents(),
+                     ["window: 0.8 to 1.2", "plateau, at least 75 % of the largest: 0.5 to 1.5"]);
+    await until("panels", async () => (await page.locator("#telemetry-plots figure").count()) === 8);
+    const levels = (title) => page.locator(`#telemetry-plots figure:has-text("${title}") .level-text`).allTextContents();
+    assert.deepEqual(await levels("Crest displacement"), ["window, lower edge 0.2"]);
+    assert.deepEqual(await levels("Jacobian ratio"), ["window, upper edge 0.9"]);
+    assert.deepEqual(await levels("Deviatoric strain"), ["strained 0.05"]);
+    assert.deepEqual(await levels("Kinetic energy"), []);
+    assert.deepEqual(await page.locator("#telemetry-plots figure:nth-child(1) .event-text").allTextContents(), ["strained", "window"]);
+    assert.equal(await page.locator("#trigger-rows tr").count(), 3);
+    assert.match(await text_of("#trigger-rows tr:nth-child(3)"), /edges.*bisect.*fired.*5 runs instead of 40/s);
+    const x_of = (path) => parseFloat(path.match(/^M([\d.]+)/)[1]);
+    const fired = await page.locator("#telemetry-plots figure:nth-child(1) .event.fired").evaluateAll((all) => all.map((one) => one.getAttribute("d")));
+    assert.equal(fired.length, 2);
+    assert.ok(x_of(fired[0]) < x_of(fired[1]), "0.75 s is left of 1 s");
+});
+
+test("thresholds are read from conditions, formulas are not", async () => {
+    await open_run("run-5");
+    const read = await page.evaluate(async () => {
+        const { thresholds_in } = await import("/static/triggers.js");
+        return ["jacobian_least_avg < 0.97 and not (time < 1)", "growth(kinetic_energy, 0.2) > 5 or epsilon_q_avg >= 2e-1",
+                "0.9 > a", "2 * a > 3", "a > 3 * b", "a < -.5", "a < b", "max(a, b) < 3"]
+            .map((text) => thresholds_in(text).map(({ field, y }) => `${field} ${y}`).join());
+    });
+    assert.deepEqual(read, ["jacobian_least_avg 0.97", "epsilon_q_avg 0.2", "a 0.9", "", "", "a -0.5", "", ""]);
+});
+
+test("error against run time: a marker per point, CPU time per phase", async () => {
+    await open_run("run-5");
+    await until("markers", async () => (await page.locator("#cost-runout .marker").count()) >= 14);
+    assert.equal(await page.locator("#cost-share svg.plot > .marker").count(), 14);
+    assert.match(await text_of("#cost-runout-title"), /no error estimate/);
+    const sums = await page.locator("#cost-rows tr:last-child td").allTextContents();
+    assert.deepEqual(sums.slice(0, 4), ["16", "0", "14", "21 s"]); // 14 attempts of 1.5 s
+    await page.focus("#cost-share svg.plot");
+    await page.keyboard.press("Home");
+    assert.match(await text_of("#cost-share .readout"), /^CPU = 7.5 s: softened, t_T = 0.25 s 0.0335/);
+});
+
+test("every number leads to its files, hashes and settings", async () => {
+    await open_run("run-5");
+    await until("rows", async () => (await page.locator("#runout-rows tr").count()) === 16);
+    await page.click('#runout-rows tr[data-key="1/softened"] [data-column="numerical_share"]');
+    await page.waitForSelector("#provenance[open] .step");
+    assert.match(await text_of("#provenance-title"), /numerical share of the released energy: 0.041/);
+    assert.match(await text_of("#provenance-where"), /t_T = 1 s, softened. “energy.numerical.share” in result.json of task run-5-task-/);
+    assert.deepEqual(await page.locator("#provenance .step h3").allTextContents(),
+                     ["mpm_solver, t_T = 1 s, softened", "transfer_tool, t_T = 1 s", "fem_solver"]);
+    const chain = await text_of("#provenance-chain");
+    for (const part of [/trigger window \(window\)/, /"crest_dx":0.21/, /variant sets.*softening=1/s, /version0.1.0/, /first of its kind/,
+                        /mpm_solver scene.completed.json --input particles.vtkhdf --threads 1 --output again/]) {
+        assert.match(chain, part);
+    }
+    await page.click("#provenance .step:first-child summary, #provenance .step summary >> nth=0");
+    const links = await page.locator("#provenance a").evaluateAll((all) => all.map((one) => one.getAttribute("href")));
+    assert.ok(links.length >= 11 && links.every((href) => /^\/v1\/artifacts\/[0-9a-f]{64}$/.test(href)), links.join("\n"));
+    await page.screenshot({ path: `${build_folder}/screenshots/page_provenance.png` });
+    await page.keyboard.press("Escape");
+    await page.focus('#runout-rows tr[data-key="1/softened"] td:last-child button');
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#provenance[open] .step");
+    await page.keyboard.press("Escape");
+});
+
+test("telemetry of a finished variant is its own; a running one among several says why it is not there", async () => {
+    await open_run("run-5");
+    await page.selectOption("#telemetry-source", { label: "MPM from t_T = 2 s, not-softened" });
+    await until("curves", async () => (await page.locator("#telemetry-plots .curve").count()) > 8);
+    api.add_run(two_variants, { pace: 600, began: Date.now() - 400000 });
+    await open_run("run-6");
+    const running = await page.locator("#telemetry-source option").evaluateAll((all) => all.at(-1).value);
+    await page.selectOption("#telemetry-source", running);
+    await until("the reason", async () => /variants apart only when/.test(await text_of("#telemetry-message")));
+});
+
+test("the database is read as tables: pages, filter, sorting, CSV, addresses", async () => {
+    for (let i = 0; i < 60; i += 1) api.add_run({ ...study, name: `many-${i}`, transfer_times: [1] }, { began: Date.now() - 60000 });
+    await page.click('a[href="#/database"]');
+    const rows = () => page.locator("#database-table tbody tr").count();
+    const count = () => text_of("#database-table p");
+    await until("fifty rows", async () => (await rows()) === 50);
+    assert.match(await count(), /^Rows 1 to 50 of 66\.$/);
+    await page.click("text=Next ▸");
+    assert.equal(await rows(), 16);
+    await page.fill("#database-table input", "state=partial softened");
+    assert.match(await count(), /Rows 1 to 1 of 1, filtered from 66/);
+    await page.fill("#database-table input", "");
+    await page.click("#database-table thead button:has-text('name')");
+    assert.match(await text_of("#database-table tbody tr:first-child"), /fake-column/);
+    assert.equal(await page.getAttribute("#database-table thead th:nth-child(2)", "aria-sort"), "ascending");
+
+    await page.click("[data-table=attempts]");
+    await page.selectOption("#database-run", "run-5");
+    await until("its attempts", async () => page.url().endsWith("#/database/attempts/run-5") && /of 24\.$/.test(await count()));
+    await page.click("[data-table=results]");
+    await until("its results", async () => /of 16\.$/.test(await count()));
+    assert.equal(await page.getAttribute("#database-csv", "href"), "/v1/runs/run-5/results?format=csv");
+    await page.fill("#database-table input", "variant=softened");
+    const waiting = page.waitForEvent("download");
+    await page.click("text=CSV of the filtered rows");
+    const csv = readFileSync(await (await waiting).path(), "utf8").trim().split("\r\n");
+    assert.equal(csv.length, 17, "softened is in not-softened too");
+    assert.match(csv[0], /^transfer_time,variant,state,runout,/);
+    await page.click("[data-table=triggers]");
+    await until("its firings", async () => (await rows()) === 4);
+    await page.click("[data-table=tasks]");
+    await until("its tasks", async () => (await rows()) === 26);
+    await page.click("[data-table=events]");
+    await until("events", async () => (await rows()) === 50);
+    await page.screenshot({ path: `${build_folder}/screenshots/page_database.png` });
+
+    api.most_per_page = 10;
+    await page.click("[data-table=runs]");
+    await until("forty of them", async () => /of 40; the server has more/.test(await count()));
+    await page.click("#database-more");
+    await until("all", async () => /of 66\.$/.test(await count()));
+    api.most_per_page = 500;
+    await page.fill("#database-table input", "id=run-5");
+    await page.click('#database-table a[href="#/runs/run-5"]');
+    await page.waitForSelector("#run:not([hidden])");
+    api.runs.splice(6);
+});
+
+test("points are coloured by pore pressure ratio, pore pressure with suction, and material", async () => {
+    await open_run("run-1");
+    await until("soil", async () => (await canvas_facts(page)).share > 0.05);
+    assert.deepEqual(await page.locator("#view-field option").allTextContents(),
+                     ["velocity (magnitude)", "deviatoric strain ε_q", "region", "pore pressure ratio r_u", "pore pressure u", "material"]);
+    await page.selectOption("#view-field", "pore_pressure");
+    assert.match(await text_of("#view-range"), /pore pressure u \[Pa\], -5\d+ to 14\d+/);
+    await page.selectOption("#view-field", "material");
+    assert.deepEqual((await page.locator("#view-regions li").allTextContents()).map((name) => name.trim()), ["rock", "sand"]);
+    await page.selectOption("#view-source", { label: "FEM mesh" });
+    await until("elements", async () => (await text_of("#view-count")) === "800 elements");
+    await page.selectOption("#view-field", "r_u");
+    assert.match(await text_of("#view-range"), /r_u \[–\], 0 to 0\.\d+/);
 });
 
 test("when the server goes away the page says so, keeps what it shows, and recovers", async () => {
@@ -275,7 +486,7 @@ test("a truncated snapshot is refused, never drawn wrong", async () => {
 test("every control has a name, and the keyboard reaches it", async () => {
     await open_run("run-1");
     await page.click("#task-rows tr:nth-child(2) button");
-    await until("panels", async () => (await page.locator("#telemetry-plots figure").count()) === 4);
+    await until("panels", async () => (await page.locator("#telemetry-plots figure").count()) === 8);
     const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, a, canvas, svg.plot, progress")]
         .filter((control) => control.checkVisibility())
         .filter((control) => !(control.getAttribute("aria-label") || control.labels?.length ||
@@ -284,7 +495,7 @@ test("every control has a name, and the keyboard reaches it", async () => {
     assert.deepEqual(nameless, []);
     await page.evaluate(() => document.body.focus());
     const reached = new Set();
-    for (let i = 0; i < 90; i += 1) {
+    for (let i = 0; i < 130; i += 1) {
         await page.keyboard.press("Tab");
         reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.className.baseVal ||
                                               document.activeElement.className));
@@ -310,9 +521,10 @@ test("text has a contrast of 4.5 and graphics of 3 in light and dark", async () 
                 return (high + 0.05) / (low + 0.05);
             };
             const text = [["text", "ground"], ["text", "card"], ["muted", "ground"], ["muted", "card"], ["link", "card"],
-                          ["on-primary", "primary"], ["muted", "canvas"],
+                          ["on-primary", "primary"], ["muted", "canvas"], ["fired", "card"],
                           ...["good", "bad", "warn", "busy", "off"].map((name) => [name, `${name}-back`])];
-            const graphics = ["series-0", "series-1", "series-2", "focus", "axis", "event"].map((name) => [name, "card"]);
+            const graphics = ["series-0", "series-1", "series-2", "series-3", "series-4", "series-5", "focus", "axis", "event",
+                              "window", "plateau"].map((name) => [name, "card"]);
             return [...text.map(([a, b]) => [a, b, contrast(a, b), 4.5]), ...graphics.map(([a, b]) => [a, b, contrast(a, b), 3])];
         });
         for (const [front, back, reached, least] of ratios) {
@@ -323,10 +535,10 @@ test("text has a contrast of 4.5 and graphics of 3 in light and dark", async () 
 });
 
 test("it fits narrow and wide windows, light and dark", async () => {
-    api.add_run({ ...study, name: "half-way", title: "A run half-way" }, { pace: 600, began: Date.now() - 420000 });
+    const half_way = api.add_run({ ...two_variants, name: "half-way", title: "A run half-way" }, { pace: 600, began: Date.now() - 420000 });
     for (const [theme, width] of [["light", 1400], ["dark", 1400], ["light", 390], ["dark", 390], ["light", 2200]]) {
         await page.setViewportSize({ width, height: 900 });
-        await open_run("run-6");
+        await open_run(half_way.id);
         while ((await page.getAttribute("html", "data-theme")) !== theme) await page.click("#theme");
         await page.click("#task-rows tr:nth-child(2) button");
         await until("soil", async () => (await canvas_facts(page)).share > 0.02);

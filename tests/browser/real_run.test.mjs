@@ -103,7 +103,7 @@ test("the table has the API's numbers", async () => {
     assert.deepEqual(rows.map((row) => row.transfer_time), study.transfer_times);
     for (const row of rows) {
         assert.ok(row.runout > 3, `the column runs out: ${row.runout} m`);
-        const cells = await page.locator(`#runout-rows tr[data-key="${row.transfer_time}"] td.number`).allTextContents();
+        const cells = await page.locator(`#runout-rows tr[data-key="${row.transfer_time}/"] td.number`).allTextContents();
         assert.equal(Number(cells[0]), Number(row.runout.toPrecision(4)));
         console.log(`t_T = ${row.transfer_time} s: runout ${row.runout.toFixed(3)} m, ${row.cpu_seconds} s CPU`);
     }
@@ -113,7 +113,7 @@ test("the table has the API's numbers", async () => {
 
 test("particles of each transfer time are drawn and move", async () => {
     for (const transfer_time of study.transfer_times) {
-        await page.click(`#runout-rows tr[data-key="${transfer_time}"] button`);
+        await page.click(`#runout-rows tr[data-key="${transfer_time}/"] button`);
         await until(`soil from t_T = ${transfer_time} s`, async () =>
             (await page.$eval("#view-source", (s) => s.selectedOptions[0].textContent)) === `MPM from t_T = ${transfer_time} s` &&
             (await canvas_facts(page)).share > 0.02);
@@ -157,7 +157,7 @@ test("a task's log and files are there, and a file is what its hash says", async
 });
 
 test("the finished run is photographed, light and dark", async () => {
-    await page.click(`#runout-rows tr[data-key="${study.transfer_times[1]}"] button`);
+    await page.click(`#runout-rows tr[data-key="${study.transfer_times[1]}/"] button`);
     await page.click("#task-close");
     for (const theme of ["light", "dark"]) {
         while ((await page.getAttribute("html", "data-theme")) !== theme) await page.click("#theme");

@@ -45,19 +45,40 @@ function post_json(path, text) {
 const path_of = (...parts) => "/v1/" + parts.map(encodeURIComponent).join("/");
 
 export const list_runs = async () => (await get_json("/v1/runs")).runs;
+/// {runs, next}; cursor: the `next` of the page before.
+export function page_of_runs(cursor, limit) {
+    const query = new URLSearchParams({ limit });
+    if (cursor) query.set("cursor", cursor);
+    return get_json(`/v1/runs?${query}`);
+}
+/// {events, next} after the given number.
+export const page_of_events = (after) => get_json(`/v1/events?after=${after}&wait=0`);
 export const read_run = (run) => get_json(path_of("runs", run));
 export const submit_study = (text) => post_json("/v1/runs", text);
-export const cancel_run = (run) => post_json(path_of("runs", run, "cancel"), "{}");
+/// order: cancel, pause, resume or retry
+export const command_run = (run, order) => post_json(path_of("runs", run, order), "{}");
+export const read_task = (task) => get_json(path_of("tasks", task));
+export const read_triggers = async (run) => (await get_json(path_of("runs", run, "triggers"))).triggers;
+/// A stored JSON file.
+export const read_json_artifact = (sha256) => get_json(artifact_path(sha256), { cache: "default" });
 export const read_results = (run) => get_json(path_of("runs", run, "results"));
 export const results_csv = (run) => path_of("runs", run, "results") + "?format=csv";
 export const artifact_path = (sha256) => path_of("artifacts", sha256);
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
-/// Telemetry lines from line number `from` on; {lines, next}. transfer_time: null for phases that have none.
-export function read_telemetry(run, phase, transfer_time, from) {
-    const query = new URLSearchParams({ phase, from });
-    if (transfer_time !== null) query.set("transfer_time", transfer_time);
-    return get_json(`${path_of("runs", run, "telemetry")}?${query}`);
+/// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the
+/// server is asked by phase, time and, where tasks differ in nothing else, variant.
+export async function read_telemetry(task, alone, from) {
+    const stored = task.artifacts.find((file) => file.name === "telemetry.jsonl");
+    if (stored && !alone) {
+        const text = await body_of(await request(artifact_path(stored.sha256), { cache: "default" }), "text");
+        const lines = text.split("\n").filter(Boolean).map((line) => JSON.parse(line));
+        return { lines: lines.slice(from), next: lines.length };
+    }
+    const query = new URLSearchParams({ phase: task.phase, from });
+    if (Number.isFinite(task.transfer_time)) query.set("transfer_time", task.transfer_time);
+    if (!alone) query.set("variant", task.variant);
+    return get_json(`${path_of("runs", task.run, "telemetry")}?${query}`);
 }
 
 /// Log text from byte `offset` on; {text, next}.
@@ -78,8 +99,8 @@ export async function read_points(task, frame, stride, signal) {
 }
 
 /// One JSON line, padded to a multiple of 4 bytes, then `count` float32 per field, then 4 uint32 node indices per
-/// quad of a mesh. Returns {time, count, columns: {x, y, ...}, regions, quads: Uint32Array|null}; the arrays are
-/// views of `buffer`.
+/// quad of a mesh. Returns {time, count, columns: {x, y, ...}, regions, region_materials (undefined when the server does
+/// not tell), quads: Uint32Array|null}; the arrays are views of `buffer`.
 export function decode_points(buffer) {
     const all = new Uint8Array(buffer);
     const line_end = all.indexOf(10);
@@ -94,7 +115,7 @@ export function decode_points(buffer) {
         offset += 4 * header.count;
     }
     const quads = header.quads ? new Uint32Array(buffer, offset, 4 * header.quads) : null;
-    return { time: header.time, count: header.count, columns, regions: header.regions ?? [], quads };
+    return { time: header.time, count: header.count, columns, regions: header.regions ?? [], region_materials: header.materials, quads };
 }
 
 /// Studies that the server ships: [{name, title}]; none when it ships none.

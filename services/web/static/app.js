@@ -1,8 +1,11 @@
 // Puts the page together: which run is open, when to look again, what to say when the server is gone.
 import * as api from "./api.js";
+import { Cost } from "./cost.js";
+import { Database } from "./database.js";
 import { by_id, set_text } from "./dom.js";
-import { is_active } from "./format.js";
+import { is_active, variants_of } from "./format.js";
 import { Particles } from "./particles.js";
+import { Provenance } from "./provenance.js";
 import { Results } from "./results.js";
 import { draw_list, run_address, RunHead } from "./runs.js";
 import { SubmitDialog } from "./submit.js";
@@ -13,10 +16,17 @@ const settle = 250;        // [ms] events that arrive together cause one look
 const look_again = 1500;   // [ms] between looks while something runs: progress is no event
 
 const particles = new Particles();
-const results = new Results((transfer_time) => {
-    particles.show_transfer_time(transfer_time);
+function look_at(row) {
+    particles.show_point(row);
     by_id("particles").scrollIntoView({ block: "nearest" });
-});
+    by_id("view").focus({ preventScroll: true });
+}
+
+const provenance = new Provenance(look_at);
+const ask = (row, column) => provenance.ask(results.run, row, column);
+const results = new Results({ look_at, ask });
+const cost = new Cost((key, column) => ask(results.row(key), column));
+const database = new Database();
 const telemetry = new Telemetry();
 const tasks = new Tasks();
 const head = new RunHead(() => look_soon());
@@ -25,6 +35,7 @@ new SubmitDialog((run) => {
     look_soon();
 });
 
+const open_table = () => location.hash.match(/^#\/database(?:\/([^/]+))?(?:\/([^/]+))?$/);
 const open_id = () => decodeURIComponent(location.hash.match(/^#\/runs\/(.+)$/)?.[1] ?? "");
 
 // ---- connection
@@ -82,16 +93,20 @@ async function look() {
 
 async function show_open_run() {
     const id = open_id();
-    by_id("welcome").hidden = id !== "";
+    const tables = open_table() !== null;
+    by_id("welcome").hidden = tables || id !== "";
+    by_id("database").hidden = !tables;
     by_id("missing").hidden = true;
-    if (id === "") {
+    if (tables) document.title = "Run database – Breachline";
+    if (tables || id === "") {
         by_id("run").hidden = true;
-        document.title = "Breachline";
+        if (!tables) document.title = "Breachline";
         return;
     }
     let run;
     try {
         run = await api.read_run(id);
+        run.triggers = await api.read_triggers(id);
     } catch (fault) {
         if (!(fault instanceof api.Problem) || fault.status !== 404) throw fault;
         by_id("run").hidden = true;
@@ -103,7 +118,8 @@ async function show_open_run() {
     head.show(run);
     await tasks.show(run);
     // One part that fails must not hide the others.
-    const parts = await Promise.allSettled([results.show(run), telemetry.show(run), particles.show(run)]);
+    const sweep = results.show(run).then((rows) => cost.show(run, rows, variants_of(run)));
+    const parts = await Promise.allSettled([sweep, telemetry.show(run), particles.show(run)]);
     const broken = parts.find((part) => part.status === "rejected");
     if (broken) throw broken.reason;
 }
@@ -129,8 +145,14 @@ set_theme(themes.includes(stored) ? stored : "auto");
 
 // ---- begin
 
+function open_database() {
+    const table = open_table();
+    if (table) database.show(table[1] ?? "runs", decodeURIComponent(table[2] ?? ""));
+}
+
 window.addEventListener("hashchange", () => {
     look_soon(0);
+    open_database();
     by_id("main").focus({ preventScroll: true });
 });
 api.follow_events({
@@ -141,3 +163,4 @@ api.follow_events({
     },
 });
 look_soon(0);
+open_database();

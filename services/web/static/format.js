@@ -31,13 +31,17 @@ export function clock(iso) {
     return today ? time : `${when.toLocaleDateString()} ${time}`;
 }
 
+/// A length of time: "4.2 s", "12 min 5 s", "3 h 20 min".
+export function span(length) {
+    if (length < 60) return `${length.toFixed(length < 10 ? 1 : 0)} s`;
+    if (length < 3600) return `${Math.floor(length / 60)} min ${Math.floor(length % 60)} s`;
+    return `${Math.floor(length / 3600)} h ${Math.floor((length % 3600) / 60)} min`;
+}
+
 /// Wall time between two moments; the second may still be to come.
 export function elapsed(from, to) {
     if (!from) return "–";
-    const span = Math.max(0, (to ? new Date(to) : new Date()) - new Date(from)) / 1000;
-    if (span < 60) return `${span.toFixed(span < 10 ? 1 : 0)} s`;
-    if (span < 3600) return `${Math.floor(span / 60)} min ${Math.floor(span % 60)} s`;
-    return `${Math.floor(span / 3600)} h ${Math.floor((span % 3600) / 60)} min`;
+    return span(Math.max(0, (to ? new Date(to) : new Date()) - new Date(from)) / 1000);
 }
 
 export const percent = (fraction) => `${Math.floor(100 * Math.min(1, Math.max(0, fraction ?? 0)))} %`;
@@ -50,8 +54,10 @@ export function state_look(state) {
     switch (state) {
         case "succeeded":
         case "cached":
+        case "fired":
             return { family: "good", sign: "✓" };
         case "partial":
+        case "paused":
             return { family: "warn", sign: "◐" };
         case "failed":
         case "lost":
@@ -59,10 +65,13 @@ export function state_look(state) {
         case "cancelled":
         case "cancelling":
         case "skipped":
+        case "expired":
+        case "disarmed":
             return { family: "off", sign: "⊘" };
         case "starting":
         case "running":
         case "finalizing":
+        case "holding":
             return { family: "busy", sign: "▶" };
         default:
             return { family: "idle", sign: "·" };
@@ -76,9 +85,21 @@ export function show_state(badge, state) {
     if (badge.textContent !== text) badge.textContent = text;
 }
 
-/// "fem_solver", "mpm_solver, t_T = 1.5 s"
-export function task_name(task) {
-    return Number.isFinite(task.transfer_time)
-        ? `${task.phase}, t_T = ${number(task.transfer_time)} s`
-        : task.phase;
+/// "t_T = 1.5 s, softened": which point of the sweep; "" for what all of them share.
+export function point_name({ transfer_time, variant }) {
+    const time = Number.isFinite(transfer_time) ? `t_T = ${number(transfer_time)} s` : "";
+    return [time, variant].filter(Boolean).join(", ");
 }
+
+/// "fem_solver", "mpm_solver, t_T = 1.5 s, softened"
+export const task_name = (task) => [task.phase, point_name(task)].filter(Boolean).join(", ");
+
+/// Names of a run's variants in the study's order; [""] when it has none.
+export function variants_of(run) {
+    const named = (run.study?.variants ?? []).map((variant) => variant.name);
+    return named.length ? named : [""];
+}
+
+/// Of two sweep points, which comes first.
+export const by_point = (variants) => (a, b) =>
+    (a.transfer_time ?? -1) - (b.transfer_time ?? -1) || variants.indexOf(a.variant) - variants.indexOf(b.variant);

@@ -3,19 +3,24 @@
 import * as api from "./api.js";
 import { region_css, scale_gradient } from "./colours.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { is_active, number, seconds } from "./format.js";
-import { extents_of, high_of, PointView, spacing_of } from "./points.js";
+import { by_point, is_active, number, point_name, seconds, variants_of } from "./format.js";
+import { extents_of, PointView, reach_of, spacing_of } from "./points.js";
 
 const frames_per_second = 12;
 const kept_bytes = 192e6;       // snapshots kept in memory
 const easy_count = 250000;      // more points than this are thinned at first sight
+const ahead = 2;                // snapshots fetched before a playing picture needs them
 
 const known_fields = {
     epsilon_q: { name: "deviatoric strain ε_q", unit: "–" },
-    speed: { name: "speed", unit: "m/s" },
+    speed: { name: "velocity (magnitude)", unit: "m/s" },
     region: { name: "region", unit: "" },
+    material: { name: "material", unit: "" },
     r_u: { name: "pore pressure ratio r_u", unit: "–" },
+    pore_pressure: { name: "pore pressure u", unit: "Pa" },
+    mean_stress: { name: "mean effective stress", unit: "Pa" },
 };
+const categories = ["region", "material"];
 const field_name = (field) => known_fields[field]?.name ?? field;
 
 export class Particles {
@@ -25,7 +30,8 @@ export class Particles {
         this.frames = [];
         this.at = -1;
         this.kept = new Map(); // frame name -> {snapshot, bytes}, oldest first
-        this.highs = {};       // field -> upper end of its scale so far
+        this.reaches = {};     // field -> [low, high] end of its scale so far
+        this.coming = new Map(); // key -> snapshot that is being fetched
         this.times = new Map(); // frame name -> time in the file
         by_id("view-source").addEventListener("change", (event) => this.choose(event.target.value));
         by_id("view-field").addEventListener("change", (event) => {
@@ -47,10 +53,12 @@ export class Particles {
         const same = this.run?.id === run.id;
         this.run = run;
         if (!same) this.close();
-        const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver");
+        const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver")
+            .sort(by_point(variants_of(run)));
         mirror(by_id("view-source"), sources, (task) => task.id,
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
         const scene = run.study?.scene;
+        this.materials = new Map((scene?.section?.regions ?? []).map(({ name, material }) => [name, material]));
         this.view.overlay = { outlines: (scene?.section?.regions ?? []).map((region) => region.polygon),
                               toe: scene?.mpm?.runout?.toe ?? null };
         const best = first_with_frames(sources);
@@ -64,11 +72,9 @@ export class Particles {
         this.was_active = is_active(chosen.state);
     }
 
-    /// The particles of one transfer time, asked for elsewhere on the page.
-    show_transfer_time(transfer_time) {
-        const task = this.run?.tasks.find((candidate) => candidate.phase === "mpm_solver" &&
-                                                         candidate.transfer_time === transfer_time);
-        if (task) this.choose(task.id);
+    /// The particles of one point of the sweep, asked for elsewhere on the page.
+    show_point(row) {
+        if (row.mpm_task) this.choose(row.mpm_task);
     }
 
     choose(task) {
@@ -90,7 +96,8 @@ export class Particles {
         this.at = -1;
         this.kept.clear();
         this.times.clear();
-        this.highs = {};
+        this.reaches = {};
+        this.coming.clear();
         this.box_frames = "";
         this.view.snapshot = null;
         this.view.box = null;
@@ -166,6 +173,14 @@ export class Particles {
             this.kept.set(key, entry);
             return entry.snapshot;
         }
+        if (!this.coming.has(key)) {
+            const coming = this.get(name, key).finally(() => this.coming.get(key) === coming && this.coming.delete(key));
+            this.coming.set(key, coming);
+        }
+        return this.coming.get(key);
+    }
+
+    async get(name, key) {
         this.abort ??= new AbortController();
         if (this.abort.signal.aborted) this.abort = new AbortController();
         const task = this.task;
@@ -181,6 +196,7 @@ export class Particles {
             by_id("view-stride").value = "4";
             return this.fetch(name);
         }
+        add_material(snapshot, this.materials);
         this.keep(key, snapshot);
         return snapshot;
     }
@@ -194,8 +210,10 @@ export class Particles {
             total -= entry.bytes;
         }
         for (const [field, values] of Object.entries(snapshot.columns)) {
-            if (["x", "y", "region"].includes(field)) continue;
-            this.highs[field] = Math.max(this.highs[field] ?? 0, high_of(values));
+            if (["x", "y", ...categories].includes(field)) continue;
+            const [low, high] = reach_of(values);
+            const [lowest, highest] = this.reaches[field] ?? [0, 0];
+            this.reaches[field] = [Math.min(low, lowest), Math.max(high, highest)];
         }
     }
 
@@ -235,6 +253,7 @@ export class Particles {
         const began = performance.now();
         await this.seek(this.at + 1);
         if (!this.playing) return;
+        for (const frame of this.frames.slice(this.at + 1, this.at + 1 + ahead)) this.fetch(frame.name).catch(() => {}); // seek tells
         if (this.at >= this.frames.length - 1) {
             this.pause();
             return;
@@ -263,11 +282,11 @@ export class Particles {
         if (!fields.includes(this.field)) this.field = fields.includes("epsilon_q") ? "epsilon_q" : fields[0];
         by_id("view-field").value = this.field;
         const field = this.field;
-        const is_region = field === "region";
-        by_id("view-scale").hidden = is_region;
-        by_id("view-regions").hidden = !is_region;
-        const colour = is_region ? { field } : { field, ...this.scale_of(field) };
-        if (is_region) this.draw_regions();
+        const named = categories.includes(field);
+        by_id("view-scale").hidden = named;
+        by_id("view-regions").hidden = !named;
+        const colour = named ? { field, named } : { field, ...this.scale_of(field) };
+        if (named) this.draw_names(field === "region" ? this.snapshot.regions : this.snapshot.materials);
         else this.draw_scale(field, colour);
         this.view.show(this.snapshot, colour, this.spacing ?? 1);
         const what = this.snapshot.quads ? `${this.snapshot.quads.length / 4} elements` : `${this.snapshot.count} points`;
@@ -283,8 +302,9 @@ export class Particles {
         low_input.disabled = auto;
         high_input.disabled = auto;
         if (auto) {
-            low_input.value = "0";
-            high_input.value = number(this.highs[field] || 1, 2);
+            const [low, high] = this.reaches[field] ?? [0, 1];
+            low_input.value = number(low, 2);
+            high_input.value = number(high > low ? high : 1, 2);
         }
         const low = Number(low_input.value);
         const high = Number(high_input.value);
@@ -297,8 +317,7 @@ export class Particles {
         set_text(by_id("view-range"), `${field_name(field)}${unit ? ` [${unit}]` : ""}, ${number(low)} to ${number(high)}`);
     }
 
-    draw_regions() {
-        const names = this.snapshot.regions;
+    draw_names(names) {
         mirror(by_id("view-regions"), names, (name) => name,
                (name) => element("li", {}, element("span", { class: "chip",
                    style: `background: ${region_css(names.indexOf(name))}` }), ` ${name}`), () => {});
@@ -325,8 +344,18 @@ function last_state_last(frames) {
     return [...frames.filter(timed), ...frames.filter((frame) => !timed(frame))];
 }
 
+/// Which material each point is of, from its region: a colour of its own where regions share materials.
+function add_material(snapshot, materials_of_regions) {
+    const of_region = snapshot.regions.map((name, i) => snapshot.region_materials?.[i] ?? materials_of_regions.get(name) ?? "unknown");
+    const names = [...new Set(of_region)];
+    if (names.length === 0 || !snapshot.columns.region) return;
+    const index = Float32Array.from(of_region, (name) => names.indexOf(name));
+    snapshot.columns.material = snapshot.columns.region.map((region) => index[region]);
+    snapshot.materials = names;
+}
+
 function source_name(task) {
-    const what = task.phase === "fem_solver" ? "FEM mesh" : `MPM from t_T = ${number(task.transfer_time)} s`;
+    const what = task.phase === "fem_solver" ? ["FEM mesh", task.variant].filter(Boolean).join(", ") : `MPM from ${point_name(task)}`;
     return ["succeeded", "cached"].includes(task.state) ? what : `${what} (${task.state})`;
 }
 

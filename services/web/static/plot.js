@@ -2,99 +2,43 @@
 // abscissa, hover and keyboard readout. Knows nothing of where the numbers come from.
 import { element, set_text, svg } from "./dom.js";
 import { number } from "./format.js";
+import { band, curve, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
+import { range_of, tick_label, ticks, widened } from "./plot_scale.js";
 
-const margin = { right: 14, top: 12, bottom: 46 };
 const character = 7.6; // width of a digit at the plot's font size [px]
 
-/// About `wanted` round values that cover [low, high].
-export function ticks(low, high, wanted) {
-    const raw = (high - low) / Math.max(wanted, 1);
-    const power = 10 ** Math.floor(Math.log10(raw));
-    const step = power * [1, 2, 2.5, 5, 10].find((factor) => factor * power >= raw * 0.999);
-    const values = [];
-    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1) values.push(i * step);
-    return { values, step };
-}
-
-function tick_label(value, step) {
-    if (Math.abs(value) < 1e-9 * step) return "0";
-    if (Math.abs(value) >= 1e5 || step < 1e-4) return number(value, 3);
-    const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
-    const fits = Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) < 1e-6;
-    return value.toFixed(fits ? decimals : decimals + 1);
-}
-
-/// Range of the finite values, a little wider; `least` values are always inside.
-function range_of(lists, least) {
-    let low = Infinity;
-    let high = -Infinity;
-    const widen = (value) => {
-        if (value === null || !Number.isFinite(value)) return;
-        low = Math.min(low, value);
-        high = Math.max(high, value);
-    };
-    for (const list of lists) list.forEach(widen);
-    least.forEach(widen);
-    if (low > high) return [0, 1];
-    if (low === high) return [low - (Math.abs(low) || 1) / 2, high + (Math.abs(high) || 1) / 2];
-    return [low, high];
-}
-
-/// Points per pixel column that a long curve is thinned to: the lowest and highest stay, so no peak is lost.
-function thinned(xs, ys, columns) {
-    if (xs.length <= 4 * columns) return xs.map((_, i) => i);
-    const kept = [];
-    const per_column = xs.length / columns;
-    for (let column = 0; column < columns; column += 1) {
-        const first = Math.floor(column * per_column);
-        const end = Math.min(xs.length, Math.floor((column + 1) * per_column));
-        let lowest = first;
-        let highest = first;
-        for (let i = first; i < end; i += 1) {
-            if (ys[i] < ys[lowest]) lowest = i;
-            if (ys[i] > ys[highest]) highest = i;
-        }
-        kept.push(...[...new Set([first, lowest, highest, end - 1])].sort((a, b) => a - b));
-    }
-    return kept;
-}
-
-const marker_shapes = ["M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-4,-4h8v8h-8z", "M0,-5.5L5,3.5H-5z"];
-const mark_shapes = {
-    failed: "M-5,-5L5,5M-5,5L5,-5",
-    skipped: "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0M-3.5,3.5L3.5,-3.5",
-    pending: "M0,-4V4",
-    running: "M-3,-5L5,0L-3,5z",
-};
-
 export class Plot {
-    /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit for the readout. choose(x) is called
-    /// when a person picks an abscissa with a click or Enter.
+    /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: what the
+    /// verticals without a text are. choose(x, key) is called when a person picks a point with a click or Enter; key is
+    /// the point's entry in its series' `keys`, null for a mark.
     constructor(host, labels, { height = 260, choose = null, y_from_zero = false } = {}) {
         this.labels = labels;
         this.height = height;
         this.choose = choose;
         this.y_from_zero = y_from_zero;
-        this.data = { series: [], marks: [], lines: [] };
-        this.at = null; // index into stops_
+        this.data = { series: [], marks: [], lines: [], levels: [], bands: [] };
+        this.at = null; // index into stops
+        this.curve_at = 0; // the series that Enter and the arrow keys up and down mean
         this.picture = svg("svg", { class: "plot", role: "img", tabindex: 0 });
         this.readout = element("p", { class: "readout", "aria-live": "polite" });
         this.legend = element("ul", { class: "legend" });
         host.replaceChildren(this.legend, this.picture, this.readout);
         new ResizeObserver(() => this.draw()).observe(host);
-        this.picture.addEventListener("pointermove", (event) => this.point_at(this.nearest(event)));
+        this.picture.addEventListener("pointermove", (event) => this.point_at(...this.nearest(event)));
         this.picture.addEventListener("pointerleave", () => this.point_at(null));
         this.picture.addEventListener("blur", () => this.point_at(null));
-        this.picture.addEventListener("click", (event) => this.pick(this.nearest(event)));
+        this.picture.addEventListener("click", (event) => this.pick(...this.nearest(event)));
         this.picture.addEventListener("keydown", (event) => this.key(event));
     }
 
-    /// data: {series: [{name, x, y, points}], marks: [{x, kind, label}], lines: [{x, label}]}; marks sit on the
-    /// abscissa (kind: failed, skipped, running, pending), lines are thin verticals.
+    /// data: {series: [{name, unit, x, y, points, scatter, keys, names}], marks: [{x, kind, label}],
+    /// lines: [{x, label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}]}. points: markers;
+    /// scatter: no line between them; names: what each point is called. Marks sit on the abscissa (kind: failed, skipped,
+    /// running, pending), lines are verticals, levels horizontals, bands shaded stretches.
     show(data) {
-        this.data = { marks: [], lines: [], ...data };
-        const stops = new Set(this.data.marks.map((mark) => mark.x));
-        for (const series of this.data.series) series.x.forEach((x) => stops.add(x));
+        this.data = { marks: [], lines: [], levels: [], bands: [], ...data };
+        const stops = new Set(this.data.marks.map((each) => each.x));
+        for (const series of this.data.series) series.x.forEach((x) => Number.isFinite(x) && stops.add(x));
         this.stops = [...stops].sort((a, b) => a - b);
         if (this.at !== null && this.at >= this.stops.length) this.at = null;
         this.draw();
@@ -103,13 +47,8 @@ export class Plot {
     draw() {
         const width = Math.round(this.picture.getBoundingClientRect().width);
         if (width < 40) return; // hidden: drawn when it gets a size
-        const { series, marks, lines } = this.data;
-        this.x_range = range_of(series.map((curve) => curve.x), marks.map((mark) => mark.x));
-        this.y_range = range_of(series.map((curve) => curve.y), this.y_from_zero ? [0] : []);
-        const pad_x = (this.x_range[1] - this.x_range[0]) * (marks.length || series.some((c) => c.points) ? 0.04 : 0);
-        const pad_y = (this.y_range[1] - this.y_range[0]) * 0.06;
-        this.x_range = [this.x_range[0] - pad_x, this.x_range[1] + pad_x];
-        this.y_range = [this.y_range[0] === 0 ? 0 : this.y_range[0] - pad_y, this.y_range[1] + pad_y];
+        const { series, marks, lines, levels, bands } = this.data;
+        this.find_ranges();
         this.width = width;
         this.y_ticks = ticks(...this.y_range, (this.height - margin.top - margin.bottom) / 40);
         this.y_labels = this.y_ticks.values.map((y) => tick_label(y, this.y_ticks.step));
@@ -119,13 +58,26 @@ export class Plot {
         this.picture.setAttribute("aria-label", this.summary());
         this.cursor = svg("g", { class: "cursor" });
         this.picture.replaceChildren(
+            ...bands.filter((each) => each.from < this.x_range[1] && each.to > this.x_range[0]).flatMap((each, i) => band(this, each, i)),
             ...this.axes(),
-            ...lines.filter((line) => this.inside(line.x)).map((line) => this.vertical(line)),
-            ...series.flatMap((curve, i) => this.curve(curve, i)),
-            ...marks.map((mark) => this.mark(mark)),
+            ...verticals(this, lines.filter((line) => this.inside(line.x))),
+            ...levels.flatMap((each, i) => level(this, each, i)),
+            ...series.flatMap((each, i) => curve(this, each, i)),
+            ...marks.map((each) => mark(this, each)),
             this.cursor);
-        this.draw_legend();
+        this.legend.replaceChildren(...legend(this.data, this.labels.lines));
         this.draw_cursor();
+    }
+
+    find_ranges() {
+        const { series, marks, levels } = this.data;
+        const [left, right] = range_of(series.map((each) => each.x), marks.map((each) => each.x));
+        const [low, high] = widened(range_of(series.map((each) => each.y), this.y_from_zero ? [0] : []),
+                                    levels.map((each) => each.y));
+        const pad_x = (right - left) * (marks.length || series.some((each) => each.points) ? 0.04 : 0);
+        const pad_y = (high - low) * 0.06;
+        this.x_range = [left - pad_x, right + pad_x];
+        this.y_range = [low === 0 ? 0 : low - pad_y, high + pad_y];
     }
 
     // ---- parts of the picture
@@ -168,88 +120,57 @@ export class Plot {
         return parts;
     }
 
-    curve(curve, index) {
-        const kept = curve.points ? curve.x.map((_, i) => i) : thinned(curve.x, curve.y, this.width);
-        let path = "";
-        let drawing = false;
-        for (const i of kept) {
-            const y = curve.y[i];
-            if (y === null || !Number.isFinite(y)) {
-                drawing = false;
-                continue;
-            }
-            path += `${drawing ? "L" : "M"}${this.px(curve.x[i]).toFixed(1)},${this.py(y).toFixed(1)}`;
-            drawing = true;
-        }
-        const parts = [svg("path", { class: `curve series-${index}`, d: path })];
-        if (!curve.points) return parts;
-        for (const i of kept) {
-            if (curve.y[i] === null || !Number.isFinite(curve.y[i])) continue;
-            parts.push(svg("path", { class: `marker series-${index}`, d: marker_shapes[index % marker_shapes.length],
-                                     transform: `translate(${this.px(curve.x[i])},${this.py(curve.y[i])})` }));
-        }
-        return parts;
-    }
-
-    mark(mark) {
-        const at = this.height - margin.bottom - 9;
-        return svg("path", { class: `mark ${mark.kind}`, d: mark_shapes[mark.kind],
-                             transform: `translate(${this.px(mark.x)},${at})` },
-                   svg("title", {}, mark.label));
-    }
-
-    vertical(line) {
-        return svg("path", { class: "event", d: `M${this.px(line.x)},${margin.top}V${this.height - margin.bottom}` },
-                   svg("title", {}, line.label));
-    }
-
-    draw_legend() {
-        const { series, marks, lines } = this.data;
-        const items = series.map((curve, i) => this.legend_item(
-            [svg("path", { class: `curve series-${i}`, d: "M0,7H24" }),
-             ...(curve.points ? [svg("path", { class: `marker series-${i}`, d: marker_shapes[i % 3],
-                                               transform: "translate(12,7)" })] : [])], curve.name));
-        for (const kind of new Set(marks.map((mark) => mark.kind))) {
-            items.push(this.legend_item(
-                [svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: "translate(12,7)" })], kind));
-        }
-        if (lines.length > 0 && this.labels.lines) {
-            items.push(this.legend_item([svg("path", { class: "event", d: "M12,0V14" })], this.labels.lines));
-        }
-        this.legend.replaceChildren(...items);
-    }
-
-    legend_item(parts, name) {
-        return element("li", {}, svg("svg", { viewBox: "0 0 24 14", width: 24, height: 14, "aria-hidden": "true" },
-                                     ...parts), ` ${name}`);
-    }
-
     summary() {
         const filled = this.data.series.reduce((most, s) => Math.max(most, s.y.filter(Number.isFinite).length), 0);
-        return `${this.labels.title}: ${this.labels.y} against ${this.labels.x}, ${filled} values. ` +
+        const levels = this.data.levels.map(({ label, y }) => ` ${label} ${number(y)}.`).join("");
+        return `${this.labels.title}: ${this.labels.y} against ${this.labels.x}, ${filled} values.${levels} ` +
                "Left and right arrow keys read them out.";
     }
 
     // ---- readout
 
+    /// [index of the stop, index of the series] next to the pointer; of markers the next in both directions.
     nearest(event) {
-        if (!this.stops || this.stops.length === 0 || !this.x_range) return null;
-        const x = event.clientX - this.picture.getBoundingClientRect().left;
-        let best = 0;
-        for (let i = 1; i < this.stops.length; i += 1) {
-            if (Math.abs(this.px(this.stops[i]) - x) < Math.abs(this.px(this.stops[best]) - x)) best = i;
-        }
-        return best;
+        if (!this.stops || this.stops.length === 0 || !this.x_range) return [null, 0];
+        const box = this.picture.getBoundingClientRect();
+        const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+        let best = { stop: 0, distance: Infinity, series: this.curve_at };
+        this.stops.forEach((stop, i) => {
+            const distance = Math.abs(this.px(stop) - x);
+            if (distance < best.distance) best = { stop: i, distance, series: this.curve_at };
+        });
+        const reach = best.distance + 6; // markers above each other: the one that is pointed at
+        let nearest = Infinity;
+        this.data.series.forEach((series, k) => series.points && series.x.forEach((at, i) => {
+            const dx = Math.abs(this.px(at) - x);
+            if (!Number.isFinite(series.y[i]) || dx > (series.scatter ? 12 : reach)) return;
+            const distance = Math.hypot(dx, this.py(series.y[i]) - y);
+            if (distance >= nearest) return;
+            nearest = distance;
+            best = { stop: this.stops.indexOf(at), distance, series: k };
+        }));
+        return [best.stop, best.series];
     }
 
-    point_at(index) {
-        if (index === this.at) return;
+    point_at(index, series = this.curve_at) {
+        if (index === this.at && series === this.curve_at) return;
         this.at = index;
+        this.curve_at = series;
         this.draw_cursor();
     }
 
-    pick(index) {
-        if (index !== null && this.choose) this.choose(this.stops[index]);
+    pick(index, series = this.curve_at) {
+        if (index === null || !this.choose) return;
+        const x = this.stops[index];
+        const there = this.at_stop(x);
+        const meant = there.find((each) => each.index === series) ?? there[0];
+        this.choose(x, meant?.series.keys?.[meant.i] ?? null);
+    }
+
+    /// The series that have a value at x.
+    at_stop(x) {
+        return this.data.series.map((series, index) => ({ series, index, i: series.x.indexOf(x) }))
+            .filter(({ series, i }) => i >= 0 && Number.isFinite(series.y[i]));
     }
 
     key(event) {
@@ -257,8 +178,11 @@ export class Plot {
         if (last < 0) return;
         const moves = { ArrowLeft: Math.max((this.at ?? 1) - 1, 0), ArrowRight: Math.min((this.at ?? -1) + 1, last),
                         Home: 0, End: last };
+        const count = this.data.series.length;
         if (event.key in moves) this.point_at(moves[event.key]);
         else if (event.key === "Enter") this.pick(this.at);
+        else if (count > 1 && event.key === "ArrowDown") this.point_at(this.at ?? 0, (this.curve_at + 1) % count);
+        else if (count > 1 && event.key === "ArrowUp") this.point_at(this.at ?? 0, (this.curve_at + count - 1) % count);
         else return;
         event.preventDefault();
     }
@@ -271,16 +195,14 @@ export class Plot {
             return;
         }
         const x = this.stops[this.at];
-        const values = [];
         this.cursor.append(svg("path", { d: `M${this.px(x)},${margin.top}V${this.height - margin.bottom}` }));
-        this.data.series.forEach((curve, index) => {
-            const y = curve.y[curve.x.indexOf(x)];
-            if (!Number.isFinite(y)) return;
-            values.push(`${curve.name} ${number(y)} ${curve.unit ?? ""}`.trim());
-            this.cursor.append(svg("circle", { class: `series-${index}`, cx: this.px(x), cy: this.py(y), r: 4.5 }));
+        const values = this.at_stop(x).map(({ series, index, i }) => {
+            const meant = index === this.curve_at && this.data.series.length > 1 && this.choose;
+            this.cursor.append(svg("circle", { class: series_class(index), cx: this.px(x), cy: this.py(series.y[i]), r: meant ? 6.5 : 4.5 }));
+            const name = [series.name, series.names?.[i]].filter(Boolean).join(", ");
+            return `${name} ${number(series.y[i])} ${series.unit ?? ""}`.trim();
         });
-        const mark = this.data.marks.find((candidate) => candidate.x === x);
-        if (mark) values.push(mark.label);
+        for (const each of this.data.marks) if (each.x === x) values.push(each.label);
         set_text(this.readout, `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}: ${values.join(" · ")}`);
     }
 }

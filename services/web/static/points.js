@@ -2,7 +2,7 @@
 // written as squares straight into the image's pixels, so 100,000 of them take a few milliseconds without a GPU.
 import { packed, region_css, scale_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
 import { number } from "./format.js";
-import { ticks } from "./plot.js";
+import { ticks } from "./plot_scale.js";
 
 const edge = { left: 46, right: 10, top: 10, bottom: 34 }; // room for the axes [CSS px]
 
@@ -41,13 +41,13 @@ export function spacing_of({ columns: { x, y }, count }) {
     return distances.length ? distances[Math.floor(0.9 * (distances.length - 1))] : 1;
 }
 
-/// The value that only one in a hundred exceeds: a few wild points do not own the scale.
-export function high_of(values) {
+/// The values that only one in a hundred is below and above, zero included: a few wild points do not own the scale.
+export function reach_of(values) {
     const step = Math.max(1, Math.floor(values.length / 5000));
-    const sample = [];
-    for (let i = 0; i < values.length; i += step) if (Number.isFinite(values[i])) sample.push(values[i]);
-    sample.sort((a, b) => a - b);
-    return sample.length ? sample[Math.floor(0.99 * (sample.length - 1))] : 0;
+    const sample = Float32Array.from({ length: Math.ceil(values.length / step) }, (_, i) => values[i * step])
+        .filter(Number.isFinite).sort();
+    const at = (share) => sample[Math.floor(share * (sample.length - 1))];
+    return sample.length ? [Math.min(0, at(0.01)), Math.max(0, at(0.99))] : [0, 0];
 }
 
 export class PointView {
@@ -64,7 +64,7 @@ export class PointView {
         this.listen();
     }
 
-    /// colour: {field, low, high} of numbers, or {field} with the snapshot's regions.
+    /// colour: {field, low, high} of numbers, or {field, named: true} of indices into a list of names.
     show(snapshot, colour, spacing) {
         this.snapshot = snapshot;
         this.colour = colour;
@@ -166,12 +166,12 @@ export class PointView {
         this.paint_time = performance.now() - began;
     }
 
-    /// Index into the number scale for every point; regions take theirs modulo the scale's length.
+    /// Index into the number scale for every point, or into the names.
     shades() {
         const values = this.snapshot.columns[this.colour.field];
         const shades = new Int16Array(this.snapshot.count).fill(-1);
         if (!values) return shades;
-        if (this.colour.field === "region") return shades.map((_, i) => values[i]);
+        if (this.colour.named) return shades.map((_, i) => values[i]);
         const { low, high } = this.colour;
         const factor = (scale_steps - 1) / Math.max(high - low, 1e-30);
         for (let i = 0; i < shades.length; i += 1) {
@@ -183,7 +183,7 @@ export class PointView {
 
     css_of(shade) {
         if (shade < 0) return unknown_css;
-        return this.colour.field === "region" ? region_css(shade) : scale_css[shade];
+        return this.colour.named ? region_css(shade) : scale_css[shade];
     }
 
     paint_squares(ground) {
@@ -192,7 +192,7 @@ export class PointView {
         const pixels = new Uint32Array(image.data.buffer).fill(ground);
         const { x, y } = this.snapshot.columns;
         const shades = this.shades();
-        const palette = this.colour.field === "region"
+        const palette = this.colour.named
             ? Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i))) : scale_packed;
         const unknown = packed(unknown_css);
         const size = Math.max(Math.ceil(this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
@@ -219,7 +219,7 @@ export class PointView {
         const all = new Path2D();
         for (let q = 0; q < quads.length; q += 4) {
             const corners = [quads[q], quads[q + 1], quads[q + 2], quads[q + 3]];
-            const shade = this.colour.field === "region"
+            const shade = this.colour.named
                 ? Math.min(...corners.map((n) => shades[n]))
                 : Math.round(corners.reduce((sum, n) => sum + shades[n], 0) / 4) & ~3;
             if (!outlines.has(shade)) outlines.set(shade, new Path2D());

@@ -1,66 +1,108 @@
-// Runout against transfer time: the curve, its table, its CSV.
+// Runout against transfer time: one curve per variant, the window and the plateau of the triggers, its table, its CSV.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { is_active, number, show_state, state_look } from "./format.js";
+import { by_point, is_active, number, show_state, state_look, variants_of } from "./format.js";
 import { Plot } from "./plot.js";
+import { plateaus, windows } from "./triggers.js";
 
-const curves = [
-    { field: "runout", name: "99 % of the mobile soil" },
-    { field: "runout_beyond_toe", name: "99 % of what passed the toe" },
-    { field: "runout_largest", name: "farthest point" },
-];
-const columns = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "cpu_seconds"];
+export const measures = {
+    runout: "99 % of the mobile soil",
+    runout_beyond_toe: "99 % of what passed the toe",
+    runout_largest: "farthest point",
+};
+const columns = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap", "cpu_seconds"];
 
 export class Results {
-    /// choose(transfer_time): a person wants to see this one's particles.
-    constructor(choose) {
-        this.choose = choose;
+    /// look_at(row): a person wants to see this point's particles. ask(row, column): where its numbers come from.
+    constructor({ look_at, ask }) {
+        Object.assign(this, { look_at, ask, rows: [] });
         this.plot = new Plot(by_id("runout-plot"), {
             title: "Runout", x: "transfer time t_T [s]", y: "runout from the toe [m]", x_name: "t_T", x_unit: "s",
-            hint: "Point at the curve, or use the arrow keys; click or Enter shows the particles.",
-        }, { height: 320, choose, y_from_zero: true });
+            hint: "Point at the curve, or use the arrow keys; click or Enter shows where the number comes from.",
+        }, { height: 340, y_from_zero: true, choose: (_, key) => key && this.ask(this.row(key), this.measure()) });
+        by_id("runout-measure").addEventListener("change", () => this.draw());
+        by_id("runout-rows").addEventListener("click", (event) => {
+            const cell = event.target.closest("[data-column]");
+            if (cell) this.ask(this.row(cell.parentElement.dataset.key), cell.dataset.column);
+        });
     }
 
+    measure() {
+        return by_id("runout-measure").value;
+    }
+
+    row(key) {
+        return this.rows.find((row) => key_of(row) === key);
+    }
+
+    /// Returns the rows, for those who want to draw other things of them.
     async show(run) {
         const { rows } = await api.read_results(run.id);
         by_id("runout-csv").href = api.results_csv(run.id);
-        rows.sort((a, b) => a.transfer_time - b.transfer_time);
-        const x = rows.map((row) => row.transfer_time);
-        const there = curves.filter(({ field }) => rows.some((row) => Number.isFinite(row[field])));
-        this.plot.show({
-            series: there.map(({ field, name }) => ({ name, unit: "m", points: true, x,
-                                                      y: rows.map((row) => row[field] ?? null) })),
-            marks: rows.filter((row) => !Number.isFinite(row.runout)).map(mark_of),
-        });
+        this.run = run;
+        this.variants = variants_of(run);
+        this.rows = rows.sort(by_point(this.variants));
+        this.draw();
         const finished = rows.filter((row) => Number.isFinite(row.runout)).length;
-        set_text(by_id("runout-progress"), `${finished} of ${rows.length} transfer times finished`);
-        mirror(by_id("runout-rows"), rows, (row) => row.transfer_time, () => this.new_row(), fill_row);
+        const several = this.variants.length > 1;
+        const what = several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
+        set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${what} finished`);
+        by_id("runout-table").classList.toggle("one-variant", !several);
+        mirror(by_id("runout-rows"), rows, key_of, () => this.new_row(), fill_row);
+        return this.rows;
+    }
+
+    draw() {
+        const measure = this.measure();
+        const several = this.variants.length > 1;
+        this.plot.show({
+            series: series_by_variant(this.rows, this.variants).map(({ variant, rows }) => ({
+                name: several ? variant : measures[measure], unit: "m", points: true, keys: rows.map(key_of),
+                x: rows.map((row) => row.transfer_time), y: rows.map((row) => row[measure] ?? null) })),
+            marks: this.rows.filter((row) => !Number.isFinite(row.runout)).map((row) => mark_of(row, several)),
+            bands: [...windows(this.run.triggers), ...plateaus(this.run.triggers)],
+        });
     }
 
     new_row() {
-        const look = element("button", { type: "button", class: "link",
-                                         onclick: () => this.choose(Number(row.dataset.key)) });
-        const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", {}, element("span")));
-        for (const column of columns) row.append(element("td", { class: "number", "data-column": column }));
+        const look = element("button", { type: "button", class: "link", onclick: () => this.look_at(this.row(row.dataset.key)) });
+        const ask = element("button", { type: "button", class: "link", onclick: () => this.ask(this.row(row.dataset.key), "runout") }, "trace");
+        const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", { class: "variant" }),
+                            element("td", {}, element("span")));
+        for (const column of columns) row.append(element("td", { class: "number", "data-column": column, title: "Where this number comes from" }));
+        row.append(element("td", {}), element("td", {}, ask));
         return row;
     }
 }
 
-function mark_of(row) {
+export const key_of = (row) => `${row.transfer_time}/${row.variant}`;
+
+/// [{variant, rows}] in the study's order, rows in order of time.
+export function series_by_variant(rows, variants) {
+    const known = [...variants, ...new Set(rows.map((row) => row.variant).filter((name) => !variants.includes(name)))];
+    return known.map((variant) => ({ variant, rows: rows.filter((row) => row.variant === variant) }))
+        .filter((series) => series.rows.length > 0);
+}
+
+function mark_of(row, several) {
     const kinds = { failed: "failed", lost: "failed", skipped: "skipped", cancelled: "skipped", cancelling: "skipped" };
     const busy = state_look(row.state).family === "busy" ? "running" : "pending";
     return { x: row.transfer_time, kind: kinds[row.state] ?? busy,
-             label: row.reason ? `${row.state}: ${row.reason}` : row.state };
+             label: [several ? row.variant : "", row.state, row.reason].filter(Boolean).join(": ") };
 }
 
 function fill_row(row, values) {
-    const [time, state] = row.children;
+    const [time, variant, state] = row.children;
     const look = time.firstElementChild;
     set_text(look, number(values.transfer_time));
     look.disabled = !values.mpm_task || ["blocked", "ready", "skipped"].includes(values.state);
     look.title = "Show the particles";
-    show_state(state.firstElementChild, values.state);
+    set_text(variant, values.variant);
+    show_state(state.firstElementChild, values.reused ? "cached" : values.state);
     state.title = values.reason ?? "";
     for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
+    set_text(row.children[row.children.length - 2], values.trigger ?? "");
+    row.lastElementChild.firstElementChild.setAttribute("aria-label", `Where the numbers at t_T = ${number(values.transfer_time)} s ` +
+                                                                      `${values.variant} come from`);
     row.classList.toggle("waiting", is_active(values.state));
 }

@@ -1,9 +1,11 @@
 // The list of runs at the side, and the head of the run that is open.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { clock, elapsed, is_active, percent, show_state } from "./format.js";
+import { clock, elapsed, is_active, percent, show_state, span } from "./format.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
+
+const state_of = (run) => (run.paused && is_active(run.state) ? "paused" : run.state);
 
 export function draw_list(runs, open_id) {
     by_id("no-runs").hidden = runs.length > 0;
@@ -20,7 +22,7 @@ function fill_item(item, run, open_id) {
     const link = item.firstElementChild;
     const [name, state, progress, time] = link.children;
     set_text(name, run.name);
-    show_state(state, run.state);
+    show_state(state, state_of(run));
     progress.value = run.progress ?? 0;
     progress.hidden = !is_active(run.state);
     progress.setAttribute("aria-label", `progress of ${run.name}`);
@@ -32,34 +34,42 @@ function fill_item(item, run, open_id) {
 }
 
 export class RunHead {
-    /// changed(): the run was told to stop.
+    /// changed(): the run was given an order.
     constructor(changed) {
         this.changed = changed;
         by_id("cancel").addEventListener("click", () => by_id("cancel-dialog").showModal());
         by_id("cancel-dialog").addEventListener("close", () => this.answer(by_id("cancel-dialog").returnValue));
+        for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
     }
 
     show(run) {
         this.run = run;
+        const active = is_active(run.state);
         set_text(by_id("run-title"), run.title || run.name);
         document.title = `${percent(run.progress)} ${run.name} – Breachline`;
-        show_state(by_id("run-state"), run.state);
+        show_state(by_id("run-state"), state_of(run));
         by_id("run-progress").value = run.progress ?? 0;
         set_text(by_id("run-summary"), summary(run));
         set_text(by_id("run-message"), run.message ?? "");
         set_text(by_id("run-id"), run.id);
-        by_id("cancel").hidden = !is_active(run.state);
+        by_id("cancel").hidden = !active;
+        by_id("pause").hidden = !active || run.paused;
+        by_id("resume").hidden = !active || !run.paused;
+        by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task.state));
         set_text(by_id("cancel-what"), run.title || run.name);
     }
 
     async answer(choice) {
         by_id("cancel-dialog").returnValue = "";
-        if (choice !== "cancel-run") return;
+        if (choice === "cancel-run") await this.command("cancel");
+    }
+
+    async command(order) {
         try {
-            await api.cancel_run(this.run.id);
+            await api.command_run(this.run.id, order);
             this.changed();
         } catch (fault) {
-            set_text(by_id("run-message"), `Cancelling failed: ${fault.message}`);
+            set_text(by_id("run-message"), `The server refused to ${order} this run: ${fault.message}`);
         }
     }
 }
@@ -69,5 +79,7 @@ function summary(run) {
     if (run.tasks_failed > 0) parts.push(`${run.tasks_failed} failed`);
     parts.push(`created ${clock(run.created)}`);
     if (run.started) parts.push(`${is_active(run.state) ? "running for" : "took"} ${elapsed(run.started, run.finished)}`);
+    if (run.paused && is_active(run.state)) parts.push("paused: nothing new is started");
+    if (Number.isFinite(run.seconds_left)) parts.push(`about ${span(run.seconds_left)} left`);
     return parts.join(" · ");
 }

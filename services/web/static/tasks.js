@@ -1,14 +1,14 @@
 // The tasks of a run: a compact picture of the workflow, a table, and one task in detail.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { bytes, clock, elapsed, is_active, number, percent, seconds, show_state, state_look, task_name } from "./format.js";
+import { by_point, bytes, clock, elapsed, is_active, number, percent, seconds, show_state, state_look, task_name, variants_of } from "./format.js";
 import { LogView } from "./log.js";
 
 const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
 
-function in_order(tasks) {
-    const rank = (task) => [task.transfer_time ?? -1, order.indexOf(task.phase)];
-    return [...tasks].sort((a, b) => rank(a)[0] - rank(b)[0] || rank(a)[1] - rank(b)[1]);
+function in_order(tasks, variants) {
+    const points = by_point(variants);
+    return [...tasks].sort((a, b) => points(a, b) || order.indexOf(a.phase) - order.indexOf(b.phase));
 }
 
 export class Tasks {
@@ -21,26 +21,31 @@ export class Tasks {
     async show(run) {
         if (this.run?.id !== run.id) this.close();
         this.run = run;
-        const tasks = in_order(run.tasks);
+        const variants = variants_of(run);
+        const tasks = in_order(run.tasks, variants);
+        by_id("tasks").classList.toggle("one-variant", variants.length === 1);
         this.draw_flow(tasks);
         mirror(by_id("task-rows"), tasks, (task) => task.id, (task) => this.new_row(task), fill_row);
         const chosen = tasks.find((task) => task.id === this.chosen);
         if (chosen) await this.detail(chosen);
     }
 
-    /// LEM and FEM, then one column per transfer time with its transfer above its runout.
+    /// LEM and FEM, then one column per transfer time: its transfers above its runouts, one row per variant.
     draw_flow(tasks) {
         const single = tasks.filter((task) => !Number.isFinite(task.transfer_time));
+        const rows = rows_of(tasks);
         const times = [...new Set(tasks.map((task) => task.transfer_time).filter(Number.isFinite))];
         mirror(by_id("flow-single"), single, (task) => task.id, (task) => this.new_chip(task), fill_named_chip);
+        mirror(by_id("flow-head"), times.length ? [{ name: "t_T [s]" }, ...rows] : [], ({ name }) => name,
+               () => element("span"), (label, { name }) => set_text(label, name));
         mirror(by_id("flow-times"), times, (time) => time, () => element("div", { class: "flow-column" },
                element("span", { class: "flow-time" }), element("div", { class: "flow-stack" })),
                (column, time) => {
                    set_text(column.firstElementChild, number(time));
-                   mirror(column.lastElementChild, tasks.filter((task) => task.transfer_time === time),
-                          (task) => task.id, (task) => this.new_chip(task), fill_chip);
+                   mirror(column.lastElementChild, rows, ({ name }) => name, () => element("div"), (place, row) =>
+                       mirror(place, tasks.filter((task) => task.transfer_time === time && row.holds(task)),
+                              (task) => task.id, (task) => this.new_chip(task), fill_chip));
                });
-        by_id("flow-head").hidden = times.length === 0;
     }
 
     new_chip(task) {
@@ -49,8 +54,8 @@ export class Tasks {
 
     new_row(task) {
         const open = element("button", { type: "button", class: "link", onclick: () => this.open(task.id) });
-        return element("tr", {}, element("th", { scope: "row" }, open), element("td", { class: "number" }),
-                       element("td", {}, element("span")),
+        return element("tr", {}, element("th", { scope: "row" }, open), element("td", { class: "variant" }),
+                       element("td", { class: "number" }), element("td", {}, element("span")),
                        element("td", { class: "share" }, element("progress", { max: 1 }), " ", element("span", { class: "number" })),
                        element("td", { class: "number" }), element("td", { class: "number" }),
                        element("td", { class: "message" }));
@@ -86,9 +91,19 @@ export class Tasks {
     }
 }
 
+/// Rows of the flow picture: each phase of a transfer time, each variant that it has tasks of.
+function rows_of(tasks) {
+    const phases = [["transfer_tool", "transfer"], ["mpm_solver", "MPM"]];
+    return phases.flatMap(([phase, name]) => {
+        const variants = [...new Set(tasks.filter((task) => task.phase === phase).map((task) => task.variant))];
+        return variants.map((variant) => ({ name: variant ? `${name}, ${variant}` : name,
+                                            holds: (task) => task.phase === phase && task.variant === variant }));
+    });
+}
+
 function fill_named_chip(chip, task) {
     fill_chip(chip, task);
-    set_text(chip, `${state_look(task.state).sign} ${task.phase}`);
+    set_text(chip, `${state_look(task.state).sign} ${task.phase}${task.variant && ` ${task.variant}`}`);
     chip.classList.add("named");
 }
 
@@ -103,8 +118,9 @@ function fill_chip(chip, task) {
 }
 
 function fill_row(row, task) {
-    const [name, time, state, progress, attempts, took, message] = row.children;
+    const [name, variant, time, state, progress, attempts, took, message] = row.children;
     set_text(name.firstElementChild, task.phase);
+    set_text(variant, task.variant);
     set_text(time, Number.isFinite(task.transfer_time) ? number(task.transfer_time) : "");
     show_state(state.firstElementChild, task.state);
     const never_ran = task.attempts.length === 0 && !is_active(task.state);

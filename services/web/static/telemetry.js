@@ -1,26 +1,11 @@
-// Telemetry of a phase as small curves against time, growing while it runs.
+// Telemetry of a phase as small curves against time, growing while it runs, with the thresholds of the run's triggers
+// and the moments at which they fired.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { is_active, number } from "./format.js";
+import { by_point, is_active, number, point_name, variants_of } from "./format.js";
+import { abscissas, is_other, panels } from "./panels.js";
 import { Plot } from "./plot.js";
-
-// What is drawn first, and how it is called. A panel appears when at least one of its fields is in the lines.
-const panels = [
-    { title: "Crest displacement", y: "displacement [m]", unit: "m",
-      fields: { crest_dx: "horizontal", crest_dy: "vertical", crest_displacement: "total" } },
-    { title: "Kinetic energy", y: "kinetic energy [J]", unit: "J", fields: { kinetic_energy: "kinetic" } },
-    { title: "Jacobian ratio, averages", y: "|J_t| / |J_0| [–]", unit: "",
-      fields: { jacobian_ratio_avg: "strained elements", jacobian_least_avg: "their worst corners" } },
-    { title: "Deviatoric strain, average", y: "ε_q [–]", unit: "", fields: { epsilon_q_avg: "strained elements" } },
-    { title: "Front", y: "distance from the toe [m]", unit: "m",
-      fields: { runout: "99 % of the mobile soil", runout_beyond_toe: "99 % of what passed the toe",
-                runout_largest: "farthest point" } },
-    { title: "Where the energy went", y: "energy [J]", unit: "J",
-      fields: { plastic_dissipation: "plastic", friction_dissipation: "floor friction", energy_numerical: "numerical" } },
-];
-const not_drawn = ["step", "stage"]; // counters
-const named = new Set(panels.flatMap((panel) => Object.keys(panel.fields)));
-const abscissas = ["time", "t"];
+import { draw_triggers, moments, thresholds, windows } from "./triggers.js";
 
 export class Telemetry {
     constructor() {
@@ -33,19 +18,22 @@ export class Telemetry {
         this.columns = new Map(); // field -> values, one per line; null where a line has none
         this.count = 0;
         this.next = 0;
+        this.refusal = "";
     }
 
     async show(run) {
         if (this.run?.id !== run.id) this.task = null;
         this.run = run;
-        const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver");
+        draw_triggers(run.triggers);
+        const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver")
+            .sort(by_point(variants_of(run)));
         mirror(by_id("telemetry-source"), sources, (task) => task.id, (task) => element("option", { value: task.id }),
-               (option, task) => set_text(option, task.phase === "fem_solver" ? "FEM"
-                                                 : `MPM from t_T = ${number(task.transfer_time)} s`));
+               (option, task) => set_text(option, source_name(task)));
         const chosen = sources.find((task) => task.id === this.task) ?? sources[0];
         if (!chosen) return;
         if (chosen.id !== this.task) await this.open(chosen.id);
         else if (is_active(chosen.state) || this.was_active) await this.extend();
+        else this.draw();
         this.was_active = is_active(chosen.state);
     }
 
@@ -56,18 +44,37 @@ export class Telemetry {
         await this.extend();
     }
 
+    chosen() {
+        return this.run.tasks.find((candidate) => candidate.id === this.task);
+    }
+
     /// Takes the lines written since the last look.
     async extend() {
-        const task = this.run.tasks.find((candidate) => candidate.id === this.task);
+        const task = this.chosen();
+        const alone = this.run.tasks.filter((other) => other.phase === task.phase &&
+                                                       other.transfer_time === task.transfer_time).length === 1;
         for (;;) {
             const from = this.next;
-            const { lines, next } = await api.read_telemetry(this.run.id, task.phase, task.transfer_time ?? null, from);
+            let answer;
+            try {
+                answer = await api.read_telemetry(task, alone, from);
+            } catch (fault) {
+                if (!(fault instanceof api.Problem) || fault.status !== 400) throw fault;
+                if (this.task === task.id) this.refuse();
+                return;
+            }
+            const { lines, next } = answer;
             if (this.task !== task.id || this.next !== from) return;
             if (next < from) this.forget(); // a new attempt began its own file
             else this.append(lines);
             this.next = next;
             if (lines.length === 0 || next <= from) break;
         }
+        this.draw();
+    }
+
+    refuse() {
+        this.refusal = "This server tells the telemetry of variants apart only when their tasks have ended.";
         this.draw();
     }
 
@@ -85,17 +92,33 @@ export class Telemetry {
 
     draw() {
         const x_field = abscissas.find((field) => this.columns.has(field));
-        set_text(by_id("telemetry-message"), this.count === 0 ? "No telemetry yet." : "");
+        set_text(by_id("telemetry-message"), this.count > 0 ? "" : this.refusal || "No telemetry yet.");
         const shown = x_field ? panels.filter((panel) => Object.keys(panel.fields).some((f) => this.columns.has(f))) : [];
-        const others = x_field ? [...this.columns.keys()].filter((f) => !named.has(f) && !not_drawn.includes(f) && !abscissas.includes(f)) : [];
+        const others = x_field ? [...this.columns.keys()].filter(is_other) : [];
         const all = [...shown.map((panel) => ({ ...panel, host: "telemetry-plots" })),
                      ...others.map((field) => ({ title: field, y: field, unit: "", fields: { [field]: field },
                                                  host: "telemetry-others" }))];
+        this.find_overlay();
         for (const host of ["telemetry-plots", "telemetry-others"]) {
             mirror(by_id(host), all.filter((panel) => panel.host === host), (panel) => panel.title,
                    (panel) => this.new_panel(panel), (figure, panel) => this.fill(panel, x_field));
         }
         by_id("telemetry-more").hidden = others.length === 0;
+    }
+
+    /// What belongs over the curves of the chosen FEM; triggers watch nothing else.
+    find_overlay() {
+        const task = this.chosen();
+        this.overlay = { levels: [], lines: [], bands: [] };
+        if (task?.phase !== "fem_solver") return;
+        const triggers = this.run.triggers.filter((trigger) => trigger.fem_task === task.id);
+        const transfers = this.run.tasks.filter((other) => other.phase === "transfer_tool");
+        this.overlay = {
+            levels: thresholds(triggers),
+            lines: [...transfers.map((other) => ({ x: other.transfer_time, label: `transfer at ${number(other.transfer_time)} s` })),
+                    ...moments(triggers)],
+            bands: windows(triggers),
+        };
     }
 
     new_panel(panel) {
@@ -110,9 +133,12 @@ export class Telemetry {
         const x = this.columns.get(x_field);
         const series = Object.entries(panel.fields).filter(([field]) => this.columns.has(field))
             .map(([field, name]) => ({ name, unit: panel.unit, points: false, x, y: this.columns.get(field) }));
-        const is_fem = this.run.tasks.find((task) => task.id === this.task)?.phase === "fem_solver";
-        const lines = !is_fem ? [] : this.run.tasks.filter((task) => task.phase === "transfer_tool")
-            .map((task) => ({ x: task.transfer_time, label: `transfer at ${number(task.transfer_time)} s` }));
-        this.plots.get(panel.title).show({ series, lines });
+        const levels = this.overlay.levels.filter(({ field }) => field in panel.fields);
+        this.plots.get(panel.title).show({ series, ...this.overlay, levels });
     }
+}
+
+function source_name(task) {
+    if (task.phase === "fem_solver") return task.variant ? `FEM, ${task.variant}` : "FEM";
+    return `MPM from ${point_name(task)}`;
 }

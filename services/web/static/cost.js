@@ -1,0 +1,68 @@
+// Error against run time: what each point of the sweep cost, what its own error indicators say, and where the CPU time
+// of the run went.
+import { by_id, element, mirror, set_text } from "./dom.js";
+import { number, seconds } from "./format.js";
+import { Plot } from "./plot.js";
+import { key_of, series_by_variant } from "./results.js";
+
+const phases = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
+const axis = { x: "CPU time of the MPM run [s]", x_name: "CPU", x_unit: "s",
+               hint: "One marker per transfer time and variant; click or Enter shows where it comes from." };
+
+export class Cost {
+    /// ask(key, column): where a point comes from.
+    constructor(ask) {
+        const plot = (id, y, title, column) => new Plot(by_id(id), { ...axis, y, title },
+                                                        { height: 260, choose: (_, key) => key && ask(key, column) });
+        this.plots = [
+            { plot: plot("cost-runout", "runout from the toe [m]", "Runout against CPU time", "runout"),
+              column: "runout", error: "runout_error", unit: "m" },
+            { plot: plot("cost-share", "numerical share [–]", "Numerical share against CPU time", "numerical_share"),
+              column: "numerical_share", unit: "" },
+        ];
+    }
+
+    show(run, rows, variants) {
+        const finished = rows.filter((row) => Number.isFinite(row.runout) && Number.isFinite(row.cpu_seconds));
+        const has_error = finished.some((row) => Number.isFinite(row.runout_error));
+        set_text(by_id("cost-runout-title"), has_error ? "Error estimate of the runout" : "Runout (the results carry no error estimate)");
+        by_id("cost-plots").hidden = finished.length === 0;
+        by_id("cost-none").hidden = finished.length > 0;
+        for (const { plot, column, error, unit } of this.plots) {
+            const field = error && has_error ? error : column;
+            plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : plot.labels.y;
+            plot.show({ series: series_by_variant(finished, variants).map(({ variant, rows: points }) => ({
+                name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),
+                names: points.map((row) => `t_T = ${number(row.transfer_time)} s`),
+                x: points.map((row) => row.cpu_seconds), y: points.map((row) => row[field] ?? null) })) });
+        }
+        draw_totals(run.tasks);
+    }
+}
+
+/// CPU seconds of all attempts, failed ones too: what the machine was kept busy with.
+function totals_of(tasks) {
+    return phases.map((phase) => {
+        const own = tasks.filter((task) => task.phase === phase);
+        const attempts = own.flatMap((task) => task.attempts);
+        const sum = (name) => attempts.reduce((total, attempt) => total + (attempt[name] ?? 0), 0);
+        return { phase, tasks: own.length, reused: own.filter((task) => task.state === "cached").length,
+                 attempts: attempts.length, cpu: sum("cpu_seconds"), wall: sum("wall_seconds") };
+    }).filter((total) => total.tasks > 0);
+}
+
+function draw_totals(tasks) {
+    const totals = totals_of(tasks);
+    const all = totals.reduce((sum, total) => sum + total.cpu, 0);
+    mirror(by_id("cost-rows"), totals, (total) => total.phase, () => element("tr", {}, element("th", { scope: "row" }),
+           ...Array.from({ length: 5 }, () => element("td", { class: "number" })),
+           element("td", { class: "share" }, element("meter", { min: 0, max: 1 }), " ", element("span", { class: "number" }))),
+           (row, { phase, tasks: count, reused, attempts, cpu, wall }) => {
+               [phase, count, reused, attempts, seconds(cpu), seconds(wall)].forEach((text, i) => set_text(row.children[i], String(text)));
+               const share = all > 0 ? cpu / all : 0;
+               row.lastElementChild.firstElementChild.value = share;
+               row.lastElementChild.firstElementChild.setAttribute("aria-label", `share of ${phase}`);
+               set_text(row.lastElementChild.lastElementChild, `${number(100 * share, 3)} %`);
+           });
+    set_text(by_id("cost-sum"), `${seconds(all)} of CPU time in all.`);
+}

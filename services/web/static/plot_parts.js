@@ -1,0 +1,113 @@
+// The parts of a plot's picture: curves, marks on the abscissa, verticals, levels, bands, and their legend. Each takes
+// the plot for its scales: px(x), py(y), left, width, height.
+import { element, svg } from "./dom.js";
+import { number } from "./format.js";
+import { thinned } from "./plot_scale.js";
+
+export const margin = { right: 14, top: 12, bottom: 46 };
+const label_width = 15; // verticals closer than this share one label [px]
+
+const marker_shapes = ["M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-4,-4h8v8h-8z", "M0,-5.5L5,3.5H-5z", "M0,-5.5L5,0L0,5.5L-5,0z",
+                       "M0,5.5L5,-3.5H-5z", "M-5,-2h10v4h-10z"];
+const mark_shapes = {
+    failed: "M-5,-5L5,5M-5,5L5,-5",
+    skipped: "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0M-3.5,3.5L3.5,-3.5",
+    pending: "M0,-4V4",
+    running: "M-3,-5L5,0L-3,5z",
+};
+const series_colours = marker_shapes.length;
+export const series_class = (index) => `series-${index % series_colours}`;
+
+export function curve(plot, data, index) {
+    const kept = data.points ? data.x.map((_, i) => i) : thinned(data.x, data.y, plot.width);
+    const drawn = kept.filter((i) => Number.isFinite(data.y[i]) && Number.isFinite(data.x[i]));
+    const parts = data.scatter ? [] : [svg("path", { class: `curve ${series_class(index)}`, d: path_of(plot, data, kept) })];
+    if (!data.points) return parts;
+    return [...parts, ...drawn.map((i) => svg("path", { class: `marker ${series_class(index)}`,
+        d: marker_shapes[index % series_colours], transform: `translate(${plot.px(data.x[i])},${plot.py(data.y[i])})` }))];
+}
+
+function path_of(plot, data, kept) {
+    let path = "";
+    let drawing = false;
+    for (const i of kept) {
+        const y = data.y[i];
+        if (y === null || !Number.isFinite(y)) {
+            drawing = false;
+            continue;
+        }
+        path += `${drawing ? "L" : "M"}${plot.px(data.x[i]).toFixed(1)},${plot.py(y).toFixed(1)}`;
+        drawing = true;
+    }
+    return path;
+}
+
+export function mark(plot, { x, kind, label }) {
+    const at = plot.height - margin.bottom - 9;
+    return svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: `translate(${plot.px(x)},${at})` },
+               svg("title", {}, label));
+}
+
+/// Verticals, and the texts of those that have one; neighbours' texts are put together.
+export function verticals(plot, lines) {
+    const bottom = plot.height - margin.bottom;
+    const parts = lines.map((line) => svg("path", { class: `event ${line.kind ?? ""}`, d: `M${plot.px(line.x)},${margin.top}V${bottom}` },
+                                          svg("title", {}, line.label)));
+    const groups = [];
+    for (const line of lines.filter(({ text }) => text).sort((a, b) => a.x - b.x)) {
+        const at = plot.px(line.x);
+        const last = groups.at(-1);
+        if (!last || at - last.at > label_width) groups.push({ at, texts: [line.text] });
+        else if (!last.texts.includes(line.text)) last.texts.push(line.text);
+    }
+    for (const { at, texts } of groups) {
+        const beside = at - plot.left < label_width ? at + 12 : at - 4;
+        parts.push(svg("text", { class: "event-text", transform: `translate(${beside},${margin.top + 3}) rotate(-90)`,
+                                 "text-anchor": "end" }, texts.join(", ")));
+    }
+    return parts;
+}
+
+/// A horizontal at a value; one outside the picture is told of at its edge.
+export function level(plot, { y, label }, index) {
+    const right = plot.width - margin.right;
+    const [low, high] = plot.y_range;
+    const outside = y > high ? "▲ " : y < low ? "▼ " : "";
+    const at = plot.py(Math.min(high, Math.max(low, y)));
+    const above = at > margin.top + 20;
+    const text = svg("text", { class: "level-text", x: plot.left + 6 + 8 * (index % 4), y: above ? at - 5 : at + 15 },
+                     `${outside}${label} ${number(y)}`);
+    return outside ? [text] : [svg("path", { class: "level", d: `M${plot.left},${at}H${right}` }), text];
+}
+
+/// A shaded stretch of the abscissa, its name at the top.
+export function band(plot, { from, to, label, kind }, index) {
+    const clamp = (x) => Math.min(plot.x_range[1], Math.max(plot.x_range[0], x));
+    const [left, right] = [plot.px(clamp(from)), plot.px(clamp(to))];
+    const bottom = plot.height - margin.bottom;
+    return [svg("rect", { class: `band ${kind}`, x: left, y: margin.top, width: Math.max(right - left, 1), height: bottom - margin.top },
+                svg("title", {}, `${label}: ${number(from)} to ${number(to)}`)),
+            svg("path", { class: `band-edge ${kind}`, d: `M${left},${margin.top}V${bottom}M${right},${margin.top}V${bottom}` }),
+            svg("text", { class: "band-text", x: left + 5, y: bottom - 24 - 17 * index }, label)];
+}
+
+export function legend({ series, marks, lines, bands }, lines_name) {
+    const items = series.map((data, i) => legend_item(
+        [...(data.scatter ? [] : [svg("path", { class: `curve ${series_class(i)}`, d: "M0,7H24" })]),
+         ...(data.points ? [svg("path", { class: `marker ${series_class(i)}`, d: marker_shapes[i % series_colours],
+                                          transform: "translate(12,7)" })] : [])], data.name));
+    for (const kind of new Set(marks.map((each) => each.kind))) {
+        items.push(legend_item([svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: "translate(12,7)" })], kind));
+    }
+    for (const kind of new Set(bands.map((each) => each.kind))) {
+        items.push(legend_item([svg("rect", { class: `band ${kind}`, width: 24, height: 14 })], kind));
+    }
+    if (lines_name && lines.some((line) => !line.text)) {
+        items.push(legend_item([svg("path", { class: "event", d: "M12,0V14" })], lines_name));
+    }
+    return items;
+}
+
+function legend_item(parts, name) {
+    return element("li", {}, svg("svg", { viewBox: "0 0 24 14", width: 24, height: 14, "aria-hidden": "true" }, ...parts), ` ${name}`);
+}

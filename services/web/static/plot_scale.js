@@ -1,0 +1,67 @@
+// Numbers behind a plot: round values for axes, ranges, thinning of long curves.
+import { number } from "./format.js";
+
+/// About `wanted` round values that cover [low, high].
+export function ticks(low, high, wanted) {
+    const raw = (high - low) / Math.max(wanted, 1);
+    const power = 10 ** Math.floor(Math.log10(raw));
+    const step = power * [1, 2, 2.5, 5, 10].find((factor) => factor * power >= raw * 0.999);
+    const values = [];
+    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1) values.push(i * step);
+    return { values, step };
+}
+
+export function tick_label(value, step) {
+    if (Math.abs(value) < 1e-9 * step) return "0";
+    if (Math.abs(value) >= 1e5 || step < 1e-4) return number(value, 3);
+    const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+    const fits = Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) < 1e-6;
+    return value.toFixed(fits ? decimals : decimals + 1);
+}
+
+/// Range of the finite values, a little wider; `least` values are always inside.
+export function range_of(lists, least) {
+    let low = Infinity;
+    let high = -Infinity;
+    const widen = (value) => {
+        if (value === null || !Number.isFinite(value)) return;
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+    };
+    for (const list of lists) list.forEach(widen);
+    least.forEach(widen);
+    if (low > high) return [0, 1];
+    if (low === high) return [low - (Math.abs(low) || 1) / 2, high + (Math.abs(high) || 1) / 2];
+    return [low, high];
+}
+
+const most_widened = 3; // a level that would make the range longer than this many times stays outside
+
+/// The range, widened to the levels that it can take in without pressing the curves flat.
+export function widened(range, levels) {
+    let [low, high] = range;
+    for (const level of [...levels].sort((a, b) => Math.abs(a - (low + high) / 2) - Math.abs(b - (low + high) / 2))) {
+        const wider = [Math.min(low, level), Math.max(high, level)];
+        if (wider[1] - wider[0] <= most_widened * (range[1] - range[0])) [low, high] = wider;
+    }
+    return [low, high];
+}
+
+/// Points per pixel column that a long curve is thinned to: the lowest and highest stay, so no peak is lost.
+export function thinned(xs, ys, columns) {
+    if (xs.length <= 4 * columns) return xs.map((_, i) => i);
+    const kept = [];
+    const per_column = xs.length / columns;
+    for (let column = 0; column < columns; column += 1) {
+        const first = Math.floor(column * per_column);
+        const end = Math.min(xs.length, Math.floor((column + 1) * per_column));
+        let lowest = first;
+        let highest = first;
+        for (let i = first; i < end; i += 1) {
+            if (ys[i] < ys[lowest]) lowest = i;
+            if (ys[i] > ys[highest]) highest = i;
+        }
+        kept.push(...[...new Set([first, lowest, highest, end - 1])].sort((a, b) => a - b));
+    }
+    return kept;
+}

@@ -1,0 +1,140 @@
+// Where a number comes from: the chain of phases behind one point of the sweep, from its runout back to its FEM, each
+// with its settings, inputs, files and hashes, and the command that makes it again.
+import * as api from "./api.js";
+import { by_id, element, set_text } from "./dom.js";
+import { bytes, clock, number, point_name, seconds, show_state, task_name } from "./format.js";
+import { moments } from "./triggers.js";
+
+const column_names = {
+    runout: ["runout", "m"], runout_beyond_toe: ["runout of what passed the toe", "m"], runout_largest: ["farthest point", "m"],
+    volume_ratio: ["volume ratio", "–"], numerical_share: ["numerical share of the released energy", "–"],
+    overlap: ["overlap", "–"], cpu_seconds: ["CPU time of the MPM run", "s"],
+};
+const result_paths = { numerical_share: "energy.numerical.share" }; // others stand in result.json under their own name
+
+export class Provenance {
+    /// look_at(row): a person wants to see this point's particles.
+    constructor(look_at) {
+        this.dialog = by_id("provenance");
+        by_id("provenance-close").addEventListener("click", () => this.dialog.close());
+        by_id("provenance-look").addEventListener("click", () => {
+            this.dialog.close();
+            look_at(this.row);
+        });
+    }
+
+    async ask(run, row, column) {
+        this.row = row;
+        const [name, unit] = column_names[column] ?? [column, ""];
+        set_text(by_id("provenance-title"), `${name}: ${number(row[column], 6)} ${unit}`);
+        const value = Number.isFinite(row[column]) ? `Exactly ${row[column]}: ` : "";
+        set_text(by_id("provenance-where"), `${value}${point_name(row)}. “${result_paths[column] ?? column}” in result.json of ` +
+                                            `task ${row.mpm_task}${row.reason ? `. ${row.state}: ${row.reason}` : ""}`);
+        by_id("provenance-look").hidden = !Number.isFinite(row.runout);
+        by_id("provenance-chain").replaceChildren(element("p", { class: "muted" }, "Reading…"));
+        if (!this.dialog.open) this.dialog.showModal();
+        try {
+            const steps = await chain_of(run, row);
+            if (this.row !== row) return;
+            by_id("provenance-chain").replaceChildren(...asked_for(run, row, steps), ...steps.map(step_section));
+        } catch (fault) {
+            set_text(by_id("provenance-chain"), `This could not be read: ${fault.message}`);
+        }
+    }
+}
+
+/// The tasks from the runout back to the FEM, each as {task, provenance: of its result.json or null}.
+async function chain_of(run, row) {
+    const transfer = run.tasks.find((task) => task.id === row.transfer_task);
+    const fem = run.tasks.find((task) => task.phase === "fem_solver" && task.variant === (transfer?.variant || row.variant)) ??
+                run.tasks.find((task) => task.phase === "fem_solver");
+    const mpm = run.tasks.find((task) => task.id === row.mpm_task);
+    return Promise.all([mpm, transfer, fem].filter(Boolean).map(async (listed) => {
+        const task = await api.read_task(listed.id);
+        const file = task.artifacts.find(({ name }) => name === "result.json");
+        const result = file ? await api.read_json_artifact(file.sha256).catch(() => null) : null;
+        return { task, provenance: result?.provenance ?? null };
+    }));
+}
+
+/// Which wish made this transfer: a time in the study, or a trigger with what it saw.
+function asked_for(run, row, steps) {
+    const trigger = run.triggers.find(({ name }) => name && name === row.trigger);
+    const firing = trigger?.firings.find((each) => Math.abs(each.transfer_time - row.transfer_time) < 1e-6);
+    const variant = run.study?.variants?.find(({ name }) => name === row.variant);
+    const lines = [["transfer asked for by", firing ? `trigger ${trigger.name} (${trigger.kind})` : row.trigger || "a time of the study"]];
+    if (firing) {
+        const [moment] = moments([{ ...trigger, firings: [firing] }]);
+        if (moment) lines.push(["fired", moment.label]);
+        if (firing.crossed) lines.push(["what it saw", JSON.stringify(firing.crossed)]);
+        lines.push(["snapshot", `${firing.snapshot}, SHA-256 ${firing.sha256}`]);
+    }
+    if (variant) lines.push(["variant sets", (variant.overrides ?? []).join(", ") || "nothing"]);
+    const cpu = steps.flatMap(({ task }) => task.attempts).reduce((sum, attempt) => sum + (attempt.cpu_seconds ?? 0), 0);
+    lines.push(["CPU time of the chain", `${seconds(cpu)} (the FEM and the transfer serve other points too)`]);
+    return [facts(lines)];
+}
+
+function step_section({ task, provenance }) {
+    const state = element("span");
+    show_state(state, task.state);
+    return element("section", { class: "step" },
+        element("div", { class: "row" }, element("h3", {}, task_name(task)), state),
+        facts(facts_of(task, provenance)),
+        settings(provenance, task.variant === "" ? " (given by one variant for all that share this task)" : ""),
+        files(task),
+        again(task, provenance));
+}
+
+function facts_of(task, provenance) {
+    const last = task.attempts.at(-1);
+    const why = task.why ? [task.why.reason, ...(task.why.differs ?? [])].join(", ") : "";
+    const lines = [["task", task.id]];
+    if (provenance) lines.push(["version", provenance.version], ["threads", String(provenance.threads)]);
+    if (last) {
+        lines.push(["finished", clock(last.finished)], ["CPU", seconds(last.cpu_seconds)], ["wall", seconds(last.wall_seconds)],
+                   ["attempts", String(task.attempts.length)]);
+    }
+    if (task.same_as) lines.push(["taken from", task.same_as]);
+    if (why) lines.push(["why it ran", why]);
+    return lines;
+}
+
+const facts = (lines) => element("dl", { class: "facts" }, ...lines.map(([name, text]) =>
+    element("div", {}, element("dt", {}, name), element("dd", {}, text))));
+
+const hash_link = (sha256, name) => element("a", { href: api.artifact_path(sha256), download: name }, element("code", {}, sha256));
+const file_name = (path) => path.split("/").at(-1);
+
+function settings(provenance, shared) {
+    if (!provenance) return element("p", { class: "muted" }, "No result.json yet.");
+    const overrides = provenance.overrides ?? [];
+    const inputs = provenance.inputs ?? [];
+    return element("div", {},
+        element("h4", {}, `Settings over the scene${overrides.length ? shared : ""}`),
+        overrides.length ? element("ul", {}, ...overrides.map((each) => element("li", {}, element("code", {}, each)))) : element("p", {}, "none"),
+        element("h4", {}, "Inputs"),
+        inputs.length ? element("ul", {}, ...inputs.map(({ path, sha256 }) =>
+            element("li", {}, `${file_name(path)} `, hash_link(sha256, file_name(path))))) : element("p", {}, "the scene alone"));
+}
+
+const first_names = ["result.json", "scene.completed.json", "telemetry.jsonl", "history.h5"];
+
+function files(task) {
+    const rank = ({ name }) => (first_names.indexOf(name) + 1 || 99);
+    const sorted = [...task.artifacts].sort((a, b) => rank(a) - rank(b));
+    if (sorted.length === 0) return element("p", { class: "muted" }, "No files of its own.");
+    return element("details", {}, element("summary", {}, `${sorted.length} files with their hashes`),
+        element("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": `files of ${task_name(task)}` },
+            element("table", {}, element("tbody", {}, ...sorted.map((file) => element("tr", {},
+                element("th", { scope: "row" }, file.name), element("td", { class: "number" }, bytes(file.bytes)),
+                element("td", {}, hash_link(file.sha256, file.name))))))));
+}
+
+/// The completed scene has the overrides in it already.
+function again(task, provenance) {
+    if (!provenance) return null;
+    const inputs = (provenance.inputs ?? []).map(({ path }) => ` --input ${file_name(path)}`).join("");
+    return element("div", {}, element("h4", {}, "The same again by hand, with the files above"),
+        element("pre", {}, `${task.phase} scene.completed.json${inputs} --threads ${provenance.threads} --output again`));
+}
