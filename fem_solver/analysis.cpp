@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "fem_solver/ground_water.hpp"
+
 namespace breach::fem {
 
 using process::Outcome;
@@ -45,7 +47,7 @@ Analysis::Analysis(process::Session& session, Model model)
       trial_(motion_),
       crest_node_(nearest_node(model_.mesh, fem_.crest)) {
     for (const Stage& stage : fem_.stages) span_ += stage.duration;
-    prediction_.u = prediction_.v = motion_.u;
+    prediction_ = prediction_for(model_);
     const bool resumed = session.settings().start == process::Start::resume &&
                          std::filesystem::exists(session.output("checkpoint.h5"));
     if (resumed) {
@@ -87,7 +89,9 @@ Outcome Analysis::run() {
 }
 
 void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
-    newton_.emplace(model_, NewtonSettings{fem_.force_tolerance, fem_.largest_iterations},
+    const Solved solved = stage.kind == StageKind::static_equilibrium ? Solved::displacement
+                                                                      : Solved::motion_and_pressure;
+    newton_.emplace(model_, solved, NewtonSettings{fem_.force_tolerance, fem_.largest_iterations},
                     symmetry_for(stage), seconds_);
     newton_->set_counts(counts);
 }
@@ -96,25 +100,45 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
 /// at zero: gravity's settlement belongs to the past of the slope, not to its failure.
 void Analysis::begin_stage(const Stage& stage) {
     laws_ = laws_for(model_, stage.laws);
+    set_permeability(session_.scene(), stage.permeability, model_);
     if (!newton_) make_newton(stage, counts_);
     if (position_.stage_begun) return;
     position_.stage_begun = true;
     spdlog::info("stage {}", stage.name);
+    if (stage.laws == scene::StageLaws::scene) begin_laws();
     if (stage.kind == StageKind::static_equilibrium) {
         position_.load_step = 1.0 / stage.load_steps;
+        if (model_.water.any()) motion_.p = steady_pressure(model_);
         return;
     }
     position_.dt = stage.time_step;
     position_.easy_steps = 0;
-    if (!position_.moving) {
-        position_.moving = true;
-        motion_.u.setZero();
-        std::ranges::fill(motion_.strain, Voigt::Zero());
-        for (Hourglass& each : motion_.hourglass) each.energy = 0.0;
-    }
-    start_motion(*newton_, model_, laws_, motion_, trial_);
+    settle_stresses(*newton_, laws_, motion_, trial_);
+    if (!position_.moving) begin_motion();
+    set_acceleration(*newton_, model_, beginning_, position_.time, prediction_, motion_);
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
     write_due_outputs(0.0, {End::converged, 0, 0.0});
+}
+
+void Analysis::begin_motion() {
+    position_.moving = true;
+    motion_.u.setZero();
+    std::ranges::fill(motion_.strain, Voigt::Zero());
+    for (Hourglass& each : motion_.hourglass) each.energy = 0.0;
+    beginning_ = beginning_of(model_, motion_);
+    set_skeleton_modulus(beginning_, model_);
+    evaluate_pore_water(model_, motion_.u, model_.water);
+}
+
+/// The switch from elastic stages to the scene's laws.
+void Analysis::begin_laws() {
+    const bool first = motion_.sand.empty();
+    const StressBias bias = begin_sand(model_, motion_);
+    if (!first || motion_.sand.empty()) return;
+    spdlog::info(
+        "  PM4Sand begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} "
+        "kPa",
+        motion_.sand.size(), bias.points, bias.largest / 1e3);
 }
 
 Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
@@ -122,7 +146,8 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
     while (position_.load < 1.0) {
         if (session_.stop_requested()) return StageEnd::stopped;
         const double load = std::min(1.0, start + position_.load_step);
-        const NewtonOutcome outcome = static_step(*newton_, laws_, motion_, load, trial_);
+        const NewtonOutcome outcome =
+            static_step(*newton_, model_, laws_, load, motion_, prediction_, trial_);
         ++position_.step;
         if (outcome.end != End::converged) {
             position_.load_step *= cut;
@@ -138,23 +163,38 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
         position_.load = start = load;
         spdlog::info("  {:.4g} of gravity in {} iterations, out of balance {:.2e}", load,
                      outcome.iterations, outcome.residual);
+        if (load >= 1.0) note_geostatic_state(stage, outcome);
     }
     return StageEnd::reached;
+}
+
+void Analysis::note_geostatic_state(const Stage& stage, const NewtonOutcome& outcome) {
+    const LateralStress K = lateral_stress(model_, motion_);
+    spdlog::info("  sigma'_xx / sigma'_yy {:.3f} on average, {:.3f} to {:.3f}", K.average, K.least,
+                 K.largest);
+    session_.result()["geostatic"][stage.name] = {{"out_of_balance", outcome.residual},
+                                                  {"K_average", K.average},
+                                                  {"K_least", K.least},
+                                                  {"K_largest", K.largest}};
 }
 
 Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
     const double stage_end = stage_begin(position_.stage) + stage.duration;
     const Newmark newmark{fem_.newmark_beta, fem_.newmark_gamma};
+    const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
     while (position_.time < stage_end) {
         if (session_.stop_requested()) return StageEnd::stopped;
         const double dt = next_step_size(stage_end);
+        if (moves && model_.water.any()) evaluate_pore_water(model_, motion_.u, model_.water);
         const NewtonOutcome outcome =
-            dynamic_step(*newton_, laws_, newmark, dt, motion_, prediction_, trial_);
+            dynamic_step(*newton_, model_, laws_, newmark, beginning_, dt, position_.time + dt,
+                         motion_, prediction_, trial_);
         if (outcome.end != End::converged) {
             position_.dt = dt;
             cut_step(stage, outcome);
             continue;
         }
+        if (step_is_too_coarse(stage, dt)) continue;
         const Distortion distortion = distortion_of(model_, trial_, fem_.strain_threshold);
         if (distortion.least <= fem_.least_jacobian_ratio) {
             const std::size_t e = distortion.worst_element;
@@ -169,6 +209,21 @@ Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
         if (checkpoint_is_due()) write_checkpoint();
     }
     return StageEnd::reached;
+}
+
+/// Error of the step in displacement, |beta - 1/6| dt^2 times the largest change of acceleration
+/// (Zienkiewicz & Xie 1991): where it is too large the step is halved and taken again, down to the
+/// least one.
+bool Analysis::step_is_too_coarse(const Stage& stage, double dt) {
+    if (fem_.largest_step_error <= 0.0) return false;
+    const double change = (trial_.a - motion_.a).lpNorm<Eigen::Infinity>();
+    step_error_ = std::abs(fem_.newmark_beta - 1.0 / 6.0) * dt * dt * change;
+    if (step_error_ <= fem_.largest_step_error || cut * dt < stage.least_time_step) return false;
+    ++position_.cut_steps;
+    position_.easy_steps = 0;
+    position_.dt = cut * dt;
+    newton_->forget_matrix();
+    return true;
 }
 
 /// The next time that must be met exactly: a wanted snapshot or the end of the stage.
@@ -198,7 +253,9 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
     position_.time = arrived ? stop : position_.time + dt;
     ++position_.step;
     const Stage& stage = fem_.stages[position_.stage];
-    const bool easy = outcome.iterations <= fem_.largest_iterations / 2;
+    // A step twice as long has about eight times the error.
+    const bool easy = outcome.iterations <= fem_.largest_iterations / 2 &&
+                      10.0 * step_error_ <= fem_.largest_step_error;
     position_.easy_steps = easy ? position_.easy_steps + 1 : 0;
     if (position_.dt < stage.time_step && position_.easy_steps >= easy_steps_before_growth) {
         position_.dt = std::min(stage.time_step, growth * position_.dt);

@@ -20,6 +20,7 @@ class Analysis {
     const Model& model() const { return model_; }
     const Motion& motion() const { return motion_; }
     const Position& position() const { return position_; }
+    const Beginning& beginning() const { return beginning_; }
     const std::vector<Reading>& history() const { return history_; }
 
   private:
@@ -29,6 +30,10 @@ class Analysis {
     StageEnd dynamic_stage(const scene::Stage& stage);
     void make_newton(const scene::Stage& stage, const NewtonCounts& counts);
     void begin_stage(const scene::Stage& stage);
+    void begin_laws();
+    void begin_motion();
+    void note_geostatic_state(const scene::Stage& stage, const NewtonOutcome& outcome);
+    bool step_is_too_coarse(const scene::Stage& stage, double dt);
     double next_step_size(double stage_end) const;
     double next_stop(double stage_end) const;
     void accept(double dt, double stop, const NewtonOutcome& outcome);
@@ -51,6 +56,7 @@ class Analysis {
     Seconds seconds_;
     Position position_;
     Motion motion_, trial_;
+    Beginning beginning_;
     Prediction prediction_;
     std::vector<materials::Law> laws_;
     std::optional<Newton> newton_;
@@ -58,6 +64,7 @@ class Analysis {
     Distortion distortion_;
     std::vector<Reading> history_;
     std::size_t crest_node_;
+    double step_error_ = 0.0;          ///< of the last step [m]
     double span_ = 0.0;                ///< all dynamic stages [s]
     double checkpoint_written_ = 0.0;  ///< wall clock [s]
     double last_snapshot_ = -1.0;      ///< its time [s]

@@ -58,7 +58,8 @@ void Analysis::write_snapshot() {
     const Stopwatch watch(seconds_.output);
     const auto file = session_.output(snapshot_name(position_.time));
     exchange::write_mesh_snapshot(
-        file, snapshot_of(session_.scene(), model_, motion_, position_.time, position_.step),
+        file,
+        snapshot_of(session_.scene(), model_, motion_, beginning_, position_.time, position_.step),
         session_.provenance());
     session_.announce(file, {{"time", position_.time}});
     last_snapshot_ = position_.time;
@@ -77,7 +78,8 @@ bool Analysis::checkpoint_is_due() const {
 
 void Analysis::write_checkpoint() {
     const Stopwatch watch(seconds_.output);
-    Checkpoint checkpoint{position_, motion_, newton_->memory(), newton_->counts(), history_};
+    Checkpoint checkpoint{position_,         motion_,           beginning_,
+                          newton_->memory(), newton_->counts(), history_};
     exchange::write_archive(session_.output("checkpoint.h5"),
                             checkpoint_archive(checkpoint, session_.scene()),
                             session_.provenance());
@@ -92,6 +94,8 @@ void Analysis::resume() {
     position_ = checkpoint.position;
     motion_ = std::move(checkpoint.motion);
     trial_ = motion_;
+    beginning_ = std::move(checkpoint.beginning);
+    set_skeleton_modulus(beginning_, model_);
     history_ = std::move(checkpoint.history);
     session_.truncate_telemetry(position_.telemetry_lines);
     make_newton(fem_.stages[position_.stage], checkpoint.counts);
@@ -143,6 +147,7 @@ nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double 
 
 void Analysis::report_facts(const std::string& end) {
     const Quality quality = quality_of(model_.mesh);
+    const Unknowns unknowns = model_.unknowns(Solved::motion_and_pressure);
     double largest = 0.0;
     for (Eigen::Index i = 0; i < motion_.u.size(); i += 2) {
         largest = std::max(largest, motion_.u.segment<2>(i).norm());
@@ -155,9 +160,10 @@ void Analysis::report_facts(const std::string& end) {
     facts["iterations"] = counts_.iterations;
     facts["factorisations"] = counts_.factorisations;
     facts["elastic_fallbacks"] = counts_.elastic_fallbacks;
-    facts["elements"] = model_.mesh.quads.size();
-    facts["nodes"] = model_.mesh.nodes.size();
-    facts["unknowns"] = model_.unknowns.count;
+    facts["elements"] = model_.body.elements;
+    facts["nodes"] = model_.body.nodes;
+    facts["unknowns"] = unknowns.displacements;
+    facts["pressure_unknowns"] = unknowns.pressures();
     facts["largest_displacement"] = largest;
     facts["mesh"] = {{"shortest_edge", quality.shortest_edge},
                      {"longest_edge", quality.longest_edge},

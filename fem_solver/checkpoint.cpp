@@ -1,5 +1,7 @@
 #include "fem_solver/checkpoint.hpp"
 
+#include "core/materials/pm4sand_fields.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -40,11 +42,35 @@ Position position_from(const exchange::Archive& archive) {
             .moving = i.at(7) != 0};
 }
 
+/// Absent until the first stage with the scene's laws.
+void put_sand(exchange::Archive& archive, const Motion& motion) {
+    if (motion.sand.empty()) return;
+    Reals& numbers = archive.reals["sand"];
+    numbers.reserve(motion.sand.size() * materials::pm4sand::stored_numbers);
+    for (const materials::pm4sand::State& each : motion.sand) {
+        for_each_real(each, [&](double x) { numbers.push_back(x); });
+        numbers.push_back(each.p_zp_unset ? 1.0 : 0.0);
+    }
+}
+
+void take_sand(const exchange::Archive& archive, Motion& motion) {
+    if (!archive.reals.contains("sand")) return;
+    const Reals& numbers = archive.reals.at("sand");
+    auto next = numbers.begin();
+    motion.sand.resize(numbers.size() / materials::pm4sand::stored_numbers);
+    for (materials::pm4sand::State& each : motion.sand) {
+        for_each_real(each, [&](double& x) { x = *next++; });
+        each.p_zp_unset = *next++ != 0.0;
+    }
+}
+
 void put(exchange::Archive& archive, const Motion& motion) {
     archive.reals["u"] = flat(motion.u);
     archive.reals["v"] = flat(motion.v);
     archive.reals["a"] = flat(motion.a);
     archive.reals["force"] = flat(motion.force);
+    archive.reals["p"] = flat(motion.p);
+    archive.reals["p_rate"] = flat(motion.p_rate);
     Reals stress, epsilon_q, strain;
     for (const State& point : motion.points) {
         stress.insert(stress.end(), point.sigma.begin(), point.sigma.end());
@@ -56,6 +82,7 @@ void put(exchange::Archive& archive, const Motion& motion) {
     archive.reals["stress"] = std::move(stress);
     archive.reals["epsilon_q"] = std::move(epsilon_q);
     archive.reals["strain"] = std::move(strain);
+    put_sand(archive, motion);
     if (motion.hourglass.empty()) return;
     Reals& hourglass = archive.reals["hourglass"];
     for (const Hourglass& h : motion.hourglass) {
@@ -69,6 +96,8 @@ Motion motion_from(const exchange::Archive& archive) {
     motion.v = vector_from(archive.reals.at("v"));
     motion.a = vector_from(archive.reals.at("a"));
     motion.force = vector_from(archive.reals.at("force"));
+    motion.p = vector_from(archive.reals.at("p"));
+    motion.p_rate = vector_from(archive.reals.at("p_rate"));
     const Reals& stress = archive.reals.at("stress");
     const Reals& strain = archive.reals.at("strain");
     const Reals& epsilon_q = archive.reals.at("epsilon_q");
@@ -76,12 +105,27 @@ Motion motion_from(const exchange::Archive& archive) {
         motion.points.push_back({Voigt(&stress.at(4 * p)), epsilon_q[p]});
         motion.strain.push_back(Voigt(&strain.at(4 * p)));
     }
+    take_sand(archive, motion);
     if (!archive.reals.contains("hourglass")) return motion;
     const Reals& h = archive.reals.at("hourglass");
     for (std::size_t i = 0; i + 3 < h.size(); i += 4) {
         motion.hourglass.push_back({Vec2(h[i], h[i + 1]), h[i + 2], h[i + 3]});
     }
     return motion;
+}
+
+void put(exchange::Archive& archive, const Beginning& beginning) {
+    archive.reals["beginning.base_reaction"] = flat(beginning.base_reaction);
+    archive.reals["beginning.p"] = flat(beginning.p);
+    archive.reals["beginning.sigma_v0"] = beginning.sigma_v0;
+    archive.reals["beginning.skeleton_modulus"] = beginning.skeleton_modulus;
+}
+
+Beginning beginning_from(const exchange::Archive& archive) {
+    return {.base_reaction = vector_from(archive.reals.at("beginning.base_reaction")),
+            .p = vector_from(archive.reals.at("beginning.p")),
+            .sigma_v0 = archive.reals.at("beginning.sigma_v0"),
+            .skeleton_modulus = archive.reals.at("beginning.skeleton_modulus")};
 }
 
 }  // namespace
@@ -93,6 +137,7 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
     archive.texts["scene"] = exchange::sha256_of_text(scene.completed);
     put(archive, checkpoint.position);
     put(archive, checkpoint.motion);
+    put(archive, checkpoint.beginning);
     const NewtonMemory& newton = checkpoint.newton;
     archive.reals["newton.values"] = newton.values;
     archive.reals["newton.rule"] = {newton.rule.c_a, newton.rule.c_v};
@@ -119,6 +164,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
     Checkpoint c;
     c.position = position_from(archive);
     c.motion = motion_from(archive);
+    c.beginning = beginning_from(archive);
     c.newton.values = archive.reals.at("newton.values");
     const Reals& rule = archive.reals.at("newton.rule");
     c.newton.rule = {rule.at(0), rule.at(1)};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "fem_solver/beginning.hpp"
 #include "fem_solver/monitors.hpp"
 #include "fem_solver/newton.hpp"
 
@@ -31,6 +32,7 @@ struct Position {
 struct Checkpoint {
     Position position;
     Motion motion;
+    Beginning beginning;
     NewtonMemory newton;
     NewtonCounts counts;
     std::vector<Reading> history;
@@ -42,6 +44,6 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
                            const Model& model, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
-inline constexpr int checkpoint_version = 1;
+inline constexpr int checkpoint_version = 2;
 
 }  // namespace breach::fem

@@ -115,14 +115,14 @@ Geometry InternalForce::moving_strains(std::size_t element, const Motion& old,
 /// Gradients and quadrature on the moving mesh.
 Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) {
     Gradients& gradients = gradients_[element];
-    evaluate_gradients(x, model_.thickness, gradients);
+    evaluate_gradients(x, model_.thickness_of(element), gradients);
     for (const double weight : gradients.weight) {
         if (!(weight > 0.0)) return Geometry::degenerate;
     }
     if (hourglass_.empty()) {
         evaluate_quadrature(gradients, current_[element]);
     } else {
-        evaluate_ssp(x, model_.thickness, hourglass_[element]);
+        evaluate_ssp(x, model_.thickness_of(element), hourglass_[element]);
         use_centre_only(hourglass_[element], gradients, current_[element]);
     }
     return Geometry::sound;
@@ -173,16 +173,20 @@ Geometry InternalForce::integrate_zone(const materials::PM4Sand& law, const Zone
                : Geometry::degenerate;
 }
 
-/// The elastic tangent of the step's beginning: symmetric positive definite, which keeps the matrix
-/// quasi-definite, and good for many steps.
+/// The elastic tangent of whichever end of the step is stiffer: symmetric positive definite, which
+/// keeps the matrix quasi-definite, and too stiff rather than too soft, so that iterations approach
+/// instead of swinging about when soil near zero mean stress is pressed again.
 Geometry InternalForce::integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
                                                     const Motion& old, Motion& trial) {
+    if (integrate_zone(law, zone, old, trial) == Geometry::degenerate) return Geometry::degenerate;
     const std::size_t begin = zone.first * points_;
     for (std::size_t i = 0; i < zone.count * points_; ++i) {
+        const auto& start = old.sand[zone.first_sand + i];
+        const auto& end = trial.sand[zone.first_sand + i];
         tangent_[begin + i] =
-            in_plane(materials::pm4sand::elastic_tangent(law.ready, old.sand[zone.first_sand + i]));
+            in_plane(materials::pm4sand::elastic_tangent(law.ready, end.G > start.G ? end : start));
     }
-    return integrate_zone(law, zone, old, trial);
+    return Geometry::sound;
 }
 
 Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const Motion& old,

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "fem_solver/ground.hpp"
+#include "fem_solver/ground_water.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -22,52 +25,21 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::siz
     return zones;
 }
 
-Unknowns number_unknowns(const scene::Scene& scene, const Mesh& mesh, double tolerance) {
-    const scene::Fem& fem = scene::fem_of(scene);
-    std::vector<bool> held(2 * mesh.nodes.size(), false);
-    std::vector<fault::Fault> faults;
-    bool holds_x = false, holds_y = false;
-    for (std::size_t s = 0; s < fem.supports.size(); ++s) {
-        const scene::Support& support = fem.supports[s];
-        bool found = false;
-        for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-            if (scene::distance_to_segment(mesh.nodes[i], support.from, support.to) > tolerance)
-                continue;
-            found = true;
-            if (support.fixes_x) held[2 * i] = true;
-            if (support.fixes_y) held[2 * i + 1] = true;
-        }
-        if (!found) {
-            faults.push_back({"/fem/supports/" + std::to_string(s),
-                              "support '" + support.name + "' holds no node of the mesh",
-                              "let its segment run along an edge of a region"});
-        }
-        holds_x = holds_x || (found && support.fixes_x);
-        holds_y = holds_y || (found && support.fixes_y);
-    }
-    if (!holds_x || !holds_y) {
-        faults.push_back({"/fem/supports",
-                          std::string("nothing holds the body in ") + (holds_x ? "y" : "x"),
-                          "add a support that fixes this direction"});
-    }
-    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
-    Unknowns unknowns;
-    unknowns.of_dof.assign(held.size(), -1);
-    for (std::size_t d = 0; d < held.size(); ++d) {
-        if (!held[d]) unknowns.of_dof[d] = unknowns.count++;
-    }
-    return unknowns;
-}
-
 }  // namespace
 
 Model build_model(const scene::Scene& scene, Mesh mesh) {
     const scene::Fem& fem = scene::fem_of(scene);
     Model model;
     model.points_per_element = fem.element == scene::ElementKind::ssp ? 1 : gauss_points;
+    model.body = {mesh.nodes.size(), mesh.quads.size()};
+    FreeFieldColumns columns;
+    if (fem.free_field) {
+        columns = add_free_field(*fem.free_field, mesh);
+        model.column_thickness = fem.free_field->thickness_factor;
+    }
+    model.constraints = constraints_of(fem, mesh, columns.ties, columns.pressure_ties);
     model.zones = zones_of(scene, mesh, model.points_per_element);
     model.thickness = scene.thickness;
-    model.unknowns = number_unknowns(scene, mesh, 1e-6 * quality_of(mesh).shortest_edge);
     model.kinematics = fem.kinematics;
     model.rayleigh = {fem.rayleigh_mass, fem.rayleigh_stiffness};
     model.nodal_mass.assign(mesh.nodes.size(), 0.0);
@@ -82,15 +54,16 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
     for (const Zone& zone : model.zones) {
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
             const Corners x = corners_of(mesh, e);
+            const double thickness = model.thickness_of(e);
             Gradients gradients;
-            evaluate_gradients(x, scene.thickness, gradients);
+            evaluate_gradients(x, thickness, gradients);
             if (fem.element == scene::ElementKind::ssp) {
-                evaluate_ssp(x, scene.thickness, model.hourglass[e]);
+                evaluate_ssp(x, thickness, model.hourglass[e]);
                 use_centre_only(model.hourglass[e], gradients, model.reference[e]);
             } else {
                 evaluate_quadrature(gradients, model.reference[e]);
             }
-            const Eigen::Vector4d shares = nodal_volumes(x, scene.thickness);
+            const Eigen::Vector4d shares = nodal_volumes(x, thickness);
             model.volume[e] = shares.sum();
             for (int k = 0; k < 4; ++k) {
                 model.nodal_mass[mesh.quads[e][k]] += zone.density * shares[k];
@@ -106,6 +79,13 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
         model.external_force[d + 1] = -model.nodal_mass[i] * scene.gravity;
     }
     model.mesh = std::move(mesh);
+    add_ground_loads(scene, model);
+    if (fem.water) model.water = ground_water(scene, model);
+    if (fem.base) {
+        model.base = absorbing_base(model, fem.base->density * fem.base->V_s,
+                                    fem.motion ? base_velocity(*fem.motion) : motion::Series{},
+                                    fem.base->motion_at);
+    }
     return model;
 }
 
@@ -124,6 +104,8 @@ std::vector<materials::Law> laws_for(const Model& model, scene::StageLaws laws) 
 Motion at_rest(const Model& model) {
     Motion motion;
     motion.u = motion.v = motion.a = motion.force = Eigen::VectorXd::Zero(model.dofs());
+    motion.p = model.water.prescribed;
+    motion.p_rate = Eigen::VectorXd::Zero(motion.p.size());
     motion.points.assign(model.points(), State{Voigt::Zero(), 0.0});
     motion.strain.assign(model.points(), Voigt::Zero());
     for (const Zone& zone : model.zones) {

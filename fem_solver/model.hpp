@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/scene/scene.hpp"
-#include "fem_solver/ssp_quad.hpp"
+#include "fem_solver/absorbing_base.hpp"
+#include "fem_solver/free_field.hpp"
+#include "fem_solver/pore_water.hpp"
 
 namespace breach::fem {
 
@@ -20,12 +22,6 @@ struct Zone {
     double density;  ///< [kg/m3]
     materials::Law law;
     std::size_t first_sand = 0;  ///< PM4Sand: its first point's place in Motion::sand
-};
-
-/// Unknown number of each nodal displacement (2 per node, x then y), -1 where it is held.
-struct Unknowns {
-    std::vector<std::int32_t> of_dof;
-    std::int32_t count = 0;
 };
 
 /// Damping matrix C = mass M + stiffness K_elastic.
@@ -43,8 +39,12 @@ enum class HourglassModulus {
 struct Model {
     Mesh mesh;
     std::vector<Zone> zones;
-    double thickness;  ///< [m]
-    Unknowns unknowns;
+    double thickness;               ///< of the body [m]
+    double column_thickness = 1.0;  ///< of free-field columns over the body's [-]
+    Body body{};                    ///< what comes before the columns
+    Constraints constraints;
+    PoreWater water;
+    AbsorbingBase base;
     std::vector<double> nodal_mass;  ///< lumped by row sums [kg]
     Eigen::VectorXd mass;            ///< the same, one entry per dof [kg]
     Eigen::VectorXd external_force;  ///< weight and any other constant load, per dof [N]
@@ -57,10 +57,16 @@ struct Model {
     Rayleigh rayleigh;
 
     std::size_t points() const { return mesh.quads.size() * points_per_element; }
+    double thickness_of(std::size_t element) const {
+        return element < body.elements ? thickness : column_thickness * thickness;
+    }
+    Unknowns unknowns(Solved solved) const {
+        return number_unknowns(constraints, water.is_unknown, solved);
+    }
     Eigen::Index dofs() const { return static_cast<Eigen::Index>(2 * mesh.nodes.size()); }
 };
 
-/// Throws BadInput when a support holds no node or nothing holds the body in x or y.
+/// Throws BadInput when supports, water, base or columns do not fit the mesh.
 Model build_model(const scene::Scene& scene, Mesh mesh);
 
 /// The zones' laws with every region linear elastic (its own E and nu), or the scene's.
@@ -79,6 +85,8 @@ struct Motion {
     Eigen::VectorXd v;          ///< velocity [m/s]
     Eigen::VectorXd a;          ///< acceleration [m/s2]
     Eigen::VectorXd force;      ///< internal force of the stresses [N]
+    Eigen::VectorXd p;          ///< pore pressure, per node; empty in a dry scene [Pa]
+    Eigen::VectorXd p_rate;     ///< [Pa/s]
     std::vector<State> points;  ///< element by element, Gauss point by Gauss point
     std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
     std::vector<materials::pm4sand::State>
@@ -86,6 +94,7 @@ struct Motion {
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 
+/// Nothing moves, no stress; pressures as prescribed.
 Motion at_rest(const Model& model);
 
 Dofs8 gather(const Quad& quad, const Eigen::VectorXd& values);

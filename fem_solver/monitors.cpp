@@ -44,7 +44,7 @@ double element_epsilon_q(const Model& model, const Motion& motion, std::size_t e
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold) {
     Distortion result;
     double volume = 0.0, centre = 0.0, least = 0.0;
-    for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
         const auto ratio = mechanics::jacobian_ratio(displaced_corners(model, e, motion.u),
                                                      corners_of(model.mesh, e));
         if (ratio.least < result.least) {
@@ -76,7 +76,8 @@ Softened softened_volume(const Model& model, const Motion& motion) {
     for (const Zone& zone : model.zones) {
         const auto* soil = std::get_if<materials::MohrCoulomb>(&zone.law);
         if (soil == nullptr || !soil->softening) continue;
-        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+        const std::size_t end = std::min(zone.first + zone.count, model.body.elements);
+        for (std::size_t e = zone.first; e < end; ++e) {
             volume.possible += model.volume[e];
             for (std::size_t g = 0; g < model.points_per_element; ++g) {
                 const double reached = motion.points[e * model.points_per_element + g].epsilon_q;
@@ -97,12 +98,14 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     r.crest_dx = motion.u[crest];
     r.crest_dy = motion.u[crest + 1];
     r.crest_displacement = std::hypot(r.crest_dx, r.crest_dy);
-    r.kinetic_energy = 0.5 * (model.mass.array() * motion.v.array().square()).sum();
+    const auto dofs = static_cast<Eigen::Index>(2 * model.body.nodes);
+    r.kinetic_energy =
+        0.5 * (model.mass.head(dofs).array() * motion.v.head(dofs).array().square()).sum();
     r.jacobian_ratio_avg = r.jacobian_centre_avg = distortion.centre_average;
     r.jacobian_least_avg = distortion.least_average;
     r.jacobian_ratio_min = r.jacobian_least_min = distortion.least;
     double strained = 0.0, weighted = 0.0, all = 0.0;
-    for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
         const double epsilon_q = element_epsilon_q(model, motion, e);
         all += model.volume[e];
         r.epsilon_q_max = std::max(r.epsilon_q_max, epsilon_q);

@@ -9,23 +9,63 @@ namespace {
 
 /// A new factorisation costs about as much as this many iterations with the old one.
 constexpr double worth_of_matrix = 4.0;
+constexpr double round_off = 1e-15;
+
+Unknowns displacements_only(Unknowns unknowns) {
+    unknowns.of_pressure.clear();
+    unknowns.count = unknowns.displacements;
+    return unknowns;
+}
+
+/// Body over own thickness of what each dof belongs to, the thickest first: otherwise the forces of
+/// free-field columns would decide alone what counts as balanced.
+Eigen::VectorXd shares_of_dofs(const Model& model, const Unknowns& unknowns) {
+    std::vector<double> largest(static_cast<std::size_t>(unknowns.count), 1.0);
+    for (std::size_t e = model.body.elements; e < model.mesh.quads.size(); ++e) {
+        const double times = model.thickness_of(e) / model.thickness;
+        for (const std::int32_t node : model.mesh.quads[e]) {
+            for (std::size_t d = 0; d < 2; ++d) {
+                const std::int32_t i = unknowns.of_dof[2 * static_cast<std::size_t>(node) + d];
+                if (i >= 0) largest[i] = std::max(largest[i], times);
+            }
+            if (unknowns.of_pressure.empty() || unknowns.of_pressure[node] < 0) continue;
+            double& of_p = largest[unknowns.of_pressure[node]];
+            of_p = std::max(of_p, times);
+        }
+    }
+    Eigen::VectorXd share(unknowns.count);
+    for (std::int32_t i = 0; i < unknowns.count; ++i) share[i] = 1.0 / largest[i];
+    return share;
+}
 
 }  // namespace
 
-Newton::Newton(const Model& model, NewtonSettings settings, Symmetry symmetry, Seconds& seconds)
+Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symmetry symmetry,
+               Seconds& seconds)
     : model_(model),
       settings_(settings),
       seconds_(seconds),
       internal_force_(model, seconds),
-      matrix_(model, symmetry) {
+      matrix_(model, model.unknowns(solved), symmetry) {
+    const Unknowns& unknowns = matrix_.unknowns();
     if (model.rayleigh.stiffness > 0.0) {
-        elastic_.emplace(model, Symmetry::symmetric);
+        elastic_.emplace(model, displacements_only(unknowns), Symmetry::symmetric);
         elastic_->clear();
         internal_force_.add_elastic_stiffness(1.0, *elastic_);
     }
-    R_ = correction_ = plain_ = last_plain_ = last_correction_ =
-        Eigen::VectorXd::Zero(model.dofs());
-    for (int k = 0; k < depth; ++k) d_plain_[k] = d_u_[k] = R_;
+    R_u_ = Eigen::VectorXd::Zero(model.dofs());
+    R_p_ = exchanged_ = Eigen::VectorXd::Zero(model.water.prescribed.size());
+    share_ = shares_of_dofs(model, unknowns);
+    if (model.body.elements < model.mesh.quads.size()) {
+        share_of_dof_ = Eigen::VectorXd::Zero(model.dofs());
+        for (std::size_t d = 0; d < unknowns.of_dof.size(); ++d) {
+            const std::int32_t i = unknowns.of_dof[d];
+            if (i >= 0) share_of_dof_[static_cast<Eigen::Index>(d)] = share_[i];
+        }
+    }
+    residual_ = metric_ = correction_ = plain_ = last_plain_ = last_correction_ =
+        Eigen::VectorXd::Zero(unknowns.count);
+    for (int k = 0; k < depth; ++k) d_plain_[k] = d_x_[k] = residual_;
 }
 
 NewtonMemory Newton::memory() const {
@@ -40,14 +80,19 @@ void Newton::restore(const NewtonMemory& memory) {
     if (!memory.has_matrix) return;
     std::ranges::copy(memory.values, matrix_.values().begin());
     memory_.has_matrix = matrix_.factorise() == Factorisation::done;
+    matrix_.copy_diagonal(metric_);
+    metric_.array() *= share_.array();
 }
 
-void Newton::add_inertia(const TimeRule& rule) {
-    const double from_damping = rule.c_v * model_.rayleigh.mass;
-    if (rule.c_a + from_damping > 0.0) matrix_.add_diagonal(rule.c_a + from_damping, model_.mass);
-    if (rule.c_v > 0.0 && elastic_) {
+void Newton::add_inertia_and_water(const TimeRule& rule) {
+    const double of_mass = rule.c_a + rule.c_v * model_.rayleigh.mass;
+    if (of_mass > 0.0) matrix_.add_diagonal(of_mass, model_.mass);
+    if (rule.c_v == 0.0) return;
+    if (model_.base.any()) matrix_.add_diagonal(rule.c_v, model_.base.dashpot);
+    if (elastic_) {
         internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);
     }
+    matrix_.add_water(rule);
 }
 
 /// Factorises the assembled tangent; one that is not positive definite would lead uphill, then the
@@ -61,9 +106,11 @@ bool Newton::factorise(const TimeRule& rule) {
         ++counts_.factorisations;
         matrix_.clear();
         internal_force_.add_elastic_stiffness(1.0, matrix_);
-        add_inertia(rule);
+        add_inertia_and_water(rule);
         result = matrix_.factorise();
     }
+    matrix_.copy_diagonal(metric_);
+    metric_.array() *= share_.array();
     memory_.has_matrix = result == Factorisation::done;
     memory_.rule = rule;
     remembered_ = next_ = 0;
@@ -71,7 +118,7 @@ bool Newton::factorise(const TimeRule& rule) {
     return memory_.has_matrix;
 }
 
-Geometry Newton::evaluate(const Problem& problem, Motion& trial, Matrix matrix) {
+Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matrix) {
     if (matrix == Matrix::keep) {
         return internal_force_.evaluate(problem.laws, problem.old, trial);
     }
@@ -81,79 +128,149 @@ Geometry Newton::evaluate(const Problem& problem, Motion& trial, Matrix matrix) 
         memory_.has_matrix = false;
         return geometry;
     }
-    add_inertia(problem.rule);
+    add_inertia_and_water(problem.rule);
     if (!factorise(problem.rule)) return Geometry::degenerate;
     return geometry;
 }
 
-/// R = load f_ext - f_int - M a - C v, zero at held dofs.
-void Newton::set_residual(const Problem& problem, Motion& trial) {
+/// R_u = f_ext - f_int - M a - C v + Q p;  R_p = flux - Q^T v - S p' - H p.
+void Newton::set_residual(const StepProblem& problem, Motion& trial) {
     const TimeRule& rule = problem.rule;
     trial.a = rule.c_a * (trial.u - problem.u_predicted);
     trial.v = problem.v_predicted + rule.c_v * (trial.u - problem.u_predicted);
-    R_ = problem.load * model_.external_force - trial.force;
+    R_u_ = problem.external - trial.force;
     if (rule.c_a > 0.0) {
-        R_.array() -=
+        R_u_.array() -=
             model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());
-        if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_);
+        if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_u_);
+        if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();
     }
-    for (std::size_t d = 0; d < model_.unknowns.of_dof.size(); ++d) {
-        if (model_.unknowns.of_dof[d] < 0) R_[static_cast<Eigen::Index>(d)] = 0.0;
+    if (unknowns().pressures() > 0) add_water(problem, trial);
+    gather_residual(problem);
+}
+
+void Newton::add_water(const StepProblem& problem, Motion& trial) {
+    const TimeRule& rule = problem.rule;
+    const double gamma_dt = rule.gamma_dt();
+    trial.p_rate = problem.p_rate_predicted + (trial.p - problem.old.p) / gamma_dt;
+    R_p_.setZero();
+    exchanged_.setZero();
+    double rounding = 0.0;
+    for (const PorousElement& each : model_.water.elements) {
+        const Quad& quad = model_.mesh.quads[each.element];
+        Eigen::Vector4d p, p_rate;
+        for (int i = 0; i < 4; ++i) {
+            p[i] = trial.p[quad[i]];
+            p_rate[i] = trial.p_rate[quad[i]];
+        }
+        const double share = model_.thickness / model_.thickness_of(each.element);
+        const Dofs8 v = gather(quad, trial.v), force = each.Q * p;
+        const Eigen::Vector4d expansion = each.Q.transpose() * v;
+        const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
+        const double of_u =
+            rule.c_v * each.Q.col(0).cwiseAbs().dot(gather(quad, trial.u).cwiseAbs());
+        const double of_p =
+            (each.S.row(0).cwiseAbs() / gamma_dt + each.H.row(0).cwiseAbs()).dot(p.cwiseAbs());
+        rounding += share * share * (of_u + of_p) * (of_u + of_p);
+        for (int i = 0; i < 4; ++i) {
+            R_u_.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) += force.segment<2>(2 * i);
+            R_p_[quad[i]] += each.flux[i] - expansion[i] - stored[i] - conducted[i];
+            exchanged_[quad[i]] += share * (std::abs(each.flux[i]) + std::abs(expansion[i]) +
+                                            std::abs(stored[i]) + std::abs(conducted[i]));
+        }
+    }
+    water_rounding_ = round_off * std::sqrt(rounding);
+}
+
+/// Sums over ties; held dofs drop out. The balance of mass is divided by -c_v, as its rows are.
+void Newton::gather_residual(const StepProblem& problem) {
+    residual_.setZero();
+    const Unknowns& n = unknowns();
+    for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
+        if (n.of_dof[d] >= 0) residual_[n.of_dof[d]] += R_u_[static_cast<Eigen::Index>(d)];
+    }
+    const double c_v = problem.rule.c_v;
+    for (std::size_t i = 0; i < n.of_pressure.size(); ++i) {
+        const std::int32_t row = n.of_pressure[i];
+        if (row >= 0) residual_[row] -= R_p_[static_cast<Eigen::Index>(i)] / c_v;
     }
 }
 
-/// What the residual is measured against: the weight, or the internal forces where they are larger
-/// (no gravity). Never so small that the tolerance asks for less than the round-off of M a = c_a M
-/// (u - u_predicted).
-double Newton::reference_force(const Problem& problem, const Motion& trial) const {
-    constexpr double round_off = 1e-15;
+double Newton::norm_of(const Eigen::VectorXd& per_dof) const {
+    if (share_of_dof_.size() == 0) return per_dof.norm();
+    return (share_of_dof_.array() * per_dof.array()).matrix().norm();
+}
+
+/// Out-of-balance force over the weight, or over the internal forces where they are larger (no
+/// gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
+/// asks for less than round-off: M a is c_a M (u - u_predicted).
+double Newton::residual_measure(const StepProblem& problem, const Motion& trial) const {
+    const std::int32_t n_u = unknowns().displacements, n_p = unknowns().pressures();
     const double inertia =
-        problem.rule.c_a * (model_.mass.array() * trial.u.array()).matrix().norm();
-    return std::max({problem.load * model_.external_force.norm(), trial.force.norm(),
-                     problem.old.force.norm(), round_off * inertia / settings_.tolerance});
+        problem.rule.c_a > 0.0
+            ? problem.rule.c_a * (model_.mass.array() * trial.u.array()).matrix().norm()
+            : 0.0;
+    const double reference =
+        std::max({norm_of(problem.external), norm_of(trial.force), norm_of(problem.old.force),
+                  round_off * inertia / settings_.tolerance});
+    const double force = residual_.head(n_u).cwiseProduct(share_.head(n_u)).norm();
+    const double of_force = reference > 0.0 ? force / reference : force;
+    if (n_p == 0) return of_force;
+    const double exchange = std::max(exchanged_.norm(), water_rounding_ / settings_.tolerance);
+    const double volume =
+        problem.rule.c_v * residual_.tail(n_p).cwiseProduct(share_.tail(n_p)).norm();
+    return std::max(of_force, exchange > 0.0 ? volume / exchange : 0.0);
 }
 
 /// Combines the plain correction g = A^-1 R with the last ones so that the combination's own g is
-/// least (Anderson 1965, in the form of Walker & Ni 2011, Eq. 2.2): with an exact tangent it
-/// changes nothing.
+/// least (Anderson 1965, in the form of Walker & Ni 2011, Eq. 2.2), measured by the matrix's
+/// diagonal: with an exact tangent it changes nothing.
 void Newton::accelerate() {
     correction_ = plain_;
     if (has_last_) {
         d_plain_[next_] = plain_ - last_plain_;
-        d_u_[next_] = last_correction_;
+        d_x_[next_] = last_correction_;
         next_ = (next_ + 1) % depth;
         remembered_ = std::min(remembered_ + 1, depth);
     }
     has_last_ = true;
     last_plain_ = plain_;
     if (remembered_ == 0) return;
+    const auto dot = [this](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+        return (metric_.array() * a.array() * b.array()).sum();
+    };
     Eigen::Matrix<double, depth, depth> gram = Eigen::Matrix<double, depth, depth>::Identity();
     Eigen::Matrix<double, depth, 1> right = Eigen::Matrix<double, depth, 1>::Zero();
     for (int i = 0; i < remembered_; ++i) {
-        for (int j = 0; j < remembered_; ++j) gram(i, j) = d_plain_[i].dot(d_plain_[j]);
-        right[i] = d_plain_[i].dot(plain_);
+        for (int j = 0; j <= i; ++j) gram(i, j) = gram(j, i) = dot(d_plain_[i], d_plain_[j]);
+        right[i] = dot(d_plain_[i], plain_);
     }
     double largest = 0.0;
     for (int i = 0; i < remembered_; ++i) largest = std::max(largest, gram(i, i));
     for (int i = 0; i < remembered_; ++i) gram(i, i) += 1e-14 * largest;
     const Eigen::Matrix<double, depth, 1> share = gram.ldlt().solve(right);
     if (!share.allFinite()) return;
-    for (int i = 0; i < remembered_; ++i) correction_ -= share[i] * (d_u_[i] + d_plain_[i]);
+    for (int i = 0; i < remembered_; ++i) correction_ -= share[i] * (d_x_[i] + d_plain_[i]);
 }
 
 void Newton::correct(Motion& trial) {
     const Stopwatch watch(seconds_.solve);
-    matrix_.solve(R_, plain_);
+    matrix_.solve(residual_, plain_);
     accelerate();
     last_correction_ = correction_;
-    trial.u += correction_;
+    const Unknowns& n = unknowns();
+    for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
+        if (n.of_dof[d] >= 0) trial.u[static_cast<Eigen::Index>(d)] += correction_[n.of_dof[d]];
+    }
+    for (std::size_t i = 0; i < n.of_pressure.size(); ++i) {
+        const std::int32_t row = n.of_pressure[i];
+        if (row >= 0) trial.p[static_cast<Eigen::Index>(i)] += correction_[row];
+    }
 }
 
-NewtonOutcome Newton::solve(const std::vector<materials::Law>& laws, const Motion& old,
-                            const TimeRule& rule, double load, const Eigen::VectorXd& u_predicted,
-                            const Eigen::VectorXd& v_predicted, Motion& trial) {
+NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
     using End = NewtonOutcome::End;
-    const Problem problem{laws, old, rule, load, u_predicted, v_predicted};
+    const TimeRule& rule = problem.rule;
     const bool same_rule = rule.c_a == memory_.rule.c_a && rule.c_v == memory_.rule.c_v;
     const bool serves = memory_.has_matrix && same_rule &&
                         memory_.last_iterations <= static_cast<int>(2.0 * worth_of_matrix);
@@ -166,9 +283,7 @@ NewtonOutcome Newton::solve(const std::vector<materials::Law>& laws, const Motio
             return {End::degenerate, iteration, residual};
         }
         set_residual(problem, trial);
-        const double reference = reference_force(problem, trial);
-        const double out_of_balance = R_.norm();
-        residual = reference > 0.0 ? out_of_balance / reference : out_of_balance;
+        residual = residual_measure(problem, trial);
         if (residual <= settings_.tolerance) {
             memory_.last_iterations = iteration;
             return {End::converged, iteration, residual};

@@ -1,6 +1,7 @@
-// Equilibrium at the end of a step: M a + C v + f_int(u) = f_ext by Newton's method with a
-// factorisation that is kept as long as it serves, accelerated (Anderson 1965) over the last few
-// corrections.
+// Equilibrium and mass balance at the end of a step,
+//   M a + C v + f_int(u) - Q p = f_ext,   Q^T v + S p' + H p = flux,
+// by Newton's method with a factorisation that is kept as long as it serves, accelerated (Anderson
+// 1965) over the last few corrections. Without unknown pressures the second line is not there.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +13,8 @@
 
 namespace breach::fem {
 
-/// How acceleration and velocity hang on the displacement that is sought:
-///   a = c_a (u - u_predicted),  v = v_predicted + c_v (u - u_predicted)        (Newmark 1959)
-/// A static step has c_a = c_v = 0.
-struct TimeRule {
-    double c_a = 0.0;  ///< 1 / (beta dt^2) [1/s2]
-    double c_v = 0.0;  ///< gamma / (beta dt) [1/s]
-};
-
 struct NewtonSettings {
-    double tolerance;  ///< out-of-balance force over reference force [-]
+    double tolerance;  ///< out-of-balance over reference [-]
     int largest_iterations;
 };
 
@@ -29,14 +22,15 @@ struct NewtonOutcome {
     enum class End { converged, not_converged, degenerate };
     End end;
     int iterations;
-    double residual;  ///< out-of-balance over reference force [-]
+    double residual;  ///< the larger of out-of-balance force over reference force and unbalanced
+                      ///< volume over exchanged volume [-]
 };
 
 /// Counts over a whole run.
 struct NewtonCounts {
     std::int64_t iterations = 0;
     std::int64_t factorisations = 0;
-    std::int64_t elastic_fallbacks = 0;  ///< tangents that were not positive definite
+    std::int64_t elastic_fallbacks = 0;  ///< tangents that had a pivot of the wrong sign
 };
 
 /// What the next step inherits from the last one: saved in a checkpoint so that a resumed run does
@@ -48,18 +42,28 @@ struct NewtonMemory {
     std::vector<double> values;  ///< assembled matrix
 };
 
+/// What a step starts from and where it goes.
+struct StepProblem {
+    const std::vector<materials::Law>& laws;
+    const Motion& old;
+    TimeRule rule;
+    const Eigen::VectorXd& external;          ///< force at the end of the step, per dof [N]
+    const Eigen::VectorXd& u_predicted;       ///< per dof [m]
+    const Eigen::VectorXd& v_predicted;       ///< per dof [m/s]
+    const Eigen::VectorXd& p_rate_predicted;  ///< per node [Pa/s]; empty without pressures
+};
+
 class Newton {
   public:
-    Newton(const Model& model, NewtonSettings settings, Symmetry symmetry, Seconds& seconds);
+    Newton(const Model& model, Solved solved, NewtonSettings settings, Symmetry symmetry,
+           Seconds& seconds);
 
-    /// Finds trial.u (starting from the value it has), fills trial.points, strain, force, v, a.
-    /// load: share of the external force in place [-]. u_predicted, v_predicted per dof.
-    NewtonOutcome solve(const std::vector<materials::Law>& laws, const Motion& old,
-                        const TimeRule& rule, double load, const Eigen::VectorXd& u_predicted,
-                        const Eigen::VectorXd& v_predicted, Motion& trial);
+    /// Finds trial.u and trial.p (starting from the values they have), fills the rest of trial.
+    NewtonOutcome solve(const StepProblem& problem, Motion& trial);
     /// The next solve starts with a new factorisation.
     void forget_matrix() { memory_.has_matrix = false; }
 
+    const Unknowns& unknowns() const { return matrix_.unknowns(); }
     const NewtonCounts& counts() const { return counts_; }
     void set_counts(const NewtonCounts& counts) { counts_ = counts; }
     NewtonMemory memory() const;
@@ -68,22 +72,16 @@ class Newton {
 
   private:
     static constexpr int depth = 5;  ///< corrections remembered by the acceleration
-
-    struct Problem {
-        const std::vector<materials::Law>& laws;
-        const Motion& old;
-        const TimeRule& rule;
-        double load;
-        const Eigen::VectorXd& u_predicted;
-        const Eigen::VectorXd& v_predicted;
-    };
     enum class Matrix { keep, renew };
 
-    Geometry evaluate(const Problem& problem, Motion& trial, Matrix matrix);
+    Geometry evaluate(const StepProblem& problem, Motion& trial, Matrix matrix);
     bool factorise(const TimeRule& rule);
-    void add_inertia(const TimeRule& rule);
-    void set_residual(const Problem& problem, Motion& trial);
-    double reference_force(const Problem& problem, const Motion& trial) const;
+    void add_inertia_and_water(const TimeRule& rule);
+    void set_residual(const StepProblem& problem, Motion& trial);
+    void add_water(const StepProblem& problem, Motion& trial);
+    void gather_residual(const StepProblem& problem);
+    double residual_measure(const StepProblem& problem, const Motion& trial) const;
+    double norm_of(const Eigen::VectorXd& per_dof) const;
     void correct(Motion& trial);
     void accelerate();
 
@@ -95,10 +93,16 @@ class Newton {
     std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping
     NewtonMemory memory_;                  ///< values stay in matrix_
     NewtonCounts counts_;
-    Eigen::VectorXd R_;           ///< out-of-balance force [N]
-    Eigen::VectorXd correction_;  ///< [m]
-    Eigen::VectorXd plain_, last_plain_, last_correction_;
-    std::array<Eigen::VectorXd, depth> d_plain_, d_u_;
+    Eigen::VectorXd R_u_;           ///< out-of-balance force, per dof [N]
+    Eigen::VectorXd R_p_;           ///< unbalanced volume, per node [m3/s]
+    Eigen::VectorXd exchanged_;     ///< sum of the magnitudes in that balance [m3/s]
+    double water_rounding_ = 0.0;   ///< what its terms lose in differences of large numbers [m3/s]
+    Eigen::VectorXd share_of_dof_;  ///< only with thick columns: 1 / thickness, per dof [-]
+    Eigen::VectorXd share_;         ///< the same per unknown; ones without columns
+    Eigen::VectorXd residual_;      ///< right side over the unknowns
+    Eigen::VectorXd metric_;        ///< makes displacements and pressures comparable
+    Eigen::VectorXd correction_, plain_, last_plain_, last_correction_;
+    std::array<Eigen::VectorXd, depth> d_plain_, d_x_;
     int remembered_ = 0;
     int next_ = 0;
     bool has_last_ = false;

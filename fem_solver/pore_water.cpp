@@ -1,25 +1,58 @@
 #include "fem_solver/pore_water.hpp"
 
+#include <Eigen/SparseCholesky>
 #include <numeric>
 
-namespace breach::fem {
+#include "fem_solver/model.hpp"
 
-PorousElement porous_element(std::size_t element, const SspGeometry& geometry, const Corners& x,
-                             double skeleton_modulus, const Fluid& fluid, const Vec2& body) {
+namespace breach::fem {
+namespace {
+
+Vec2 stabilisation_of(const Corners& x, const Fluid& fluid, double skeleton_modulus) {
+    if (fluid.alpha) return Vec2::Constant(*fluid.alpha);
+    const Vec2 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+    return fluid.stabilisation / skeleton_modulus * extent.array().square();
+}
+
+}  // namespace
+
+void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
+                     const Vec2& body, PorousElement& out) {
     const Gradient& dN = geometry.dN;
     const double V = geometry.volume;
-    PorousElement result;
-    result.element = element;
-    for (int i = 0; i < 4; ++i) result.Q.segment<2>(2 * i) = 0.25 * V * dN.col(i);
-    const Vec2 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
-    Vec2 alpha = extent.array().square() / (4.0 * skeleton_modulus);
-    if (fluid.stabilisation) alpha.setConstant(*fluid.stabilisation);
-    const double storage = V * fluid.porosity / fluid.bulk_modulus / 16.0;
-    result.S = V * dN.transpose() * alpha.asDiagonal() * dN;
-    result.S.array() += storage;
-    result.H = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
-    result.flux = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
-    return result;
+    const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
+    for (int i = 0; i < 4; ++i) {
+        out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i).replicate<1, 4>();
+    }
+    out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
+    out.S.array() += V * fluid.porosity / fluid.bulk_modulus / 16.0;
+    out.H.noalias() = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
+    out.flux.noalias() = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
+}
+
+void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& fluid,
+                     const Vec2& body, PorousElement& out) {
+    const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
+    out.S.setZero();
+    out.H.setZero();
+    out.flux.setZero();
+    Gradient mean = Gradient::Zero();
+    Eigen::Vector4d shares = Eigen::Vector4d::Zero();
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+        const Gradient& dN = gradients.dN[g];
+        const double w = gradients.weight[g];
+        const Eigen::Vector4d N = shape_functions(gauss_positions()[g]);
+        mean += w * dN;
+        shares += w * N;
+        out.S += w * fluid.porosity / fluid.bulk_modulus * N * N.transpose();
+        out.S += w * dN.transpose() * alpha.asDiagonal() * dN;
+        out.H += w * dN.transpose() * fluid.mobility.asDiagonal() * dN;
+        out.flux += w * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
+    }
+    mean /= shares.sum();
+    for (int i = 0; i < 4; ++i) {
+        out.Q.middleRows<2>(2 * i) = mean.col(i) * shares.transpose();
+    }
 }
 
 namespace {
@@ -44,49 +77,139 @@ std::vector<std::int32_t> bodies_of(const Model& model, const PoreWater& water) 
     return parent;
 }
 
-void check_drainage(const Model& model, const PoreWater& water, const std::vector<bool>& drained) {
+void check_drainage(const Model& model, const PoreWater& water,
+                    const std::vector<std::optional<double>>& prescribed) {
     const auto body = bodies_of(model, water);
     std::vector<bool> has_drain(body.size(), false);
     for (std::size_t i = 0; i < body.size(); ++i) {
-        if (drained[i]) has_drain[body[i]] = true;
+        if (prescribed[i]) has_drain[body[i]] = true;
     }
     for (const PorousElement& each : water.elements) {
         if (has_drain[body[model.mesh.quads[each.element][0]]]) continue;
         const Vec2 where = corners_of(model.mesh, each.element).rowwise().mean();
         throw fault::BadInput("scene",
-                              {{"/fem",
+                              {{"/fem/water",
                                 "the saturated soil around (" + std::to_string(where.x()) + ", " +
                                     std::to_string(where.y()) +
                                     ") has no node with a prescribed pressure: constant pressure "
                                     "and checkerboard would be free",
-                                "drain an edge of it"}});
+                                "drain an edge of it: lower the line, or add a boundary"}});
     }
+}
+
+double constrained_modulus(const mechanics::Elasticity& soil) {
+    return 2.0 * soil.shear_modulus() * (1.0 - soil.nu) / (1.0 - 2.0 * soil.nu);  // K + 4G/3
 }
 
 }  // namespace
 
-PoreWater build_pore_water(const Model& model, const std::vector<std::optional<Fluid>>& fluids,
-                           const std::vector<bool>& drained, const Vec2& body) {
+PoreWater build_pore_water(const Model& model, Wetness wetness) {
     PoreWater water;
-    std::vector<bool> wet(model.mesh.nodes.size(), false);
+    std::vector<bool> touched(model.mesh.nodes.size(), false);
     for (std::size_t z = 0; z < model.zones.size(); ++z) {
-        if (!fluids[z]) continue;
+        if (!wetness.fluids[z]) continue;
         const Zone& zone = model.zones[z];
-        const mechanics::Elasticity& soil = materials::elasticity(zone.law);
-        const double G = soil.shear_modulus(), nu = soil.nu;
-        const double modulus = 2.0 * G * (1.0 - nu) / (1.0 - 2.0 * nu);  // K + 4G/3
+        const double modulus = constrained_modulus(materials::elasticity(zone.law));
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
-            water.elements.push_back(porous_element(
-                e, model.hourglass[e], corners_of(model.mesh, e), modulus, *fluids[z], body));
-            for (const std::int32_t node : model.mesh.quads[e]) wet[node] = true;
+            if (!wetness.wet[e]) continue;
+            PorousElement& porous = water.elements.emplace_back();
+            porous.element = e;
+            porous.zone = z;
+            porous.skeleton_modulus = modulus;
+            for (const std::int32_t node : model.mesh.quads[e]) touched[node] = true;
         }
     }
-    check_drainage(model, water, drained);
-    water.unknown_of_node.assign(model.mesh.nodes.size(), -1);
-    for (std::size_t i = 0; i < wet.size(); ++i) {
-        if (wet[i] && !drained[i]) water.unknown_of_node[i] = water.unknowns++;
+    if (water.elements.empty()) return water;
+    check_drainage(model, water, wetness.prescribed);
+    water.fluids = std::move(wetness.fluids);
+    water.body = wetness.body;
+    water.is_unknown.assign(touched.size(), false);
+    water.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(touched.size()));
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+        const auto& p = wetness.prescribed[i];
+        water.is_unknown[i] = touched[i] && !p;
+        if (touched[i] && p) water.prescribed[static_cast<Eigen::Index>(i)] = *p;
     }
+    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), water);
     return water;
+}
+
+void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater& water) {
+    const bool moves = model.kinematics == scene::Kinematics::updated_lagrangian;
+    for (PorousElement& each : water.elements) {
+        const std::size_t e = each.element;
+        const Corners x = moves ? displaced_corners(model, e, u) : corners_of(model.mesh, e);
+        const Fluid& fluid = *water.fluids[each.zone];
+        if (model.hourglass.empty()) {
+            Gradients gradients;
+            evaluate_gradients(x, model.thickness_of(e), gradients);
+            evaluate_porous(gradients, x, fluid, water.body, each);
+        } else {
+            SspGeometry geometry;
+            evaluate_ssp(x, model.thickness_of(e), geometry);
+            evaluate_porous(geometry, x, fluid, water.body, each);
+        }
+    }
+}
+
+void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f) {
+    for (const PorousElement& each : model.water.elements) {
+        const Quad& quad = model.mesh.quads[each.element];
+        const Eigen::Vector4d local(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]);
+        const Dofs8 force = each.Q * local;
+        for (int i = 0; i < 4; ++i) {
+            f.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) += force.segment<2>(2 * i);
+        }
+    }
+}
+
+Eigen::VectorXd steady_pressure(const Model& model) {
+    const PoreWater& water = model.water;
+    Eigen::VectorXd p = water.prescribed;
+    const Unknowns unknowns = model.unknowns(Solved::motion_and_pressure);
+    const auto number = [&](std::int32_t node) {
+        const std::int32_t i = unknowns.of_pressure[node];
+        return i < 0 ? -1 : i - unknowns.displacements;
+    };
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns.pressures());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const PorousElement& each : water.elements) {
+        const Quad& quad = model.mesh.quads[each.element];
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t row = number(quad[i]);
+            if (row < 0) continue;
+            right[row] += each.flux[i];
+            for (int j = 0; j < 4; ++j) {
+                const std::int32_t column = number(quad[j]);
+                if (column >= 0) {
+                    entries.emplace_back(row, column, each.H(i, j));
+                } else {
+                    right[row] -= each.H(i, j) * p[quad[j]];
+                }
+            }
+        }
+    }
+    Eigen::SparseMatrix<double> H(right.size(), right.size());
+    H.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(H);
+    // A pressure that nothing determines shows as a pivot that is lost in the rounding of its row.
+    constexpr double lost = 1e-13;
+    const bool determined =
+        right.size() == 0 || (factors.info() == Eigen::Success &&
+                              factors.vectorD().minCoeff() > lost * H.diagonal().minCoeff());
+    if (!determined) {
+        throw fault::BadInput("scene", {{"/fem/water",
+                                         "the prescribed pressures do not determine the steady "
+                                         "seepage: a pressure checkerboard is free",
+                                         "prescribe the pressure along an edge"}});
+    }
+    const Eigen::VectorXd solved = factors.solve(right);
+    for (std::size_t i = 0; i < water.is_unknown.size(); ++i) {
+        if (water.is_unknown[i]) {
+            p[static_cast<Eigen::Index>(i)] = solved[number(static_cast<std::int32_t>(i))];
+        }
+    }
+    return p;
 }
 
 }  // namespace breach::fem

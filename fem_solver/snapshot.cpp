@@ -5,8 +5,8 @@
 namespace breach::fem {
 namespace {
 
-std::vector<Vec2> per_node(const Eigen::VectorXd& per_dof) {
-    std::vector<Vec2> result(static_cast<std::size_t>(per_dof.size() / 2));
+std::vector<Vec2> per_node(const Eigen::VectorXd& per_dof, std::size_t nodes) {
+    std::vector<Vec2> result(nodes);
     for (std::size_t i = 0; i < result.size(); ++i) {
         result[i] = per_dof.segment<2>(2 * static_cast<Eigen::Index>(i));
     }
@@ -16,7 +16,8 @@ std::vector<Vec2> per_node(const Eigen::VectorXd& per_dof) {
 }  // namespace
 
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
-                                   const Motion& motion, double time, std::int64_t step) {
+                                   const Motion& motion, const Beginning& beginning, double time,
+                                   std::int64_t step) {
     exchange::MeshSnapshot s;
     s.time = time;
     s.step = step;
@@ -25,23 +26,35 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         s.regions.push_back(region.name);
         s.materials_of_regions.push_back(scene.materials[region.material].name);
     }
-    s.position_0 = model.mesh.nodes;
-    s.displacement = per_node(motion.u);
-    s.velocity = per_node(motion.v);
-    s.acceleration = per_node(motion.a);
-    s.nodal_mass = model.nodal_mass;
-    s.quads = model.mesh.quads;
-    s.region_of_element = model.mesh.region_of_element;
+    const auto [nodes, elements] = model.body;
+    const Mesh& mesh = model.mesh;
+    const auto first = [](const auto& all, std::size_t count) {
+        return std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+    };
+    s.position_0 = first(mesh.nodes, nodes);
+    s.displacement = per_node(motion.u, nodes);
+    s.velocity = per_node(motion.v, nodes);
+    s.acceleration = per_node(motion.a, nodes);
+    s.nodal_mass = first(model.nodal_mass, nodes);
+    if (motion.p.size() > 0) s.pore_pressure = first(motion.p, nodes);
+    if (beginning.p.size() > 0) {
+        s.pore_pressure_0 = first(beginning.p, nodes);
+        s.sigma_v0 = beginning.sigma_v0;
+    }
+    s.quads = first(mesh.quads, elements);
+    s.region_of_element = first(mesh.region_of_element, elements);
     for (const Zone& zone : model.zones)
         s.density.insert(s.density.end(), zone.count, zone.density);
+    s.density.resize(elements);
     s.gauss_per_element = static_cast<decltype(s.gauss_per_element)>(model.points_per_element);
     if (model.points_per_element == 1) {
         s.gauss_positions = {Vec2::Zero()};
     } else {
         s.gauss_positions.assign(gauss_positions().begin(), gauss_positions().end());
     }
-    s.strain = motion.strain;
-    for (std::size_t p = 0; p < motion.points.size(); ++p) {
+    const std::size_t points = elements * model.points_per_element;
+    s.strain = first(motion.strain, points);
+    for (std::size_t p = 0; p < points; ++p) {
         s.stress.push_back(motion.points[p].sigma);
         s.epsilon_q.push_back(mechanics::epsilon_q(motion.strain[p]));
         s.epsilon_q_plastic.push_back(motion.points[p].epsilon_q);

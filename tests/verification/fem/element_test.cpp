@@ -115,10 +115,12 @@ double cook_deflection(int n, double nu) {
         model.external_force[static_cast<Eigen::Index>(2 * i + 1)] = (end ? 0.5 : 1.0) / n;
     }
     Seconds seconds;
-    Newton newton(model, {1e-10, 20}, Symmetry::symmetric, seconds);
+    Newton newton(model, Solved::displacement, {1e-10, 20}, Symmetry::symmetric, seconds);
     const Motion old = at_rest(model);
     Motion trial = old;
-    static_step(newton, laws_for(model, scene::StageLaws::elastic), old, 1.0, trial);
+    Prediction prediction = prediction_for(model);
+    static_step(newton, model, laws_for(model, scene::StageLaws::elastic), 1.0, old, prediction,
+                trial);
     return trial.u[static_cast<Eigen::Index>(2 * nearest_node(model.mesh, {48, 60}) + 1)];
 }
 

@@ -26,12 +26,13 @@ double limit_pressure(int per_metre) {
         model.external_force[static_cast<Eigen::Index>(2 * i + 1)] = -c * h * (end ? 0.5 : 1.0);
     }
     Seconds seconds;
-    Newton newton(model, {1e-5, 40}, Symmetry::general, seconds);
+    Newton newton(model, Solved::displacement, {1e-5, 40}, Symmetry::general, seconds);
     const auto laws = laws_for(model, scene::StageLaws::scene);
     Motion motion = at_rest(model), trial = motion;
+    Prediction prediction = prediction_for(model);
     double q = 0.0, step = 1.0;
     while (step > 0.002 * 5.0) {
-        const auto outcome = static_step(newton, laws, motion, q + step, trial);
+        const auto outcome = static_step(newton, model, laws, q + step, motion, prediction, trial);
         if (outcome.end == NewtonOutcome::End::converged) {
             std::swap(motion, trial);
             q += step;

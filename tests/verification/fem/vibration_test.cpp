@@ -25,7 +25,7 @@ Vibration vibrate(int rows, int steps, double end, Newmark newmark) {
     const Model model = bench::model_of(
         bench::parse(bench::scene_of({.width = 1.0, .height = H, .rows = rows, .gravity = 0.0})));
     Seconds seconds;
-    Newton newton(model, {1e-10, 20}, Symmetry::symmetric, seconds);
+    Newton newton(model, Solved::motion_and_pressure, {1e-10, 20}, Symmetry::symmetric, seconds);
     const auto laws = laws_for(model, scene::StageLaws::elastic);
     Motion motion = at_rest(model);
     for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
@@ -33,15 +33,17 @@ Vibration vibrate(int rows, int steps, double end, Newmark newmark) {
             v_top * std::sin(0.5 * pi * model.mesh.nodes[i].y() / H);
     }
     Motion trial = motion;
-    start_motion(newton, model, laws, motion, trial);
+    Prediction prediction = prediction_for(model);
+    settle_stresses(newton, laws, motion, trial);
+    set_acceleration(newton, model, {}, 0.0, prediction, motion);
     const auto energy = [&] {
         return (model.mass.array() * motion.v.array().square()).sum() + motion.force.dot(motion.u);
     };
     const double at_start = energy();
-    Prediction prediction{motion.u, motion.u};
     for (int n = 0; n < steps; ++n) {
-        const auto outcome =
-            dynamic_step(newton, laws, newmark, end / steps, motion, prediction, trial);
+        const double dt = end / steps;
+        const auto outcome = dynamic_step(newton, model, laws, newmark, {}, dt, n * dt + dt, motion,
+                                          prediction, trial);
         EXPECT_EQ(outcome.end, NewtonOutcome::End::converged);
         std::swap(motion, trial);
     }
