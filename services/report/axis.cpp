@@ -46,9 +46,11 @@ std::string exact(double value) {
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-std::string short_number(double value) {
+std::string short_number(double value) { return rounded(value, 6); }
+
+std::string rounded(double value, int digits) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
     return text;
 }
 

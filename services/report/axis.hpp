@@ -24,5 +24,7 @@ double place(double value, const Range& range, Scale scale);
 std::string exact(double value);
 /// Six significant digits, without trailing zeros.
 std::string short_number(double value);
+/// The same with fewer digits.
+std::string rounded(double value, int digits);
 
 }  // namespace breach::report

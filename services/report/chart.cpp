@@ -209,8 +209,8 @@ std::string escaped(const std::string& text) {
             out += "&lt;";
         else if (c == '"')
             out += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            out += c;
+        else
+            out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
     return out;
 }

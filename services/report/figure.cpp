@@ -7,12 +7,6 @@ namespace breach::report {
 
 namespace {
 
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + '"';
-}
-
 std::string as_csv(const Field& field) {
     std::string csv;
     for (std::size_t k = 0; k < field.corners; ++k) {
@@ -30,6 +24,12 @@ std::string as_csv(const Field& field) {
 }
 
 }  // namespace
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + '"';
+}
 
 std::string as_csv(const Chart& chart) {
     check_columns(chart);

@@ -19,6 +19,8 @@ struct Figure {
 /// with a field instead: x and y of each corner and the value, one row per place; what is drawn
 /// over it is not data.
 std::string as_csv(const Chart& chart);
+/// A CSV cell of text.
+std::string quoted(const std::string& text);
 /// Writes name.svg and name.csv. Throws IoError; BadInput if the name would leave the folder.
 void write_figures(const std::filesystem::path& folder, const std::vector<Figure>& figures);
 

@@ -48,7 +48,7 @@ class Pen {
     long at_x_ = 0, at_y_ = 0, start_x_ = 0, start_y_ = 0;
 };
 
-/// Text for SVG and HTML: markup is made harmless, control characters are dropped.
+/// Text for SVG and HTML: markup is made harmless, control characters become blanks.
 std::string escaped(const std::string& text);
 /// `more`: further attributes, ready to stand in the tag.
 std::string text_at(double x, double y, const std::string& text, const std::string& more = "");

@@ -4,6 +4,7 @@
 
 #include "core/fault/fault.hpp"
 #include "services/report/element_test_figures.hpp"
+#include "services/report/run_report.hpp"
 #include "services/report/stability_figures.hpp"
 
 namespace {
@@ -35,26 +36,50 @@ ExitCode guarded(const std::filesystem::path& source, const Work& work) {
     }
 }
 
+/// Figures of one phase's folder.
+struct OnePhase {
+    CLI::App* command;
+    std::vector<breach::report::Figure> (*figures)(const std::filesystem::path& folder);
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
     using namespace breach;
-    CLI::App app("Figures (SVG) and their data (CSV) from the outputs of phases", "report");
-    app.require_subcommand(1);
+    CLI::App app("A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",
+                 "report");
     std::filesystem::path folder, output;
-    CLI::App* element = app.add_subcommand("element-test", "from fem_solver element-test");
-    CLI::App* stability = app.add_subcommand("stability", "from lem_tool");
-    for (CLI::App* each : {element, stability}) {
-        each->add_option("folder", folder, "output folder of the phase")->required();
-        each->add_option("--output", output, "folder for figures, made if absent")->required();
+    report::Choice choice;
+    app.add_option("run", folder, "folder of breach export, or with one folder per phase");
+    app.add_option("--output", output, "the page, F.html; figures and data go to F_files");
+    app.add_option("--snapshots", choice.snapshot_times, "times of contours and meshes [s]")
+        ->delimiter(',');
+    app.add_option("--transfers", choice.transfer_times, "transfer times of the geometries [s]")
+        ->delimiter(',');
+    app.add_option("--motion", choice.motion, "the scene's motion, when the run does not hold it");
+    app.footer("One phase alone: figures and data only.");
+    app.require_subcommand(0, 1);
+    const OnePhase single[] = {
+        {app.add_subcommand("element-test", "figures of fem_solver element-test"),
+         report::element_test_figures},
+        {app.add_subcommand("stability", "figures of lem_tool"), report::stability_figures}};
+    for (const OnePhase& each : single) {
+        each.command->add_option("folder", folder, "output folder of the phase")->required();
+        each.command->add_option("--output", output, "folder for figures, made if absent")
+            ->required();
     }
     try {
         app.parse(argc, argv);
+        if (app.get_subcommands().empty() && (folder.empty() || output.empty())) {
+            throw CLI::RequiredError("RUN and --output");
+        }
     } catch (const CLI::ParseError& error) {
         return static_cast<int>(app.exit(error) == 0 ? ExitCode::done : ExitCode::usage);
     }
     return static_cast<int>(guarded(folder, [&] {
-        report::write_figures(output, *element ? report::element_test_figures(folder)
-                                               : report::stability_figures(folder));
+        for (const OnePhase& each : single) {
+            if (*each.command) return report::write_figures(output, each.figures(folder));
+        }
+        report::write_report(report::document_of(report::read_run(folder), choice), output);
     }));
 }

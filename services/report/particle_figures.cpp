@@ -1,0 +1,86 @@
+#include "services/report/particle_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "services/report/mesh_figures.hpp"
+
+namespace breach::report {
+
+using exchange::ParticleState;
+
+namespace {
+
+constexpr std::size_t most_points = 15'000;  // more are slow to draw and look the same
+
+std::size_t stride_of(const ParticleState& state) {
+    return (state.size() + most_points - 1) / most_points;
+}
+
+std::string drawn(const ParticleState& state) {
+    const std::size_t stride = stride_of(state);
+    std::string text = std::to_string(state.size()) + " material points";
+    if (stride > 1) text += ", every " + std::to_string(stride) + "th drawn";
+    return text + ".";
+}
+
+Chart empty_chart(const std::string& title) {
+    return {title, {"x [m]"}, {"y [m]"}, {}, {}, Aspect::equal};
+}
+
+}  // namespace
+
+Figure points_by_material(const ParticleState& state, const std::string& name,
+                          const std::string& title) {
+    std::map<std::string, Series> by_material;
+    for (std::size_t p = 0; p < state.size(); p += stride_of(state)) {
+        const std::string& material =
+            state.materials_of_regions[static_cast<std::size_t>(state.region[p])];
+        Series& s = by_material[material];
+        s.x.push_back(state.position[p].x());
+        s.y.push_back(state.position[p].y());
+    }
+    Figure figure{name, empty_chart(title), drawn(state)};
+    for (auto& [material, s] : by_material) {
+        s.name = material;
+        s.style = Style::dots;
+        figure.chart.series.push_back(std::move(s));
+    }
+    return figure;
+}
+
+Figure points_by_strain(const ParticleState& state, const std::string& name,
+                        const std::string& title) {
+    Field field{"epsilon_q [%]", 1, {}, {}, {}, {0.0, 1.0}};
+    for (std::size_t p = 0; p < state.size(); p += stride_of(state)) {
+        field.x.push_back(state.position[p].x());
+        field.y.push_back(state.position[p].y());
+        field.value.push_back(100.0 * state.epsilon_q[p]);
+    }
+    field.range = colour_range(field.value);
+    Figure figure{name, empty_chart(title), drawn(state)};
+    figure.chart.field = std::move(field);
+    return figure;
+}
+
+Series surface_of(const ParticleState& state, double width, const std::vector<std::string>& regions,
+                  const std::string& name) {
+    std::map<long, double> top;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        const std::string& region = state.regions[static_cast<std::size_t>(state.region[p])];
+        if (!regions.empty() && std::ranges::find(regions, region) == regions.end()) continue;
+        const auto column = static_cast<long>(std::floor(state.position[p].x() / width));
+        const double y = state.position[p].y();
+        const auto [it, fresh] = top.try_emplace(column, y);
+        if (!fresh) it->second = std::max(it->second, y);
+    }
+    Series s{name, {}, {}};
+    for (const auto& [column, y] : top) {
+        s.x.push_back((static_cast<double>(column) + 0.5) * width);
+        s.y.push_back(y);
+    }
+    return s;
+}
+
+}  // namespace breach::report

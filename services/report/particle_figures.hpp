@@ -1,0 +1,22 @@
+// Pictures of material points: coloured by what they are, or by a value.
+#pragma once
+
+#include "core/exchange/particle_state.hpp"
+#include "services/report/figure.hpp"
+
+namespace breach::report {
+
+/// One colour per material; at most about 15,000 points are drawn, evenly picked, which the caption
+/// says. The data hold those that are drawn.
+Figure points_by_material(const exchange::ParticleState& state, const std::string& name,
+                          const std::string& title);
+/// By epsilon_q [%], in the same way.
+Figure points_by_strain(const exchange::ParticleState& state, const std::string& name,
+                        const std::string& title);
+
+/// Height of the deposit: the highest point of each column of the given width, between the first
+/// and the last point. `regions`: names of those that count; empty: all.
+Series surface_of(const exchange::ParticleState& state, double width,
+                  const std::vector<std::string>& regions, const std::string& name);
+
+}  // namespace breach::report

@@ -1,0 +1,52 @@
+// A run on the disk: which phases ran, where their files are, what they found. Reads the folder of
+// `breach export`, the run's folder below the service's data folder, or any folder that has one
+// folder per phase.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace breach::report {
+
+/// One phase of the run, whatever became of it.
+struct PhaseFolder {
+    std::string phase;    ///< "lem_tool", "fem_solver", "transfer_tool", "mpm_solver"
+    std::string label;    ///< name of the folder in the run: "mpm_13.000000_softened"
+    std::string variant;  ///< empty: serves all variants
+    std::optional<double> transfer_time;  ///< t_T [s]
+    std::filesystem::path files;          ///< where its outputs lie
+    nlohmann::json scene;                 ///< completed, with the overrides of this phase
+    nlohmann::json result;                ///< result.json; null when it did not end well
+    std::string fault;                    ///< why there is no result; empty when there is one
+};
+
+struct Run {
+    std::string name;
+    std::string title;
+    std::string id;                   ///< empty: not known to a service
+    nlohmann::json scene;             ///< completed, of the first phase
+    nlohmann::json study;             ///< null when the folder has none
+    std::vector<PhaseFolder> phases;  ///< by phase, then transfer time, then variant
+};
+
+/// A folder belongs to a phase when it holds scene.completed.json and its label begins with lem,
+/// fem, transfer or mpm (or result.json names the phase). Throws IoError when the folder cannot be
+/// read, BadInput when no phase is in it or a file in it is not what it should be.
+Run read_run(const std::filesystem::path& folder);
+
+std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
+/// The first one, null when there is none. Of several FEMs (variants that change it) the first.
+const PhaseFolder* phase_named(const Run& run, const std::string& phase);
+
+/// A file with a time in its name: "snapshot_2.750000.vtkhdf".
+struct TimedFile {
+    double time;
+    std::filesystem::path file;
+};
+/// Ascending in time.
+std::vector<TimedFile> timed_files(const std::filesystem::path& folder, const std::string& prefix);
+
+}  // namespace breach::report

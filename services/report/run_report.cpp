@@ -1,0 +1,50 @@
+#include "services/report/run_report.hpp"
+
+#include "core/exchange/publish.hpp"
+#include "core/fault/fault.hpp"
+#include "services/report/page.hpp"
+#include "services/report/png.hpp"
+
+namespace breach::report {
+
+Document document_of(const Run& run, const Choice& choice) {
+    const std::optional<Paper> paper = paper_for(run.scene.at("name"));
+    const Measures measures = measures_of(run);
+    Document document{run.title, {}, {}, {}};
+    if (!run.id.empty()) document.remarks.push_back("Run " + run.id + ", " + run.name + ".");
+    if (paper) {
+        document.remarks.insert(document.remarks.end(), paper->remarks.begin(),
+                                paper->remarks.end());
+    }
+    const Material material{run, paper, measures, choice};
+    for (const auto add : {add_stability, add_motion, add_shaking, add_mesh, add_transfer,
+                           add_runout, add_flow, add_numbers}) {
+        add(material, document);
+    }
+    return document;
+}
+
+void write_report(Document document, const std::filesystem::path& page) {
+    if (std::filesystem::is_directory(page)) {
+        throw fault::IoError(page.string() + ": is a folder; give the page's file name");
+    }
+    const std::string folder_name = page.stem().string() + "_files";
+    const std::filesystem::path folder = page.parent_path() / folder_name;
+    const bool draws = png_converter() == Converter::there;
+    if (!draws) {
+        document.left_out.push_back(
+            {"figures as PNG", "rsvg-convert is not installed (Debian: librsvg2-bin)"});
+    }
+    for (const Chapter& chapter : document.chapters) {
+        write_figures(folder, chapter.figures);
+        for (const Figure& each : chapter.figures) {
+            if (draws) write_png(folder / (each.name + ".svg"), folder / (each.name + ".png"));
+        }
+        for (const Table& each : chapter.tables) {
+            exchange::publish_text(folder / (each.name + ".csv"), as_csv(each));
+        }
+    }
+    exchange::publish_text(page, as_html(document, folder_name));
+}
+
+}  // namespace breach::report

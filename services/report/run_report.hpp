@@ -1,0 +1,16 @@
+// A run as a page: `report RUN --output F`.
+#pragma once
+
+#include "services/report/chapters.hpp"
+
+namespace breach::report {
+
+/// What the page will hold. Throws IoError or BadInput.
+Document document_of(const Run& run, const Choice& choice);
+
+/// Writes the page, and beside it, in a folder named after it ("report.html": "report_files"), each
+/// figure as SVG, PNG and CSV and each table as CSV. Without rsvg-convert the PNGs are left out and
+/// the page says so. Throws IoError.
+void write_report(Document document, const std::filesystem::path& page);
+
+}  // namespace breach::report
