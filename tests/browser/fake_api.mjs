@@ -243,7 +243,7 @@ export class FakeApi {
         if (kind === "examples") {
             return json(response, id ? study : { examples: [{ name: study.name, title: study.title }] });
         }
-        if (kind === "scenes") return json(response, { plans: { fem_solver: "on        softening    /materials" } });
+        if (kind === "scenes") return json(response, { plans: { fem_solver: "on        softening  the law of sand has it  (/materials/sand)\nleft out  gmsh       regions are blocks  (/section)\n" } });
         if (kind === "tasks") return this.serve_task(id, rest, url, response);
         if (kind === "runs" && !id) {
             if (request.method === "POST") return this.submit(request, response);

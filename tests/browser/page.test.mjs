@@ -1,7 +1,9 @@
 // The page against a stand-in server: what it shows, what it asks before it acts, what it does when the server goes.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync, statSync } from "node:fs";
+import path from "node:path";
 import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
 import { FakeApi, study, two_variants } from "./fake_api.mjs";
 
@@ -47,7 +49,10 @@ test("everything comes from this server, and little of it", async () => {
     const bytes = await page.evaluate(() => performance.getEntriesByType("resource")
         .filter((entry) => entry.name.includes("/static/")).reduce((sum, entry) => sum + entry.decodedBodySize, 0));
     console.log(`page without data: ${bytes} bytes`);
-    assert.ok(bytes > 20000 && bytes < 200000);
+    const folder = fileURLToPath(new URL("../../services/web/static", import.meta.url));
+    const shipped = readdirSync(folder).reduce((sum, name) => sum + statSync(path.join(folder, name)).size, 0);
+    console.log(`all files that are served: ${shipped} bytes`);
+    assert.ok(bytes > 20000 && shipped < 200000);
     assert.deepEqual(browser.foreign, []);
 });
 
@@ -180,6 +185,38 @@ test("100,000 particles are drawn whole; the time per picture is printed", async
     }
 });
 
+test("a mesh of 20,000 elements is drawn; the time per picture is printed", async () => {
+    await open_run("run-1");
+    await until("soil", async () => (await canvas_facts(page)).share > 0.05);
+    const times = await page.evaluate(async () => {
+        const { PointView } = await import("/static/points.js");
+        const [columns, rows] = [201, 101];
+        const count = columns * rows;
+        const of = (f) => Float32Array.from({ length: count }, (_, n) => f(n % columns, Math.floor(n / columns)));
+        const quads = [];
+        for (let j = 0; j < rows - 1; j += 1) for (let i = 0; i < columns - 1; i += 1) {
+            const n = j * columns + i;
+            quads.push(n, n + 1, n + columns + 1, n + columns);
+        }
+        const view = new PointView(document.getElementById("view"));
+        view.set_box({ x: [0, 200], y: [0, 100] });
+        view.resize();
+        view.show({ time: 0, count, regions: [], quads: Uint32Array.from(quads),
+                    columns: { x: of((i) => i), y: of((_, j) => j), r_u: of((i, j) => Math.abs(Math.sin(i / 30) * Math.cos(j / 20))) } },
+                  { field: "r_u", low: 0, high: 1 }, 1);
+        const taken = [];
+        for (let i = 0; i < 15; i += 1) {
+            await new Promise((resume) => setTimeout(resume, 20));
+            view.paint();
+            view.context.getImageData(0, 0, 1, 1); // waits for the picture
+            taken.push(view.paint_time);
+        }
+        return taken.sort((a, b) => a - b);
+    });
+    console.log(`painting 20,000 elements: median ${times[7].toFixed(1)} ms, slowest ${times[14].toFixed(1)} ms`);
+    assert.ok((await canvas_facts(page)).colours > 20);
+});
+
 test("telemetry is drawn as curves and the other monitors are at hand", async () => {
     await open_run("run-1");
     await until("eight panels", async () => (await page.locator("#telemetry-plots figure").count()) === 8);
@@ -231,6 +268,8 @@ test("an example is loaded, planned, submitted, and fills in live", async () => 
     await until("the example's text", async () => (await page.inputValue("#study")).includes("breachline-study/1"));
     await page.click("#show-plan");
     await until("a plan", async () => /softening/.test(await text_of("#plan")));
+    assert.deepEqual(await page.locator("#plan tr:last-child > *").allTextContents(),
+                     ["⊘ left out", "gmsh", "regions are blocks", "/section"]);
     await page.click("#submit");
     await until("the new run is open", () => page.url().endsWith("#/runs/run-3"));
     await until("it runs", async () => /running/.test(await text_of("#run-state")));

@@ -79,7 +79,7 @@ test("the plan of a scene is shown before anything runs", async () => {
     await page.click("nav [data-opens=submit]");
     await page.fill("#study", JSON.stringify(study, null, 4));
     await page.click("#show-plan");
-    await until("a plan per phase", async () => (await page.locator("#plan pre").count()) >= 3);
+    await until("a plan per phase", async () => (await page.locator("#plan table").count()) >= 3);
     await screenshot(page, "real_plan");
     await page.keyboard.press("Escape");
     assert.deepEqual((await answer_of("/v1/runs")).runs, []);

@@ -11,6 +11,16 @@ export function packed(hex) {
     return ((255 << 24) | (blue << 16) | (green << 8) | red) >>> 0;
 }
 
+/// The first colour drawn by `share` towards the second.
+export function mixed(colour, other, share) {
+    let result = 0xff000000;
+    for (const shift of [0, 8, 16]) {
+        const from = (colour >>> shift) & 255;
+        result |= Math.round(from + share * (((other >>> shift) & 255) - from)) << shift;
+    }
+    return result >>> 0;
+}
+
 export const scale_steps = 256;
 
 function blend(fraction) {
@@ -22,8 +32,8 @@ function blend(fraction) {
     return "#" + mixed.map((value) => value.toString(16).padStart(2, "0")).join("");
 }
 
+const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
 /// Scale for numbers, low to high.
-export const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
 export const scale_packed = Uint32Array.from(scale_css, packed);
 export const scale_gradient = `linear-gradient(to right, ${anchors.join(", ")})`;
 

@@ -1,8 +1,12 @@
-// Draws one snapshot, particles or a mesh of quads, on a canvas: equal aspect, pan, zoom, axes in metres. Particles are
-// written as squares straight into the image's pixels, so 100,000 of them take a few milliseconds without a GPU.
-import { packed, region_css, scale_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
+// Draws one snapshot, particles or a mesh of quads, on a canvas: equal aspect, pan, zoom, axes in metres.
+import { mixed, packed, region_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
 import { number } from "./format.js";
 import { ticks } from "./plot_scale.js";
+import { draw_edge, fill_quad, fill_square } from "./raster.js";
+
+const unknown = packed(unknown_css);
+const region_packed = Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i)));
+const least_edge = 4; // [CSS px] shorter edges of elements are not drawn
 
 const edge = { left: 46, right: 10, top: 10, bottom: 34 }; // room for the axes [CSS px]
 
@@ -158,8 +162,7 @@ export class PointView {
         context.fillStyle = ground;
         context.fillRect(0, 0, canvas.width, canvas.height);
         if (this.snapshot && this.scale) {
-            if (this.snapshot.quads) this.paint_quads(style.getPropertyValue("--mesh").trim());
-            else this.paint_squares(packed(ground));
+            this.paint_soil(ground, style.getPropertyValue("--mesh").trim());
             this.paint_overlay(style.getPropertyValue("--text").trim());
             this.paint_axes(style, ground);
         }
@@ -181,64 +184,68 @@ export class PointView {
         return shades;
     }
 
-    css_of(shade) {
-        if (shade < 0) return unknown_css;
-        return this.colour.named ? region_css(shade) : scale_css[shade];
+    paint_soil(ground, line) {
+        const { width, height } = this.canvas;
+        const data = this.context.createImageData(width, height);
+        const image = { pixels: new Uint32Array(data.data.buffer).fill(packed(ground)), width, height };
+        const shades = this.shades();
+        const palette = this.colour.named ? region_packed : scale_packed;
+        if (this.snapshot.quads) this.paint_quads(image, shades, palette, line);
+        else this.paint_squares(image, shades, palette);
+        this.context.putImageData(data, 0, 0);
     }
 
-    paint_squares(ground) {
-        const { width, height } = this.canvas;
-        const image = this.context.createImageData(width, height);
-        const pixels = new Uint32Array(image.data.buffer).fill(ground);
+    paint_squares(image, shades, palette) {
         const { x, y } = this.snapshot.columns;
-        const shades = this.shades();
-        const palette = this.colour.named
-            ? Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i))) : scale_packed;
-        const unknown = packed(unknown_css);
         const size = Math.max(Math.ceil(this.spacing * this.scale), Math.ceil(1.5 * this.ratio));
         const [origin_x, origin_y] = this.to_screen(0, 0);
         for (let i = 0; i < shades.length; i += 1) {
             const left = Math.round(origin_x + x[i] * this.scale - size / 2);
             const top = Math.round(origin_y - y[i] * this.scale - size / 2);
-            const first_column = Math.max(left, 0);
-            const last_column = Math.min(left + size, width);
-            const last_row = Math.min(top + size, height);
-            if (first_column >= last_column) continue;
-            const colour = shades[i] < 0 ? unknown : palette[shades[i] & 255];
-            for (let row = Math.max(top, 0); row < last_row; row += 1) {
-                pixels.fill(colour, row * width + first_column, row * width + last_column);
-            }
+            fill_square(image, left, top, size, shades[i] < 0 ? unknown : palette[shades[i] & 255]);
         }
-        this.context.putImageData(image, 0, 0);
     }
 
-    paint_quads(line_colour) {
-        const { quads, columns: { x, y } } = this.snapshot;
-        const shades = this.shades();
-        const outlines = new Map(); // one path per colour
-        const all = new Path2D();
+    /// Every element in the mean of its corners' shades; edges in the same colour drawn towards the line's, unless the
+    /// elements are so small that nothing else would be seen.
+    paint_quads(image, shades, palette, line) {
+        const { quads, columns } = this.snapshot;
+        const [origin_x, origin_y] = this.to_screen(0, 0);
+        const x = columns.x.map((value) => origin_x + value * this.scale);
+        const y = columns.y.map((value) => origin_y - value * this.scale);
+        const edges = palette.map((colour) => mixed(colour, packed(line), 0.35));
+        const unknown_edge = mixed(unknown, packed(line), 0.35);
+        const with_edges = this.mean_edge(x, y) > least_edge * this.ratio;
         for (let q = 0; q < quads.length; q += 4) {
-            const corners = [quads[q], quads[q + 1], quads[q + 2], quads[q + 3]];
-            const shade = this.colour.named
-                ? Math.min(...corners.map((n) => shades[n]))
-                : Math.round(corners.reduce((sum, n) => sum + shades[n], 0) / 4) & ~3;
-            if (!outlines.has(shade)) outlines.set(shade, new Path2D());
-            const path = outlines.get(shade);
-            corners.forEach((n, k) => {
-                const [px, py] = this.to_screen(x[n], y[n]);
-                if (k === 0) path.moveTo(px, py);
-                else path.lineTo(px, py);
-            });
-            path.closePath();
+            const corners = quads.subarray(q, q + 4);
+            const shade = this.shade_of(corners, shades);
+            fill_quad(image, x, y, corners, shade < 0 ? unknown : palette[shade & 255]);
         }
-        for (const [shade, path] of outlines) {
-            this.context.fillStyle = this.css_of(shade);
-            this.context.fill(path);
-            all.addPath(path);
+        for (let q = 0; with_edges && q < quads.length; q += 4) {
+            const corners = quads.subarray(q, q + 4);
+            const shade = this.shade_of(corners, shades);
+            const colour = shade < 0 ? unknown_edge : edges[shade & 255];
+            for (let k = 0; k < 4; k += 1) draw_edge(image, x, y, corners[k], corners[(k + 1) & 3], colour);
         }
-        this.context.strokeStyle = line_colour;
-        this.context.lineWidth = 0.6 * this.ratio;
-        this.context.stroke(all);
+    }
+
+    shade_of([a, b, c, d], shades) {
+        const least = Math.min(shades[a], shades[b], shades[c], shades[d]);
+        if (this.colour.named || least < 0) return least;
+        return Math.round((shades[a] + shades[b] + shades[c] + shades[d]) / 4);
+    }
+
+    /// [device pixels], of a sample.
+    mean_edge(x, y) {
+        const { quads } = this.snapshot;
+        const step = 4 * Math.max(1, Math.floor(quads.length / 4 / 100));
+        let [sum, count] = [0, 0];
+        for (let q = 0; q < quads.length; q += step) {
+            sum += Math.hypot(x[quads[q + 1]] - x[quads[q]], y[quads[q + 1]] - y[quads[q]]);
+            sum += Math.hypot(x[quads[q + 2]] - x[quads[q + 1]], y[quads[q + 2]] - y[quads[q + 1]]);
+            count += 2;
+        }
+        return sum / Math.max(count, 1);
     }
 
     paint_overlay(colour) {

@@ -76,11 +76,31 @@ export class SubmitDialog {
             const scene = JSON.parse(by_id("study").value).scene;
             const plans = await api.plan_scene(JSON.stringify(scene ?? null));
             by_id("plan").replaceChildren(...Object.entries(plans).flatMap(([phase, text]) =>
-                [element("h3", {}, phase), element("pre", {}, text)]));
+                [element("h3", {}, phase), this.plan_table(phase, text)]));
             by_id("plan").hidden = false;
+            by_id("plan").scrollIntoView({ block: "nearest" });
+            by_id("plan").focus({ preventScroll: true });
         } catch (fault) {
             this.refuse(fault);
         }
+    }
+
+    /// A plan's lines are columns of text: on or left out, what, why, and the place in the scene that decided.
+    plan_table(phase, text) {
+        const rows = text.split("\n").filter((line) => line.trim() !== "").map((line) => {
+            const [state, what = "", why = "", place = ""] = line.trim().split(/\s{2,}/);
+            const pointer = (place || why).match(/^\(?(\/[^)\s]*)\)?$/)?.[1];
+            return element("tr", { class: state === "on" ? null : "waiting" },
+                element("td", {}, element("span", { class: `state ${state === "on" ? "good" : "off"}` }, state === "on" ? "✓ on" : `⊘ ${state}`)),
+                element("th", { scope: "row" }, what), element("td", {}, place || !pointer ? why : ""),
+                element("td", {}, pointer ? this.link_to(`/scene${pointer}`, pointer) : place));
+        });
+        return element("table", { "aria-label": `plan of ${phase}` }, element("tbody", {}, ...rows));
+    }
+
+    link_to(pointer, text) {
+        return element("button", { type: "button", class: "link", title: "Show the place in the study",
+                                   onclick: () => this.point_to(pointer) }, element("code", {}, text));
     }
 
     clear() {
@@ -95,9 +115,7 @@ export class SubmitDialog {
         const count = faults.length === 1 ? "1 fault" : `${faults.length} faults`;
         set_text(by_id("fault-title"), faults.length ? `${fault.message} (${count})` : fault.message);
         by_id("fault-list").replaceChildren(...faults.map((one) => element("li", {},
-            element("button", { type: "button", class: "link", title: "Show the place in the study",
-                                onclick: () => this.point_to(one.pointer) }, element("code", {}, one.pointer || "/")),
-            ` ${one.cause}`, one.remedy ? element("span", { class: "remedy" }, one.remedy) : null)));
+            this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause}`, one.remedy ? element("span", { class: "remedy" }, one.remedy) : null)));
         by_id("faults").hidden = false;
         by_id("study").setAttribute("aria-invalid", "true");
         by_id("fault-title").focus();

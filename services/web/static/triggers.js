@@ -72,14 +72,14 @@ function outcome(trigger) {
     if (kind === "bisect") {
         return result ? `${result.runs} runs instead of ${result.uniform_runs}` : `${firings.length} runs asked for`;
     }
-    return firings.map((firing) => `at ${number(firing.wanted_time)} s, step ${firing.fem_step}, snapshot ` +
-                                   `${number(firing.transfer_time)} s`).join("; ");
+    return firings.map((firing) => `at ${number(firing.wanted_time)} s, known at step ${firing.fem_step}, ` +
+                                   `snapshot ${number(firing.transfer_time)} s`).join("; ");
 }
 
 export function draw_triggers(triggers) {
     by_id("triggers").hidden = triggers.length === 0;
     mirror(by_id("trigger-rows"), triggers, (trigger) => trigger.id, () => element("tr", {}, element("th", { scope: "row" }),
-           element("td"), element("td", {}, element("span")), element("td", {}, element("code")), element("td")),
+           element("td"), element("td", {}, element("span")), element("td", { class: "message" }, element("code")), element("td", { class: "message" })),
            (row, trigger) => {
                const [name, kind, state, condition, what] = row.children;
                set_text(name, trigger.name || trigger.kind);
