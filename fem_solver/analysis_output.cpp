@@ -78,7 +78,7 @@ bool Analysis::checkpoint_is_due() const {
 
 void Analysis::write_checkpoint() {
     const Stopwatch watch(seconds_.output);
-    Checkpoint checkpoint{position_,         motion_,           beginning_,
+    Checkpoint checkpoint{position_,         motion_,           beginning_, stage_force_,
                           newton_->memory(), newton_->counts(), history_};
     exchange::write_archive(session_.output("checkpoint.h5"),
                             checkpoint_archive(checkpoint, session_.scene()),
@@ -95,6 +95,7 @@ void Analysis::resume() {
     motion_ = std::move(checkpoint.motion);
     trial_ = motion_;
     beginning_ = std::move(checkpoint.beginning);
+    stage_force_ = std::move(checkpoint.stage_force);
     set_skeleton_modulus(beginning_, model_);
     history_ = std::move(checkpoint.history);
     session_.truncate_telemetry(position_.telemetry_lines);
@@ -160,6 +161,11 @@ void Analysis::report_facts(const std::string& end) {
     facts["iterations"] = counts_.iterations;
     facts["factorisations"] = counts_.factorisations;
     facts["elastic_fallbacks"] = counts_.elastic_fallbacks;
+    facts["stalled_steps"] = counts_.stalled;
+    if (!motion_.sand.empty()) {
+        const StressBias bias = stress_bias(motion_);
+        facts["stress_bias"] = {{"points", bias.points}, {"largest", bias.largest}};
+    }
     facts["elements"] = model_.body.elements;
     facts["nodes"] = model_.body.nodes;
     facts["unknowns"] = unknowns.displacements;

@@ -138,13 +138,14 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
     put(archive, checkpoint.position);
     put(archive, checkpoint.motion);
     put(archive, checkpoint.beginning);
+    archive.reals["stage_force"] = flat(checkpoint.stage_force);
     const NewtonMemory& newton = checkpoint.newton;
     archive.reals["newton.values"] = newton.values;
     archive.reals["newton.rule"] = {newton.rule.c_a, newton.rule.c_v};
     archive.integers["newton.state"] = {newton.has_matrix, newton.last_iterations};
     const NewtonCounts& counts = checkpoint.counts;
     archive.integers["newton.counts"] = {counts.iterations, counts.factorisations,
-                                         counts.elastic_fallbacks};
+                                         counts.elastic_fallbacks, counts.stalled};
     for (auto& [name, values] : history_archive(checkpoint.history).reals) {
         archive.reals[history_prefix + name] = values;
     }
@@ -165,6 +166,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
     c.position = position_from(archive);
     c.motion = motion_from(archive);
     c.beginning = beginning_from(archive);
+    c.stage_force = vector_from(archive.reals.at("stage_force"));
     c.newton.values = archive.reals.at("newton.values");
     const Reals& rule = archive.reals.at("newton.rule");
     c.newton.rule = {rule.at(0), rule.at(1)};
@@ -172,7 +174,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
     c.newton.has_matrix = state.at(0) != 0;
     c.newton.last_iterations = static_cast<int>(state.at(1));
     const auto& counts = archive.integers.at("newton.counts");
-    c.counts = {counts.at(0), counts.at(1), counts.at(2)};
+    c.counts = {counts.at(0), counts.at(1), counts.at(2), counts.at(3)};
     exchange::Archive history;
     for (const auto& [name, values] : archive.reals) {
         if (name.starts_with(history_prefix)) {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace breach::fem {
 namespace {
@@ -37,6 +38,28 @@ Eigen::VectorXd shares_of_dofs(const Model& model, const Unknowns& unknowns) {
     for (std::int32_t i = 0; i < unknowns.count; ++i) share[i] = 1.0 / largest[i];
     return share;
 }
+
+/// PM4Sand jumps where a reversal is just seen or just not seen (by up to 0.3 % of the mean stress,
+/// measured): there no displacement has a vanishing residual. Such a step is accepted up to this
+/// many times the tolerance; what is out of balance enters the next step, it does not add up.
+constexpr double worst_jump = 100.0;
+
+/// The residuals of one step: tells when they no longer fall.
+class Progress {
+  public:
+    void note(double residual) {
+        best_ = std::min(best_, residual);
+        earlier_[noted_++ % window] = best_;
+    }
+    bool stalled() const { return noted_ > least && best_ > 0.5 * earlier_[noted_ % window]; }
+    double best() const { return best_; }
+
+  private:
+    static constexpr std::size_t window = 4, least = 6;
+    double best_ = std::numeric_limits<double>::infinity();
+    std::array<double, window> earlier_{};
+    std::size_t noted_ = 0;
+};
 
 }  // namespace
 
@@ -278,6 +301,10 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
     has_last_ = false;
     Matrix matrix = serves ? Matrix::keep : Matrix::renew;
     double first = 0.0, before = 0.0, residual = 0.0;
+    // PM4Sand's matrix is that of the step's ends: a second renewal would give the same again.
+    const bool sand = !problem.old.sand.empty();
+    int renewals_left = sand ? 1 : settings_.largest_iterations;
+    Progress progress;
     for (int iteration = 0;; ++iteration) {
         if (evaluate(problem, trial, matrix) == Geometry::degenerate) {
             return {End::degenerate, iteration, residual};
@@ -286,6 +313,12 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         residual = residual_measure(problem, trial);
         if (residual <= settings_.tolerance) {
             memory_.last_iterations = iteration;
+            return {End::converged, iteration, residual};
+        }
+        progress.note(residual);
+        if (sand && progress.stalled() && residual <= 2.0 * progress.best() &&
+            residual <= worst_jump * settings_.tolerance) {
+            ++counts_.stalled;
             return {End::converged, iteration, residual};
         }
         if (iteration == 0) first = std::max(residual, settings_.tolerance);
@@ -298,7 +331,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         const double rate = iteration == 0 ? 0.1 : residual / before;
         const double wanted = std::log(settings_.tolerance / residual);
         const bool slow = rate >= 1.0 || wanted / std::log(rate) > 2.0 * worth_of_matrix;
-        matrix = slow ? Matrix::renew : Matrix::keep;
+        matrix = slow && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
         before = residual;
         ++counts_.iterations;
         correct(trial);

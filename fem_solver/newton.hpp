@@ -31,6 +31,7 @@ struct NewtonCounts {
     std::int64_t iterations = 0;
     std::int64_t factorisations = 0;
     std::int64_t elastic_fallbacks = 0;  ///< tangents that had a pivot of the wrong sign
+    std::int64_t stalled = 0;  ///< steps accepted at a jump of PM4Sand, above the tolerance
 };
 
 /// What the next step inherits from the last one: saved in a checkpoint so that a resumed run does
