@@ -24,6 +24,15 @@ struct Material {
     const Choice& choice;
 };
 
+/// The runouts of the first variant that are looked at closely: those nearest to the wanted
+/// transfer times; without any, the one nearest to half of the largest runout, and the largest.
+std::vector<const PhaseFolder*> chosen_runouts(const Material& from);
+/// "t_T = 13 s, softened".
+std::string of_transfer(const PhaseFolder& phase);
+/// A fact of a result as text, divided by `unit`; "-" when it is not there. Pointer:
+/// "/energy/numerical/share".
+std::string fact(const nlohmann::json& result, const std::string& pointer, double unit = 1.0);
+
 void add_stability(const Material& from, Document& document);
 void add_motion(const Material& from, Document& document);
 void add_shaking(const Material& from, Document& document);

@@ -93,7 +93,8 @@ void draw_line(std::ostream& svg, const Frame& f, const Series& s, const std::st
 void draw_many(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     const bool dots = s.style == Style::dots;
     svg << "<path transform=\"scale(.1)\" fill=\"none\" stroke=\"" << colour
-        << "\" stroke-linecap=\"round\" stroke-width=\"" << (dots ? 22 : 5) << "\" d=\"";
+        << "\" stroke-linecap=\"round\" stroke-width=\"" << (dots ? 10.0 * dot_size(f) : 5.0)
+        << "\" d=\"";
     Pen pen(svg, f);
     for (std::size_t i = 0; i < s.x.size(); ++i) {
         if (dots) {
@@ -134,16 +135,18 @@ void draw_marks(std::ostream& svg, const Frame& f) {
     }
 }
 
-/// Areas have earth colours of their own, so that a line never looks like the ground it crosses.
+/// Areas have earth colours of their own, so that a line never looks like the ground it crosses,
+/// and meshes are grey.
 std::vector<std::string> colours_of(const Chart& chart) {
     std::vector<std::string> result;
-    std::size_t areas = 0;
+    std::size_t areas = 0, others = 0;
     for (const Series& each : chart.series) {
-        const std::size_t others = result.size() - areas;
-        const bool area = each.style == Style::area;
-        result.emplace_back(area ? earths[areas % earths.size()]
-                                 : colours[others % colours.size()]);
-        areas += area ? 1 : 0;
+        if (each.style == Style::segments)
+            result.emplace_back("#555");
+        else if (each.style == Style::area)
+            result.emplace_back(earths[areas++ % earths.size()]);
+        else
+            result.emplace_back(colours[others++ % colours.size()]);
     }
     return result;
 }
@@ -227,6 +230,17 @@ double width_of(const std::string& text) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
     };
     return 7.6 * static_cast<double>(std::count_if(text.begin(), text.end(), begins_letter));
+}
+
+double dot_size(const Frame& frame) {
+    std::size_t dots =
+        frame.chart.field && frame.chart.field->corners == 1 ? frame.chart.field->value.size() : 0;
+    for (const Series& each : frame.chart.series) {
+        if (each.style == Style::dots) dots += each.x.size();
+    }
+    const double share =
+        frame.width * frame.height / static_cast<double>(std::max<std::size_t>(1, dots));
+    return std::clamp(0.75 * std::sqrt(share), 2.0, 6.0);
 }
 
 void check_columns(const Chart& chart) {

@@ -33,7 +33,7 @@ Triple linear_rgb(double L, double a, double b) {
 
 std::string colour_at(double share) {
     const double s = std::clamp(share, 0.0, 1.0);
-    const double lightness = 0.95 - 0.70 * s;
+    const double lightness = 0.92 - 0.67 * s;
     // pale yellow over green and blue to violet; most colourful in the middle, where sRGB has room
     const double hue = (100.0 + 200.0 * s) * std::numbers::pi / 180.0;
     const double chroma = 0.05 + 0.20 * s * (1.0 - s);

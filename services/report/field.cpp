@@ -40,7 +40,7 @@ void draw_field(std::ostream& svg, const Frame& frame, const Field& field) {
         members[class_of(field.value[i], field.range)].push_back(i);
     }
     const bool dots = field.corners == 1;
-    svg << "<g transform=\"scale(.1)\" stroke-width=\"" << (dots ? 22 : 4)
+    svg << "<g transform=\"scale(.1)\" stroke-width=\"" << (dots ? 10.0 * dot_size(frame) : 4.0)
         << "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     for (std::size_t c = 0; c < classes; ++c) {
         if (members[c].empty()) continue;

@@ -74,7 +74,7 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
         return it == found.end() ? otherwise : it->second.value;
     };
     const double lower = edge("window_lower", 0.0), upper = edge("window_upper", 1e30);
-    std::vector<double> plateau;
+    std::vector<double> plateau, released;
     double cpu = 0.0;
     bool begun = false;
     for (const PhaseFolder* each : runouts_of(run, variant)) {
@@ -89,13 +89,18 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
         }
         if (t_T < lower || t_T > upper) continue;
         plateau.push_back(runout);
+        if (const auto area = number_at(each->result, "area_beyond_toe")) released.push_back(*area);
         cpu += cpu_of(*each);
     }
-    if (plateau.empty()) return;
-    const auto [least, most] = std::ranges::minmax(plateau);
-    found["plateau_runout" + suffix] = {
-        median(plateau), std::to_string(plateau.size()) + " runouts", cpu,
-        "they lie between " + short_number(least) + " and " + short_number(most)};
+    const auto keep_median = [&](const std::string& key, const std::vector<double>& values) {
+        if (values.empty()) return;
+        const auto [least, most] = std::ranges::minmax(values);
+        found[key + suffix] = {
+            median(values), "median of " + std::to_string(values.size()) + " runouts", cpu,
+            "they lie between " + short_number(least) + " and " + short_number(most)};
+    };
+    keep_median("plateau_runout", plateau);
+    keep_median("released_area", released);
 }
 
 }  // namespace

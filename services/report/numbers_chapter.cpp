@@ -10,16 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-/// A fact of a result as text; "-" when it is not there. Pointer: "/energy/numerical/share".
-std::string fact(const json& result, const std::string& pointer, double unit = 1.0) {
-    const json::json_pointer at(pointer);
-    if (!result.is_object() || !result.contains(at) || result.at(at).is_null()) return "-";
-    const json& value = result.at(at);
-    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (value.is_string()) return value.get<std::string>();
-    return value.is_number() ? rounded(value.get<double>() / unit, 6) : value.dump();
-}
-
 /// The overrides that the phase was given, without those that only say when to write.
 std::string settings_of(const PhaseFolder& phase) {
     const json::json_pointer at("/provenance/overrides");
@@ -82,6 +72,15 @@ Table ledger(const Run& run) {
 
 }  // namespace
 
+std::string fact(const json& result, const std::string& pointer, double unit) {
+    const json::json_pointer at(pointer);
+    if (!result.is_object() || !result.contains(at) || result.at(at).is_null()) return "-";
+    const json& value = result.at(at);
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (value.is_string()) return value.get<std::string>();
+    return value.is_number() ? rounded(value.get<double>() / unit, 6) : value.dump();
+}
+
 void add_numbers(const Material& from, Document& document) {
     Chapter chapter{"Numbers"};
     if (from.paper) chapter.tables.push_back(comparison(*from.paper, from.measures));
@@ -120,6 +119,8 @@ void add_numbers(const Material& from, Document& document) {
         {{"runout [m]", "/runout"},
          {"beyond toe [m]", "/runout_beyond_toe"},
          {"farthest point [m]", "/runout_largest"},
+         {"1 m front [m]", "/runout_front"},
+         {"area beyond toe [m2]", "/area_beyond_toe"},
          {"at rest", "/at_rest"},
          {"end [s]", "/end_time"},
          {"points", "/particles"},

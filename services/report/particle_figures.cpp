@@ -1,7 +1,5 @@
 #include "services/report/particle_figures.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "services/report/mesh_figures.hpp"
@@ -62,25 +60,6 @@ Figure points_by_strain(const ParticleState& state, const std::string& name,
     Figure figure{name, empty_chart(title), drawn(state)};
     figure.chart.field = std::move(field);
     return figure;
-}
-
-Series surface_of(const ParticleState& state, double width, const std::vector<std::string>& regions,
-                  const std::string& name) {
-    std::map<long, double> top;
-    for (std::size_t p = 0; p < state.size(); ++p) {
-        const std::string& region = state.regions[static_cast<std::size_t>(state.region[p])];
-        if (!regions.empty() && std::ranges::find(regions, region) == regions.end()) continue;
-        const auto column = static_cast<long>(std::floor(state.position[p].x() / width));
-        const double y = state.position[p].y();
-        const auto [it, fresh] = top.try_emplace(column, y);
-        if (!fresh) it->second = std::max(it->second, y);
-    }
-    Series s{name, {}, {}};
-    for (const auto& [column, y] : top) {
-        s.x.push_back((static_cast<double>(column) + 0.5) * width);
-        s.y.push_back(y);
-    }
-    return s;
 }
 
 }  // namespace breach::report

@@ -14,9 +14,4 @@ Figure points_by_material(const exchange::ParticleState& state, const std::strin
 Figure points_by_strain(const exchange::ParticleState& state, const std::string& name,
                         const std::string& title);
 
-/// Height of the deposit: the highest point of each column of the given width, between the first
-/// and the last point. `regions`: names of those that count; empty: all.
-Series surface_of(const exchange::ParticleState& state, double width,
-                  const std::vector<std::string>& regions, const std::string& name);
-
 }  // namespace breach::report

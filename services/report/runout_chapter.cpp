@@ -19,8 +19,6 @@ const PhaseFolder* nearest_in_time(const std::vector<const PhaseFolder*>& all, d
         all, {}, [&](const PhaseFolder* each) { return std::abs(time_of(each) - t_T); });
 }
 
-/// The runouts to look at: those nearest to the wanted transfer times; without any, the one nearest
-/// to half of the largest runout and the largest one.
 std::vector<const PhaseFolder*> chosen(const std::vector<const PhaseFolder*>& all,
                                        const std::vector<double>& times) {
     std::vector<const PhaseFolder*> picked;
@@ -38,27 +36,21 @@ std::vector<const PhaseFolder*> chosen(const std::vector<const PhaseFolder*>& al
     return picked;
 }
 
-std::string of_transfer(const PhaseFolder* phase) {
-    std::string text;
-    if (phase->transfer_time) text += "t_T = " + short_number(*phase->transfer_time) + " s";
-    if (!phase->variant.empty()) text += (text.empty() ? "" : ", ") + phase->variant;
-    return text.empty() ? phase->label : text;
-}
-
-/// The ground before anything moved: outlines of the section.
-std::vector<Series> outlines(const json& scene) {
-    std::vector<Series> lines;
+/// The section before anything moved.
+Series outlines(const json& scene) {
+    Series s{"section at rest", {}, {}, Style::segments};
+    const auto add = [&](const json& point) {
+        s.x.push_back(point.at(0));
+        s.y.push_back(point.at(1));
+    };
     for (const json& region : scene.at("section").at("regions")) {
-        Series s{region.at("name").get<std::string>() + " at rest", {}, {}, Style::line};
-        for (const json& p : region.at("polygon")) {
-            s.x.push_back(p.at(0));
-            s.y.push_back(p.at(1));
+        const json& polygon = region.at("polygon");
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            add(polygon[k]);
+            add(polygon[(k + 1) % polygon.size()]);
         }
-        s.x.push_back(s.x.front());
-        s.y.push_back(s.y.front());
-        lines.push_back(std::move(s));
     }
-    return lines;
+    return s;
 }
 
 Figure runout_against_time(const Material& from) {
@@ -93,6 +85,18 @@ std::vector<const PhaseFolder*> first_runouts(const Run& run) {
 
 }  // namespace
 
+std::string of_transfer(const PhaseFolder& phase) {
+    std::string text;
+    if (phase.transfer_time) text += "t_T = " + short_number(*phase.transfer_time) + " s";
+    if (!phase.variant.empty()) text += (text.empty() ? "" : ", ") + phase.variant;
+    return text.empty() ? phase.label : text;
+}
+
+std::vector<const PhaseFolder*> chosen_runouts(const Material& from) {
+    const auto all = first_runouts(from.run);
+    return all.empty() ? all : chosen(all, from.choice.transfer_times);
+}
+
 void add_transfer(const Material& from, Document& document) {
     std::vector<const PhaseFolder*> done;
     for (const PhaseFolder* each : phases_named(from.run, "transfer_tool")) {
@@ -104,21 +108,21 @@ void add_transfer(const Material& from, Document& document) {
         return;
     }
     double wanted = time_of(done.back());
-    if (const auto runouts = first_runouts(from.run); !runouts.empty())
-        wanted = time_of(chosen(runouts, from.choice.transfer_times).back());
+    if (const auto runouts = chosen_runouts(from); !runouts.empty())
+        wanted = time_of(runouts.back());
     const PhaseFolder* shown = nearest_in_time(done, wanted);
     const auto file = exchange::read_particle_state(shown->files / "particles.vtkhdf");
     Chapter chapter{"Transfer",
-                    "What the mesh handed to the material points (" + of_transfer(shown) + ")."};
+                    "What the mesh handed to the material points (" + of_transfer(*shown) + ")."};
     chapter.figures = {points_by_material(file.state, "points_at_transfer",
-                                          "Material points at " + of_transfer(shown)),
+                                          "Material points at " + of_transfer(*shown)),
                        points_by_strain(file.state, "points_at_transfer_epsilon_q",
-                                        "epsilon_q of the points at " + of_transfer(shown))};
+                                        "epsilon_q of the points at " + of_transfer(*shown))};
     document.chapters.push_back(std::move(chapter));
 }
 
 void add_runout(const Material& from, Document& document) {
-    const auto runouts = first_runouts(from.run);
+    const auto runouts = chosen_runouts(from);
     if (runouts.empty()) {
         const PhaseFolder* mpm = phase_named(from.run, "mpm_solver");
         document.left_out.push_back(
@@ -135,16 +139,19 @@ void add_runout(const Material& from, Document& document) {
         add_points(from.paper, against);
         chapter.figures.push_back(std::move(against));
     }
-    for (const PhaseFolder* each : chosen(runouts, from.choice.transfer_times)) {
+    for (const PhaseFolder* each : runouts) {
         const auto file = exchange::read_particle_state(each->files / "final.vtkhdf");
-        const std::string of = each->transfer_time ? short_number(*each->transfer_time) + "s" : "";
+        const std::string of =
+            each->transfer_time ? short_number(*each->transfer_time) + "s" : "filled";
         Figure geometry = points_by_material(file.state, "final_geometry_" + of,
-                                             "Final geometry, " + of_transfer(each));
-        for (Series& line : outlines(each->scene)) geometry.chart.series.push_back(std::move(line));
-        geometry.caption += " Runout " + rounded(runout_of(each), 4) + " m; lines: the section.";
+                                             "Final geometry, " + of_transfer(*each));
+        geometry.chart.series.push_back(outlines(each->scene));
+        geometry.caption +=
+            " Runout " + rounded(runout_of(each), 4) + " m; lines: the section at rest.";
         chapter.figures.push_back(std::move(geometry));
-        chapter.figures.push_back(points_by_strain(
-            file.state, "final_epsilon_q_" + of, "epsilon_q of the deposit, " + of_transfer(each)));
+        chapter.figures.push_back(
+            points_by_strain(file.state, "final_epsilon_q_" + of,
+                             "epsilon_q of the deposit, " + of_transfer(*each)));
     }
     document.chapters.push_back(std::move(chapter));
 }
