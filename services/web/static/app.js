@@ -14,6 +14,7 @@ import { Telemetry } from "./telemetry.js";
 
 const settle = 250;        // [ms] events that arrive together cause one look
 const look_again = 1500;   // [ms] between looks while something runs: progress is no event
+const most_share = 0.2;    // of the time that looking may take: a large sweep is looked at less often
 
 const particles = new Particles();
 function look_at(row) {
@@ -71,6 +72,7 @@ async function look() {
     looking = true;
     again = false;
     let busy = false;
+    const began = performance.now();
     try {
         const runs = await api.list_runs();
         draw_list(runs, open_id());
@@ -87,7 +89,7 @@ async function look() {
     } finally {
         looking = false;
         if (again) look_soon();
-        else if (busy) look_soon(look_again);
+        else if (busy) look_soon(Math.max(look_again, (performance.now() - began) / most_share));
     }
 }
 

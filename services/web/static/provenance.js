@@ -62,7 +62,7 @@ function asked_for(run, row, steps) {
     const trigger = run.triggers.find(({ name }) => name && name === row.trigger);
     const firing = trigger?.firings.find((each) => Math.abs(each.transfer_time - row.transfer_time) < 1e-6);
     const variant = run.study?.variants?.find(({ name }) => name === row.variant);
-    const lines = [["transfer asked for by", firing ? `trigger ${trigger.name} (${trigger.kind})` : row.trigger || "a time of the study"]];
+    const lines = [["transfer asked for by", firing ? `trigger ${trigger.name} (${trigger.kind})` : "a time of the study"]];
     if (firing) {
         const [moment] = moments([{ ...trigger, firings: [firing] }]);
         if (moment) lines.push(["fired", moment.label]);

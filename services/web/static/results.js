@@ -101,7 +101,7 @@ function fill_row(row, values) {
     show_state(state.firstElementChild, values.reused ? "cached" : values.state);
     state.title = values.reason ?? "";
     for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
-    set_text(row.children[row.children.length - 2], values.trigger ?? "");
+    set_text(row.children[row.children.length - 2], values.trigger === "at_time" ? "study" : values.trigger ?? "");
     row.lastElementChild.firstElementChild.setAttribute("aria-label", `Where the numbers at t_T = ${number(values.transfer_time)} s ` +
                                                                       `${values.variant} come from`);
     row.classList.toggle("waiting", is_active(values.state));

@@ -81,6 +81,7 @@ export class SubmitDialog {
             by_id("plan").scrollIntoView({ block: "nearest" });
             by_id("plan").focus({ preventScroll: true });
         } catch (fault) {
+            for (const one of fault.faults ?? []) one.pointer = `/scene${one.pointer}`; // what was sent is a part of the study
             this.refuse(fault);
         }
     }
@@ -113,7 +114,7 @@ export class SubmitDialog {
     refuse(fault) {
         const faults = fault.faults ?? [];
         const count = faults.length === 1 ? "1 fault" : `${faults.length} faults`;
-        set_text(by_id("fault-title"), faults.length ? `${fault.message} (${count})` : fault.message);
+        set_text(by_id("fault-title"), faults.length && !/\d fault/.test(fault.message) ? `${fault.message} (${count})` : fault.message);
         by_id("fault-list").replaceChildren(...faults.map((one) => element("li", {},
             this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause}`, one.remedy ? element("span", { class: "remedy" }, one.remedy) : null)));
         by_id("faults").hidden = false;
