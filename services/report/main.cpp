@@ -6,6 +6,7 @@
 #include "services/report/element_test_figures.hpp"
 #include "services/report/run_report.hpp"
 #include "services/report/stability_figures.hpp"
+#include "services/report/transfer_figures.hpp"
 
 namespace {
 
@@ -39,8 +40,13 @@ ExitCode guarded(const std::filesystem::path& source, const Work& work) {
 /// Figures of one phase's folder.
 struct OnePhase {
     CLI::App* command;
-    std::vector<breach::report::Figure> (*figures)(const std::filesystem::path& folder);
+    void (*write)(const std::filesystem::path& folder, const std::filesystem::path& output);
 };
+
+template <auto figures>
+void write_figures_of(const std::filesystem::path& folder, const std::filesystem::path& output) {
+    breach::report::write_figures(output, figures(folder));
+}
 
 }  // namespace
 
@@ -61,8 +67,11 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     const OnePhase single[] = {
         {app.add_subcommand("element-test", "figures of fem_solver element-test"),
-         report::element_test_figures},
-        {app.add_subcommand("stability", "figures of lem_tool"), report::stability_figures}};
+         write_figures_of<report::element_test_figures>},
+        {app.add_subcommand("stability", "figures of lem_tool"),
+         write_figures_of<report::stability_figures>},
+        {app.add_subcommand("transfer", "figures of transfer_tool, before and after side by side"),
+         report::write_transfer_figures}};
     for (const OnePhase& each : single) {
         each.command->add_option("folder", folder, "output folder of the phase")->required();
         each.command->add_option("--output", output, "folder for figures, made if absent")
@@ -78,7 +87,7 @@ int main(int argc, char** argv) {
     }
     return static_cast<int>(guarded(folder, [&] {
         for (const OnePhase& each : single) {
-            if (*each.command) return report::write_figures(output, each.figures(folder));
+            if (*each.command) return each.write(folder, output);
         }
         report::write_report(report::document_of(report::read_run(folder), choice), output);
     }));
