@@ -331,7 +331,8 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         const double rate = iteration == 0 ? 0.1 : residual / before;
         const double wanted = std::log(settings_.tolerance / residual);
         const bool slow = rate >= 1.0 || wanted / std::log(rate) > 2.0 * worth_of_matrix;
-        matrix = slow && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
+        const bool worth = slow && (!sand || residual > worst_jump * settings_.tolerance);
+        matrix = worth && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
         before = residual;
         ++counts_.iterations;
         correct(trial);
