@@ -1,5 +1,6 @@
 #include "fem_solver/snapshot.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace breach::fem {
@@ -58,6 +59,14 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         s.stress.push_back(motion.points[p].sigma);
         s.epsilon_q.push_back(mechanics::epsilon_q(motion.strain[p]));
         s.epsilon_q_plastic.push_back(motion.points[p].epsilon_q);
+    }
+    // PM4Sand has no elastic range to tell plastic strain from: its total strain drives softening.
+    for (const Zone& zone : model.zones) {
+        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        const std::size_t begin = zone.first * model.points_per_element;
+        const std::size_t end =
+            std::min(points, (zone.first + zone.count) * model.points_per_element);
+        for (std::size_t p = begin; p < end; ++p) s.epsilon_q_plastic[p] = s.epsilon_q[p];
     }
     return s;
 }
