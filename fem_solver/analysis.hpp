@@ -57,6 +57,7 @@ class Analysis {
     Position position_;
     Motion motion_, trial_;
     Beginning beginning_;
+    Eigen::VectorXd stage_force_;  ///< internal force when the static stage began [N]
     Prediction prediction_;
     std::vector<materials::Law> laws_;
     std::optional<Newton> newton_;

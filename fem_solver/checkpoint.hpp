@@ -33,6 +33,7 @@ struct Checkpoint {
     Position position;
     Motion motion;
     Beginning beginning;
+    Eigen::VectorXd stage_force;  ///< internal force when the static stage began [N]
     NewtonMemory newton;
     NewtonCounts counts;
     std::vector<Reading> history;

@@ -10,14 +10,15 @@ Prediction prediction_for(const Model& model) {
 }
 
 NewtonOutcome static_step(Newton& newton, const Model& model,
-                          const std::vector<materials::Law>& laws, double load, const Motion& old,
-                          Prediction& prediction, Motion& trial) {
+                          const std::vector<materials::Law>& laws, double load,
+                          const Eigen::VectorXd& start, const Motion& old, Prediction& prediction,
+                          Motion& trial) {
     trial.u = old.u;
     trial.p = old.p;
     trial.p_rate = old.p_rate;
     prediction.external = model.external_force;
     add_pressure_force(model, old.p, prediction.external);
-    prediction.external *= load;
+    prediction.external = load * prediction.external + (1.0 - load) * start;
     return newton.solve({laws, old, TimeRule{}, prediction.external, old.u, old.v, old.p_rate},
                         trial);
 }

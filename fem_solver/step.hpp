@@ -21,11 +21,13 @@ struct Prediction {
 
 Prediction prediction_for(const Model& model);
 
-/// Equilibrium under `load` times the external force and the force of the pore pressure, which a
-/// static step does not change. trial starts at old.u; velocities stay zero.
+/// Equilibrium when a share `load` of the way from the force `start` [N] to the external force and
+/// that of the pore pressure, which a static step does not change, has been gone. trial starts at
+/// old.u; velocities stay zero.
 NewtonOutcome static_step(Newton& newton, const Model& model,
-                          const std::vector<materials::Law>& laws, double load, const Motion& old,
-                          Prediction& prediction, Motion& trial);
+                          const std::vector<materials::Law>& laws, double load,
+                          const Eigen::VectorXd& start, const Motion& old, Prediction& prediction,
+                          Motion& trial);
 
 /// From `old` over dt to time `end` [s]: Newmark (1959) in displacement form for u, its first-order
 /// analogue p_1 = p_0 + dt ((1 - gamma) p'_0 + gamma p'_1) for p.

@@ -119,8 +119,8 @@ double cook_deflection(int n, double nu) {
     const Motion old = at_rest(model);
     Motion trial = old;
     Prediction prediction = prediction_for(model);
-    static_step(newton, model, laws_for(model, scene::StageLaws::elastic), 1.0, old, prediction,
-                trial);
+    static_step(newton, model, laws_for(model, scene::StageLaws::elastic), 1.0, old.force, old,
+                prediction, trial);
     return trial.u[static_cast<Eigen::Index>(2 * nearest_node(model.mesh, {48, 60}) + 1)];
 }
 

@@ -30,9 +30,11 @@ double limit_pressure(int per_metre) {
     const auto laws = laws_for(model, scene::StageLaws::scene);
     Motion motion = at_rest(model), trial = motion;
     Prediction prediction = prediction_for(model);
+    const Eigen::VectorXd no_force = Eigen::VectorXd::Zero(model.dofs());
     double q = 0.0, step = 1.0;
     while (step > 0.002 * 5.0) {
-        const auto outcome = static_step(newton, model, laws, q + step, motion, prediction, trial);
+        const auto outcome =
+            static_step(newton, model, laws, q + step, no_force, motion, prediction, trial);
         if (outcome.end == NewtonOutcome::End::converged) {
             std::swap(motion, trial);
             q += step;

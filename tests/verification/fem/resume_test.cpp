@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Kinematics, Resume,
 TEST(Checkpoint, OfAnotherSceneIsRefused) {
     bench::Run run(failing_column(scene::Kinematics::small_strain));
     const Analysis& a = run.go();
-    const Checkpoint checkpoint{a.position(), a.motion(), a.beginning(), {}, {}, a.history()};
+    const Checkpoint checkpoint{a.position(), a.motion(), a.beginning(), {}, {}, {}, a.history()};
     exchange::Archive archive = checkpoint_archive(checkpoint, run.session().scene());
     json other = failing_column(scene::Kinematics::small_strain);
     other["materials"]["soil"]["density"] = 1999;
