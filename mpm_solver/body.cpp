@@ -64,6 +64,25 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     return body;
 }
 
+void refuse_buried_points(const Body& body, const std::string& file) {
+    const Grid& grid = body.grid;
+    const Points& points = body.points;
+    if (!grid.terrain) return;
+    std::size_t buried = 0;
+    Vec2 first = Vec2::Zero();
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (grid.terrain->distance({points.x[p], points.y[p]}) >= -1e-6 * grid.h) continue;
+        if (buried++ == 0) first = {points.x[p], points.y[p]};
+    }
+    if (buried == 0) return;
+    throw fault::BadInput(
+        file, {{"/mpm/terrain",
+                std::to_string(buried) + " of " + std::to_string(points.size()) +
+                    " points lie below the terrain, the first at (" + std::to_string(first.x()) +
+                    ", " + std::to_string(first.y()) + ") m",
+                "lower the terrain there, or cut the section at it"}});
+}
+
 double wave_speed(const Body& body) {
     double fastest = 0.0;
     for (const Zone& zone : body.zones) {

@@ -68,6 +68,9 @@ struct Body {
 /// lies outside the grid.
 Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file);
 
+/// Throws BadInput (naming `file`) if a point lies below the terrain.
+void refuse_buried_points(const Body& body, const std::string& file);
+
 /// Kernel of the point's scatter and gather.
 template <class Kernel>
 Kernel kernel_of(const Body& body);

@@ -15,6 +15,25 @@ double friction_at(const std::vector<scene::FrictionZone>& zones, double x, doub
     return coefficient;
 }
 
+/// Nodes within half a cell of the terrain, and all below it, feel it (mpm.md, section 5).
+void lay_terrain(Grid& grid, const scene::Mpm& mpm) {
+    grid.terrain.emplace(mpm.terrain);
+    grid.contact_of.assign(grid.conditions.size(), 0);
+    for (std::int32_t i = 0; i < grid.columns; ++i) {
+        const double x = grid.origin.x() + i * grid.h;
+        const double friction =
+            mpm.floor.friction.empty() ? std::numeric_limits<double>::infinity() : grid.friction[i];
+        for (std::int32_t j = 0; j < grid.rows; ++j) {
+            const Vec2 node{x, grid.origin.y() + j * grid.h};
+            const auto contact = grid.terrain->contact(node, 0.5 * grid.h, friction);
+            if (!contact) continue;
+            grid.conditions[i * grid.rows + j] |= condition::terrain;
+            grid.contact_of[i * grid.rows + j] = static_cast<std::int32_t>(grid.contacts.size());
+            grid.contacts.push_back(*contact);
+        }
+    }
+}
+
 std::uint8_t wall_condition(scene::Wall wall) {
     switch (wall) {
         case scene::Wall::roller:
@@ -63,6 +82,7 @@ Grid make_grid(const scene::Mpm& mpm) {
         grid.conditions[grid.rows + j] |= wall_condition(mpm.left);
         grid.conditions[(cells_x + 1) * grid.rows + j] |= wall_condition(mpm.right);
     }
+    if (!mpm.terrain.empty()) lay_terrain(grid, mpm);
     grid.mass.assign(n, 0.0);
     grid.motion.assign(n, Lane::Zero());
     grid.is_stencil.assign(n, 0);

@@ -7,10 +7,10 @@
 
 #include "core/scene/scene.hpp"
 #include "mpm_solver/kernel.hpp"
+#include "mpm_solver/terrain.hpp"
 
 namespace breach::mpm {
 
-using mechanics::Vec2;
 /// Four numbers of a node that are scattered and gathered together.
 using Lane = Eigen::Array4d;
 
@@ -18,7 +18,8 @@ using Lane = Eigen::Array4d;
 namespace condition {
 constexpr std::uint8_t hold_x = 1;
 constexpr std::uint8_t hold_y = 2;
-constexpr std::uint8_t floor = 4;  ///< unilateral in y, Coulomb friction in x
+constexpr std::uint8_t floor = 4;    ///< unilateral in y, Coulomb friction in x
+constexpr std::uint8_t terrain = 8;  ///< a Contact
 }  // namespace condition
 
 /// Nodes are stored column by column (y fastest), with one ghost row around the domain.
@@ -34,6 +35,9 @@ struct Grid {
     WallRows walls_y;
     std::vector<std::uint8_t> conditions;  ///< per node
     std::vector<double> friction;          ///< coefficient of the floor per column [-]
+    std::optional<Terrain> terrain;
+    std::vector<Contact> contacts;         ///< of the nodes that feel the terrain
+    std::vector<std::int32_t> contact_of;  ///< per node, index into contacts; empty without terrain
 
     // scattered by particle_to_grid
     std::vector<double> mass;  ///< [kg]

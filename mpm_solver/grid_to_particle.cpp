@@ -144,6 +144,9 @@ void hold_velocities(Grid& grid) {
         v /= grid.mass[node];
         const std::uint8_t must = grid.conditions[node];
         if (must & condition::floor) v[1] = std::max(v[1], 0.0);
+        if (must & condition::terrain) {
+            v.head<2>() = kept_out(grid.contacts[grid.contact_of[node]], {v[0], v[1]}).array();
+        }
         if (must & condition::hold_x) v[0] = 0.0;
         if (must & condition::hold_y) v[1] = 0.0;
     }

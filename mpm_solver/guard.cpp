@@ -74,6 +74,16 @@ std::optional<std::string> step_complaint(const Body& body, const Limits& limits
     return std::nullopt;
 }
 
+std::optional<std::string> ground_complaint(const Body& body) {
+    if (!body.grid.terrain) return std::nullopt;
+    const Points& points = body.points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (body.grid.terrain->distance({points.x[p], points.y[p]}) >= -body.grid.h) continue;
+        return place(points, p) + " sank into the terrain; try smaller cells or /mpm/cfl";
+    }
+    return std::nullopt;
+}
+
 std::optional<std::string> budget_complaint(const Limits& limits, const Energy& start,
                                             const Energy& now, double volume_ratio) {
     const double gain = -numerical_loss(start, now);

@@ -22,6 +22,9 @@ Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start);
 /// After every step: lost point, NaN, runaway velocity. Empty when all is well.
 std::optional<std::string> step_complaint(const Body& body, const Limits& limits);
 
+/// At every look: a point that sank a cell deep into the terrain. Empty when there is none.
+std::optional<std::string> ground_complaint(const Body& body);
+
 /// At every look: energy gained from nowhere, swollen or vanished volume.
 std::optional<std::string> budget_complaint(const Limits& limits, const Energy& start,
                                             const Energy& now, double volume_ratio);

@@ -126,6 +126,13 @@ void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
 
 void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {
     const bool slips = !mpm.floor.friction.empty();
+    if (!mpm.terrain.empty()) {
+        plan.push_back({"terrain", Use::on,
+                        std::to_string(mpm.terrain.size()) +
+                            " vertices, felt by nodes within half "
+                            "a cell; the floor lies below and is never touched",
+                        "/mpm/terrain"});
+    }
     plan.push_back(
         {"floor friction", slips ? Use::on : Use::left_out,
          slips ? std::to_string(mpm.floor.friction.size()) + " zones, evaluated at floor nodes only"

@@ -92,9 +92,13 @@ void write_profile(Session& session, const Simulation& simulation) {
     const std::vector<Flow> profile = simulation.profile();
     std::ostringstream table;
     table.precision(10);
-    table << "x_m,depth_m,velocity_m_per_s\n";
+    const Grid& grid = simulation.body().grid;
+    const double floor = session.scene().mpm->floor.level;
+    table << "x_m,ground_m,depth_m,velocity_m_per_s\n";
     for (std::size_t k = 0; k < places.size(); ++k) {
-        table << places[k] << "," << profile[k].depth << "," << profile[k].velocity << "\n";
+        const double ground = grid.terrain ? grid.terrain->level(places[k]) : floor;
+        table << places[k] << "," << ground << "," << profile[k].depth << "," << profile[k].velocity
+              << "\n";
     }
     const auto file = session.output("profile.csv");
     exchange::publish_text(file, table.str());

@@ -30,19 +30,25 @@ void log_sampling(const std::vector<SampledRegion>& regions) {
     }
 }
 
+Body fresh_body(const scene::Scene& scene, const exchange::ParticleState& state,
+                const std::string& source) {
+    Body body = make_body(scene, zoned_points(scene, state, source), source);
+    refuse_buried_points(body, source);
+    return body;
+}
+
 Simulation begin(const Session& session) {
     const scene::Scene& scene = session.scene();
     if (session.settings().inputs.empty()) {
         const FilledSection filled = fill_section(scene);
         log_sampling(filled.regions);
         const std::string source = scene.name + " (section filled with points)";
-        return {scene, make_body(scene, zoned_points(scene, filled.state, source), source), 0.0};
+        return {scene, fresh_body(scene, filled.state, source), 0.0};
     }
     const exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
     const std::string source = session.input().string();
     log_sampling(sampling_of(scene, state));
-    return {scene, make_body(scene, zoned_points(scene, state, source), source),
-            state.transfer_time};
+    return {scene, fresh_body(scene, state, source), state.transfer_time};
 }
 
 Simulation begin_or_resume(Session& session) {

@@ -105,6 +105,7 @@ const Row& Simulation::look() {
     if (const auto complaint = budget_complaint(limits_, start_.energy, now, row.volume_ratio)) {
         break_down(*complaint);
     }
+    if (const auto complaint = ground_complaint(body_)) break_down(*complaint);
     const double interval = mpm_.telemetry_interval;
     clock_.looks =
         interval > 0.0 ? static_cast<std::int64_t>(std::floor(clock_.time / interval)) + 1 : 0;

@@ -38,6 +38,9 @@ void update_momentum(Body& body, double dt) {
             if (must & condition::floor) {
                 friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);
             }
+            if (must & condition::terrain) {
+                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);
+            }
             if (must & condition::hold_x) v.x() = 0.0;
             if (must & condition::hold_y) v.y() = 0.0;
         }

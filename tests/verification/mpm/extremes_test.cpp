@@ -94,5 +94,50 @@ TEST(Extremes, ParticlesExactlyOnNodesAndWallsStayWhole) {
     }
 }
 
+TEST(Extremes, ASinglePointFallsLandsAndStays) {
+    scene::Scene scene =
+        one_soil(sand(5e6, 0.3, 1e3, 30.0), 1800.0, rectangle(4, 2, 5, 3), 1.0, 10.0, 5.0);
+    scene.gravity = 9.81;
+    scene.mpm->floor.friction = {{0.0, 10.0, 0.5}};
+    scene.mpm->fill_points = 1;
+    Body body = filled_body(scene);
+    ASSERT_EQ(body.points.size(), 1U);
+    const Limits limits = limits_of(body, *scene.mpm, energy_of(body));
+    advance(body, scene, 0.4, [&](double) { require_whole(body, limits); });
+    // 2 %: the step is 1.6 % of the fall, and positions take the velocity at its end.
+    // The floor is felt from the cell above it on: y = 1.5 is reached after 0.45 s.
+    expect_error_within("fall in 0.4 s / (g t^2 / 2)",
+                        (2.5 - body.points.y[0]) / (0.5 * 9.81 * 0.16) - 1.0, 0.02);
+    advance(body, scene, 5.0, [&](double) { require_whole(body, limits); });
+    EXPECT_NEAR(body.points.x[0], 4.5, 1e-9);
+    EXPECT_GE(body.points.y[0], 0.0);
+    EXPECT_LT(body.points.y[0], 1.0);
+}
+
+TEST(Extremes, NothingMovesInAThousandSecondsWithoutGravity) {
+    scene::Scene scene =
+        one_soil(sand(1e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 4, 2), 1.0, 8.0, 4.0);
+    scene.mpm->fill_points = 2;
+    Body body = filled_body(scene);
+    const Points start = body.points;
+    advance(body, scene, 1000.0);
+    for (std::size_t p = 0; p < start.size(); ++p) {
+        EXPECT_EQ(body.points.x[p], start.x[p]);
+        EXPECT_EQ(body.points.y[p], start.y[p]);
+    }
+}
+
+TEST(Extremes, HeapOnAValleyOfSixtyDegreesStaysWhole) {
+    scene::Scene scene = one_soil(sand(5e6, 0.3, 1e3, 30.0), 1800.0,
+                                  {{1.0, 16.0}, {5.0, 9.1}, {5.0, 16.0}}, 0.5, 30.0, 20.0);
+    scene.gravity = 9.81;
+    scene.mpm->terrain = {{0.0, 17.8}, {10.0, 0.5}, {20.0, 17.8}};
+    for (const double mu : {0.0, 0.3}) {
+        scene.mpm->floor.friction = {{0.0, 30.0, mu}};
+        const Body body = whole_after(scene, 3.0);
+        EXPECT_FALSE(ground_complaint(body)) << *ground_complaint(body);
+    }
+}
+
 }  // namespace
 }  // namespace breach::mpm::test

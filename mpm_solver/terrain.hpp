@@ -1,0 +1,59 @@
+// The ground that soil runs on, as a polyline that cuts square cells: which nodes feel it, and with
+// which normals.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/scene/polygon.hpp"
+
+namespace breach::mpm {
+
+using mechanics::Vec2;
+
+/// What a node of the terrain must obey: v . normal >= 0 for one normal, or for the two of a
+/// valley, with Coulomb friction along each.
+struct Contact {
+    Vec2 normal;
+    std::optional<Vec2> second;
+    double friction;  ///< [-]; infinite: the ground holds the soil
+};
+
+class Terrain {
+  public:
+    /// `profile` ascends in x; its first and last edge go on beyond its ends.
+    explicit Terrain(const std::vector<Vec2>& profile);
+
+    /// y of the ground at x [m].
+    double level(double x) const;
+    /// Distance from the ground, positive above [m].
+    double distance(const Vec2& place) const;
+
+    /// Contact of a node that lies at most `reach` above the ground, or anywhere below it; none
+    /// further up. In a valley that reaches it from both sides a node has both slopes' normals; on
+    /// a ridge one that turns from the left slope's to the right one's within `reach` of the kink.
+    std::optional<Contact> contact(const Vec2& node, double reach, double friction) const;
+
+  private:
+    struct Edge {
+        Vec2 from;
+        Vec2 to;
+        Vec2 normal;  ///< upwards
+    };
+    /// Edges that may be nearest to a place: those with x within `width` of it.
+    std::pair<std::size_t, std::size_t> beside(double x, double width) const;
+    bool near(const Vec2& place, double reach) const;
+    Vec2 ridge_normal(const Vec2& node, double nearest, double reach) const;
+
+    std::vector<Edge> edges_;
+};
+
+/// The velocity that the contact leaves of v, and the work that friction takes: impulse x (v_before
+/// + v) / 2 [J], exact for the node's kinetic energy.
+double rub(const Contact& contact, double m, const Vec2& v_before, Vec2& v);
+
+/// The part of v that does not enter the ground, without friction.
+Vec2 kept_out(const Contact& contact, const Vec2& v);
+
+}  // namespace breach::mpm
