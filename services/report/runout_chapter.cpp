@@ -4,6 +4,7 @@
 
 #include "services/report/chapters.hpp"
 #include "services/report/particle_figures.hpp"
+#include "services/report/transfer_figures.hpp"
 
 namespace breach::report {
 
@@ -76,6 +77,30 @@ Figure runout_against_time(const Material& from) {
     return figure;
 }
 
+/// Before and after, from the snapshot of the run's FEM at the transfer time; without that snapshot
+/// nothing is added, and why is noted.
+void add_before_and_after(const Material& from, const PhaseFolder& transfer,
+                          const exchange::ParticleState& points, Chapter& chapter,
+                          Document& document) {
+    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
+    for (const TimedFile& each :
+         fem ? timed_files(fem->files, "snapshot_") : std::vector<TimedFile>{}) {
+        if (std::abs(each.time - points.transfer_time) > 1e-6) continue;
+        const auto mesh = exchange::read_mesh_snapshot(each.file).snapshot;
+        for (BeforeAndAfter& pair : compare(mesh, points, layers_of(transfer.scene))) {
+            chapter.figures.push_back(std::move(pair.before));
+            chapter.figures.push_back(std::move(pair.after));
+        }
+        if (points.r_u.empty()) {
+            document.left_out.push_back(
+                {"liquefied zone before and after the transfer", "the points carry no r_u: dry"});
+        }
+        return;
+    }
+    document.left_out.push_back({"fields before and after the transfer",
+                                 "the run has no snapshot at " + of_transfer(transfer)});
+}
+
 std::vector<const PhaseFolder*> first_runouts(const Run& run) {
     for (const std::string& variant : variants_of(run)) {
         if (auto found = runouts_of(run, variant); !found.empty()) return found;
@@ -118,6 +143,7 @@ void add_transfer(const Material& from, Document& document) {
                                           "Material points at " + of_transfer(*shown)),
                        points_by_strain(file.state, "points_at_transfer_epsilon_q",
                                         "epsilon_q of the points at " + of_transfer(*shown))};
+    add_before_and_after(from, *shown, file.state, chapter, document);
     document.chapters.push_back(std::move(chapter));
 }
 

@@ -106,23 +106,6 @@ BeforeAndAfter pair_of(const Quantity& q, const MeshSnapshot& mesh,
     return pair;
 }
 
-LayerColours layers_of(const json& scene) {
-    LayerColours layers;
-    const json liquefied = scene.at("transfer").value("liquefied", json::object());
-    if (liquefied.empty()) return layers;
-    layers.r_u = liquefied.at("r_u");
-    for (const json& layer : liquefied.at("layers")) {
-        layers.ends.push_back(1e3 * layer.at("sigma_v0_kPa").at(1).get<double>());
-        const std::string made =
-            layer.contains("material")
-                ? layer.at("material").get<std::string>()
-                : liquefied.at("residual_strength").at("like").get<std::string>() + "_" +
-                      std::to_string(layers.ends.size());
-        layers.materials.push_back(made);
-    }
-    return layers;
-}
-
 /// The snapshot that the particles were made from.
 MeshSnapshot snapshot_of(const std::filesystem::path& folder,
                          const exchange::Provenance& provenance) {
@@ -159,6 +142,23 @@ double size_of(const std::string& svg, const std::string& attribute) {
 }
 
 }  // namespace
+
+LayerColours layers_of(const json& scene) {
+    LayerColours layers;
+    const json liquefied = scene.at("transfer").value("liquefied", json::object());
+    if (liquefied.empty()) return layers;
+    layers.r_u = liquefied.at("r_u");
+    for (const json& layer : liquefied.at("layers")) {
+        layers.ends.push_back(1e3 * layer.at("sigma_v0_kPa").at(1).get<double>());
+        const std::string made =
+            layer.contains("material")
+                ? layer.at("material").get<std::string>()
+                : liquefied.at("residual_strength").at("like").get<std::string>() + "_" +
+                      std::to_string(layers.ends.size());
+        layers.materials.push_back(made);
+    }
+    return layers;
+}
 
 std::vector<BeforeAndAfter> compare(const MeshSnapshot& mesh, const ParticleState& points,
                                     const LayerColours& layers) {

@@ -2,6 +2,8 @@
 // the mesh (before) and on the points (after), with the same colours.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
 #include "services/report/figure.hpp"
@@ -14,6 +16,10 @@ struct LayerColours {
     std::vector<double> ends;            ///< of each layer [Pa]
     std::vector<std::string> materials;  ///< of each layer
 };
+
+/// Those of a completed scene; none when nothing liquefies in it. Throws nlohmann's exception when
+/// the scene is not whole.
+LayerColours layers_of(const nlohmann::json& scene);
 
 /// A pair of figures: before and after.
 struct BeforeAndAfter {
