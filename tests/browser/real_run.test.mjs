@@ -156,9 +156,62 @@ test("a task's log and files are there, and a file is what its hash says", async
     assert.ok(matches);
 });
 
+test("a number is traced to its files, and the files are what they are said to be", async () => {
+    const [run] = (await answer_of("/v1/runs")).runs;
+    const [row] = (await answer_of(`/v1/runs/${run.id}/results`)).rows;
+    await page.click(`#runout-rows tr[data-key="${row.transfer_time}/"] [data-column="runout"]`);
+    await page.waitForSelector("#provenance[open] .step:nth-of-type(3)");
+    assert.match(await text_of("#provenance-where"), new RegExp(`Exactly ${row.runout}: .*${row.mpm_task}`));
+    const transfer = await answer_of(`/v1/tasks/${row.transfer_task}`);
+    const points = transfer.artifacts.find((file) => file.name === "particles.vtkhdf");
+    const mpm = page.locator("#provenance .step").first();
+    assert.ok((await mpm.locator("li code").allTextContents()).includes(points.sha256), "the MPM's input is the transfer's output");
+    await mpm.locator("summary").click();
+    const file = await mpm.locator('tr:has-text("result.json") a').getAttribute("href");
+    assert.equal((await answer_of(file)).runout, row.runout);
+    await page.keyboard.press("Escape");
+    assert.equal(await page.locator("#cost-share svg.plot > .marker").count(), study.transfer_times.length);
+});
+
+test("the database has the run's rows", async () => {
+    await page.click('a[href="#/database"]');
+    await until("the run", async () => /browser-column/.test(await text_of("#database-table tbody")));
+    await page.click("[data-table=tasks]");
+    await until("its tasks", async () => (await page.locator("#database-table tbody tr").count()) === 1 + 2 * study.transfer_times.length);
+    await page.click("[data-table=events]");
+    await until("events", async () => (await page.locator("#database-table tbody tr").count()) > 20);
+    await page.goBack();
+    await page.click("#run-list a");
+});
+
+test("variants are curves of their own, and a trigger's threshold and firing are drawn", async () => {
+    const several = structuredClone(study);
+    const friction = (coefficient) => [`/mpm/floor/friction/0/coefficient=${coefficient}`];
+    Object.assign(several, { name: "two-floors", title: "Weak and strong floor", transfer_times: [0.5],
+        triggers: [{ kind: "criterion", name: "strained", when: "epsilon_q_avg > 0.05" }],
+        variants: [{ name: "weak", overrides: friction(0.3) }, { name: "strong", overrides: friction(0.6) }] });
+    await page.click("nav [data-opens=submit]");
+    await page.fill("#study", JSON.stringify(several));
+    await page.click("#submit");
+    await until("its title", async () => (await text_of("#run-title")) === several.title);
+    await until("the end of the run", async () => /succeeded/.test(await text_of("#run-state")), 120000);
+    await until("two curves of two points", async () => (await markers()) === 2 &&
+        (await page.locator("#runout-plot svg.plot > .marker.series-1").count()) === 2);
+    await until("the threshold", async () => (await page.locator("#telemetry-plots .level-text").allTextContents()).join() === "strained 0.05");
+    assert.ok((await page.locator("#telemetry-plots .event-text").count()) >= 4);
+    const [weak, strong] = (await answer_of(`/v1/runs/${page.url().split("/").at(-1)}/results`)).rows
+        .filter((row) => row.transfer_time === 0.5).sort((a, b) => b.runout - a.runout);
+    assert.deepEqual([weak.variant, strong.variant], ["weak", "strong"]);
+    await page.selectOption("#telemetry-source", { label: "MPM from t_T = 0.5 s, strong" });
+    await until("the front's curve", async () =>
+        (await page.locator("#telemetry-plots figcaption").allTextContents()).includes("Front"));
+    await screenshot(page, "real_variants");
+    await page.click("#run-list li:last-child a");
+    await until("the first run again", async () => (await text_of("#run-title")) === study.title);
+});
+
 test("the finished run is photographed, light and dark", async () => {
     await page.click(`#runout-rows tr[data-key="${study.transfer_times[1]}/"] button`);
-    await page.click("#task-close");
     for (const theme of ["light", "dark"]) {
         while ((await page.getAttribute("html", "data-theme")) !== theme) await page.click("#theme");
         await until("soil", async () => (await canvas_facts(page)).share > 0.02);

@@ -229,10 +229,17 @@ export class PointView {
         }
     }
 
-    shade_of([a, b, c, d], shades) {
-        const least = Math.min(shades[a], shades[b], shades[c], shades[d]);
-        if (this.colour.named || least < 0) return least;
-        return Math.round((shades[a] + shades[b] + shades[c] + shades[d]) / 4);
+    /// Of the corners that have one; -1 when none has.
+    shade_of(corners, shades) {
+        let [sum, known, least] = [0, 0, 256];
+        for (const corner of corners) {
+            if (shades[corner] < 0) continue;
+            sum += shades[corner];
+            known += 1;
+            least = Math.min(least, shades[corner]);
+        }
+        if (known === 0) return -1;
+        return this.colour.named ? least : Math.round(sum / known);
     }
 
     /// [device pixels], of a sample.
