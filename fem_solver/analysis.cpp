@@ -47,7 +47,8 @@ Analysis::Analysis(process::Session& session, Model model)
       model_(std::move(model)),
       motion_(at_rest(model_)),
       trial_(motion_),
-      crest_node_(nearest_node(model_.mesh, fem_.crest)) {
+      crest_node_(nearest_node(model_.mesh, fem_.crest)),
+      watch_(fem_, model_) {
     for (const Stage& stage : fem_.stages) span_ += stage.duration;
     prediction_ = prediction_for(model_);
     const bool resumed = session.settings().start == process::Start::resume &&

@@ -5,6 +5,7 @@
 #include "core/process/phase.hpp"
 #include "fem_solver/checkpoint.hpp"
 #include "fem_solver/step.hpp"
+#include "fem_solver/watch.hpp"
 
 namespace breach::fem {
 
@@ -65,6 +66,7 @@ class Analysis {
     Distortion distortion_;
     std::vector<Reading> history_;
     std::size_t crest_node_;
+    Watch watch_;
     double step_error_ = 0.0;          ///< of the last step [m]
     double span_ = 0.0;                ///< all dynamic stages [s]
     double checkpoint_written_ = 0.0;  ///< wall clock [s]

@@ -20,6 +20,7 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
         const Stopwatch watch(seconds_.output);
         Reading reading =
             read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
+        watch_.read(model_, motion_, beginning_, reading);
         reading.step = static_cast<double>(position_.step);
         reading.time = position_.time;
         reading.dt = dt;
@@ -179,6 +180,8 @@ void Analysis::report_facts(const std::string& end) {
     if (!motion_.hourglass.empty()) {
         facts["hourglass"] = hourglass_facts(model_, motion_, position_.internal_work);
     }
+    spdlog::info("seconds: assembly {:.2f}, law {:.2f}, solve {:.2f}, output {:.2f}",
+                 seconds_.assembly, seconds_.law, seconds_.solve, seconds_.output);
     facts["seconds"] = {{"assembly", seconds_.assembly},
                         {"law", seconds_.law},
                         {"solve", seconds_.solve},

@@ -28,6 +28,10 @@ const std::vector<Column>& columns() {
         {"epsilon_q_max", "1", &R::epsilon_q_max},
         {"strained_share", "1", &R::strained_share},
         {"softened_share", "1", &R::softened_share},
+        {"excess_pressure_avg", "Pa", &R::excess_pressure_avg},
+        {"r_u_max", "1", &R::r_u_max},
+        {"liquefaction_depth", "m", &R::liquefaction_depth},
+        {"failure_surfaces", "1", &R::failure_surfaces},
     };
     return all;
 }
@@ -124,6 +128,7 @@ nlohmann::json telemetry_line(const Reading& reading) {
     nlohmann::json line{{"phase", "fem_solver"}};
     for (const Column& column : columns()) line[column.name] = reading.*column.member;
     line["step"] = static_cast<std::int64_t>(reading.step);
+    line["failure_surfaces"] = static_cast<std::int64_t>(reading.failure_surfaces);
     line["iterations"] = static_cast<std::int64_t>(reading.iterations);
     return line;
 }

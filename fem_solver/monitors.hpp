@@ -42,7 +42,12 @@ struct Reading {
     double epsilon_q_max = 0.0;  ///< [-]
     double strained_share =
         0.0;  ///< volume of elements with epsilon_q above the threshold over all volume [-]
-    double softened_share = 0.0;  ///< volume that has lost strength over volume that can [-]
+    double excess_pressure_avg = 0.0;  ///< u - u_0 over the nodes with a pressure unknown, weighted
+                                       ///< by mass [Pa]
+    double r_u_max = 0.0;              ///< of the watched nodes [-]
+    double liquefaction_depth = 0.0;   ///< deepest watched node above the threshold [m]
+    double failure_surfaces = 0.0;     ///< from ground to ground
+    double softened_share = 0.0;       ///< volume that has lost strength over volume that can [-]
 };
 
 struct Column {

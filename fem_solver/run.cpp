@@ -107,6 +107,8 @@ process::Plan plan(const scene::Scene& scene) {
         on_if(fem.free_field.has_value(), "free-field columns",
               "thick columns move the sides as the free field does", "the scene asks for none",
               "/fem/free_field"),
+        on_if(fem.liquefaction.has_value(), "liquefied layers",
+              "depth and r_u below the watched ground", "nothing is watched", "/fem/liquefaction"),
         on_if(!fem.surcharge.empty(), "surcharge", "on the ground", "nothing lies on the ground",
               "/fem/surcharge"),
         on_if(fem.largest_step_error > 0.0, "step size from its error",
