@@ -10,8 +10,7 @@ EMBANKMENT = {"density": 16600 / 9.81, "void_ratio": 1.20, "permeability": [1e-6
               "law": {"type": "pm4sand", "D_R": 0.55, "G_0": 677, "h_po": 0.40}}
 FOUNDATION = {"density": 18600 / 9.81, "void_ratio": 0.80, "permeability": [1e-5, 1e-5],
               "law": {"type": "pm4sand", "D_R": 0.75, "G_0": 890, "h_po": 0.63}}
-STATIC = [{"type": "static", "name": "elastic gravity", "laws": "elastic", "permeability": "free_drainage"},
-          {"type": "static", "name": "plastic gravity", "laws": "scene", "permeability": "free_drainage"}]
+STAGES = [{"type": "static", "name": "elastic gravity", "laws": "elastic", "permeability": "free_drainage"}]
 
 
 def write_motion(file, dt, velocity):
@@ -21,18 +20,16 @@ def write_motion(file, dt, velocity):
         rows.writerows([f"{k * dt:.6g}", f"{v:.9g}"] for k, v in enumerate(velocity))
 
 
-def sine(duration, ramp_up, ramp_down, dt=2e-3):
-    """0.3 g at 2 Hz as velocity, with straight ramps; ramp_down 0: none."""
+def sine(duration, ramp, dt=2e-3):
+    """0.3 g at 2 Hz as velocity, growing evenly over `ramp`."""
     v_0 = 0.3 * 9.81 / (2 * math.pi * 2)
 
-    def amplitude(t):
-        if t < ramp_up:
-            return t / ramp_up
-        return min(1.0, max(0.0, (duration - t) / ramp_down)) if ramp_down else 1.0
-    return [amplitude(k * dt) * v_0 * math.sin(4 * math.pi * k * dt) for k in range(round(duration / dt) + 1)]
+    return [min(1.0, k * dt / ramp) * v_0 * math.sin(4 * math.pi * k * dt) for k in range(round(duration / dt) + 1)]
 
 
 def scene(name, materials, regions, supports, line, motion, crest, duration, **fem):
+    """Without a plastic gravity stage: where elastic gravity leaves soil outside its surfaces (pond, faces) there is no
+    static equilibrium nearby, and 0.7 % of the weight goes into the quiet beginning of the motion."""
     dt = fem.pop("time_step", 2e-3)
     return {"format": "breachline-scene/1", "name": name, "gravity": 9.81, "materials": materials,
             "section": {"regions": regions},
@@ -41,7 +38,7 @@ def scene(name, materials, regions, supports, line, motion, crest, duration, **f
                     "base": {"density": 2243, "V_s": 760},
                     "motion": {"file": motion},
                     "newmark_beta": 4 / 9, "newmark_gamma": 5 / 6,
-                    "stages": STATIC + [{"type": "dynamic", "name": "shaking", "duration": duration,
+                    "stages": STAGES + [{"type": "dynamic", "name": "shaking", "duration": duration,
                                          "time_step": dt, "least_time_step": dt / 64}], **fem}}
 
 
@@ -50,22 +47,9 @@ def block(name, material, corners, divisions):
             "mesh": {"type": "block", "divisions": divisions}}
 
 
-def column(folder, **fem):
-    """tcl/column_pm4.tcl: 15 m of tailings over 5 m of foundation, columns of 1 m."""
-    write_motion(folder / "motion.csv", 2e-3, sine(10.0, 2.0, 2.0))
-    regions = [block("foundation", "foundation", [[0, 0], [1, 0], [1, 5], [0, 5]], [1, 5]),
-               block("tailings", "tailings", [[0, 5], [1, 5], [1, 20], [0, 20]], [1, 15])]
-    supports = [{"name": "base", "from": [0, 0], "to": [1, 0], "fixes": "xy"}]
-    result = scene("column_pm4", {"tailings": TAILINGS, "foundation": FOUNDATION}, regions, supports,
-                   [[0, 20], [1, 20]], "motion.csv", [1, 20], fem.pop("duration", 14.0),
-                   free_field={"width": 1, "thickness_factor": 1e6}, **fem)
-    (folder / "scene.json").write_text(json.dumps(result, indent=1))
-    return result
-
-
 def slope(folder, **fem):
     """tcl/slope2d.tcl: the speed anchor, 4,400 elements with the columns."""
-    write_motion(folder / "motion.csv", 2e-3, sine(5.0, 0.5, 0.0))
+    write_motion(folder / "motion.csv", 2e-3, sine(5.0, 0.5))
     top, foot = 1.0, 269 / 169  # width of a column at the pond's level and at the foundation
 
     def x(i, y):

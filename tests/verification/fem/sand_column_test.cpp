@@ -1,0 +1,158 @@
+// 20 m of PM4Sand under water over rock (tcl/column_pm4.tcl of the OpenSees reference), shaken
+// until it liquefies: what r_u must be whatever the code, and what the time step and the law's
+// scheme change. OpenSees' own histories are not in ../shared.
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "fem_solver/snapshot.hpp"
+#include "tests/verification/fem/bench.hpp"
+
+namespace breach::fem {
+namespace {
+
+using bench::expect_error;
+using nlohmann::json;
+using std::numbers::pi;
+
+constexpr int seconds = 10;
+
+json soil(double unit_weight, double void_ratio, double k_x, double k_y, json law,
+          const char* compat) {
+    law["type"] = "pm4sand";
+    law["compat"] = compat;
+    return {{"density", 1e3 * unit_weight / 9.81},
+            {"void_ratio", void_ratio},
+            {"permeability", {k_x, k_y}},
+            {"law", law}};
+}
+
+json layer(const char* name, double from, double to) {
+    return {{"name", name},
+            {"material", name},
+            {"polygon", {{0, from}, {1, from}, {1, to}, {0, to}, {0, from}}},
+            {"mesh", {{"type", "block"}, {"divisions", {1, std::lround(to - from)}}}}};
+}
+
+/// 0.3 g at 2 Hz as outcrop velocity, growing and fading over 2 s.
+void write_motion(const std::filesystem::path& file) {
+    std::ofstream out(file);
+    out << "time_s,velocity_m_s\n" << std::setprecision(12);
+    const double v_0 = 0.3 * 9.81 / (4.0 * pi);
+    for (int i = 0; i <= 500 * seconds; ++i) {
+        const double t = 2e-3 * i;
+        const double share = std::min({1.0, t / 2.0, (seconds - t) / 2.0});
+        out << t << ',' << share * v_0 * std::sin(4.0 * pi * t) << '\n';
+    }
+}
+
+json scene_of(const std::filesystem::path& motion, double dt, const char* compat) {
+    std::vector<double> times;
+    for (int i = 1; i <= 4 * seconds; ++i) times.push_back(0.25 * i);
+    const json tailings{{"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}, {"Q", 11.998}, {"R", 3.75}};
+    const json foundation{{"D_R", 0.75}, {"G_0", 890}, {"h_po", 0.63}};
+    return {{"format", "breachline-scene/1"},
+            {"name", "column_pm4"},
+            {"materials",
+             {{"tailings", soil(18.3, 0.99, 7.1e-6, 7.1e-9, tailings, compat)},
+              {"foundation", soil(18.6, 0.80, 1e-5, 1e-5, foundation, compat)}}},
+            {"section", {{"regions", {layer("foundation", 0, 5), layer("tailings", 5, 20)}}}},
+            {"fem",
+             {{"element", "ssp"},
+              {"supports", {{{"name", "base"}, {"from", {0, 0}}, {"to", {1, 0}}, {"fixes", "xy"}}}},
+              {"water", {{"line", {{0, 20}, {1, 20}}}}},
+              {"base", {{"density", 2243}, {"V_s", 760}}},
+              {"motion", {{"file", motion.string()}}},
+              {"newmark_beta", 4.0 / 9.0},
+              {"newmark_gamma", 5.0 / 6.0},
+              {"force_tolerance", 1e-7},
+              {"crest", {0, 20}},
+              {"snapshot_times", times},
+              {"stages",
+               {{{"type", "static"}, {"name", "elastic gravity"}},
+                {{"type", "static"}, {"name", "plastic gravity"}, {"laws", "scene"}},
+                {{"type", "dynamic"},
+                 {"name", "shaking"},
+                 {"duration", seconds},
+                 {"time_step", dt}}}}}}};
+}
+
+/// Left and right side move and drain alike.
+Model tied(Model model) {
+    const auto& nodes = model.mesh.nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].x() < 0.5 || nodes[i].y() < 1e-9) continue;
+        const auto right = static_cast<std::int32_t>(i);
+        const auto left = static_cast<std::int32_t>(nearest_node(model.mesh, {0.0, nodes[i].y()}));
+        tie(model.constraints.pressure_master, left, right);
+        for (int d = 0; d < 2; ++d) tie(model.constraints.master, 2 * left + d, 2 * right + d);
+    }
+    return model;
+}
+
+constexpr double levels[] = {17.5, 12.5, 6.5,
+                             2.5};  // 2.5, 7.5, 13.5 m deep in tailings; foundation
+using Row = std::array<double, 4>;
+
+/// At the middle of elements: mean excess pressure of the corners over their mean sigma'_v0.
+Row r_u(const exchange::MeshSnapshot& s) {
+    Row row{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        double excess = 0.0, sigma = 0.0;
+        for (std::size_t i = 0; i < s.position_0.size(); ++i) {
+            if (std::abs(s.position_0[i].y() - levels[k]) > 0.6) continue;
+            excess += s.pore_pressure[i] - s.pore_pressure_0[i];
+            sigma += s.sigma_v0[i];
+        }
+        row[k] = excess / sigma;
+    }
+    return row;
+}
+
+std::vector<Row> shaken(double dt, const char* compat) {
+    const bench::Folder folder;
+    write_motion(folder.path() / "motion.csv");
+    process::Session session(bench::settings_for(folder.path()),
+                             bench::parse(scene_of(folder.path() / "motion.csv", dt, compat)));
+    Analysis analysis(session, tied(bench::model_of(session.scene())));
+    analysis.run();
+    std::vector<Row> rows;
+    for (int i = 1; i <= 4 * seconds; ++i) {
+        rows.push_back(
+            r_u(exchange::read_mesh_snapshot(folder.path() / snapshot_name(0.25 * i)).snapshot));
+    }
+    return rows;
+}
+
+double apart(const std::vector<Row>& a, const std::vector<Row>& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            largest = std::max(largest, std::abs(a[i][k] - b[i][k]));
+        }
+    }
+    return largest;
+}
+
+TEST(SandColumn, LiquefiesAndKeepsItsPressureRatioWhenStepsAreHalved) {
+    const auto usual = shaken(2e-3, "corrected");
+    std::printf("       t    r_u 2.5 m   7.5 m  13.5 m  17.5 m (foundation)\n");
+    for (std::size_t i = 3; i < usual.size(); i += 4) {
+        std::printf("    %5.2f     %7.4f %7.4f %7.4f %7.4f\n", 0.25 * static_cast<double>(i + 1),
+                    usual[i][0], usual[i][1], usual[i][2], usual[i][3]);
+    }
+    double largest = 0.0;
+    for (const Row& row : usual) largest = std::max(largest, row[0]);
+    // Mean stress stalls at about 1 kPa (design note, 18.9): 20 kPa vertically at 2.5 m.
+    expect_error("2.5 m deep: 1 less the largest r_u", std::abs(1.0 - largest), 0.15);
+    expect_error("r_u with half the time step", apart(usual, shaken(1e-3, "corrected")), 0.03);
+}
+
+TEST(SandColumn, SchemesOfTheLawAgree) {
+    expect_error("r_u, corrected against opensees",
+                 apart(shaken(2e-3, "corrected"), shaken(2e-3, "opensees")), 0.05);
+}
+
+}  // namespace
+}  // namespace breach::fem
