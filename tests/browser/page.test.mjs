@@ -408,7 +408,7 @@ test("every number leads to its files, hashes and settings", async () => {
     assert.deepEqual(await page.locator("#provenance .step h3").allTextContents(),
                      ["mpm_solver, t_T = 1 s, softened", "transfer_tool, t_T = 1 s", "fem_solver"]);
     const chain = await text_of("#provenance-chain");
-    for (const part of [/trigger window \(window\)/, /"crest_dx":0.21/, /variant sets.*softening=1/s, /version0.1.0/, /first of its kind/,
+    for (const part of [/trigger window \(window\)/, /"crest_dx": 0.21, "step": 160/, /variant sets.*softening=1/s, /version0.1.0/, /first of its kind/,
                         /mpm_solver scene.completed.json --input particles.vtkhdf --threads 1 --output again/]) {
         assert.match(chain, part);
     }

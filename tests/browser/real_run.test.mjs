@@ -188,7 +188,7 @@ test("variants are curves of their own, and a trigger's threshold and firing are
     const several = structuredClone(study);
     const friction = (coefficient) => [`/mpm/floor/friction/0/coefficient=${coefficient}`];
     Object.assign(several, { name: "two-floors", title: "Weak and strong floor", transfer_times: [0.5],
-        triggers: [{ kind: "criterion", name: "strained", when: "epsilon_q_avg > 0.05" }],
+        triggers: [{ kind: "criterion", name: "strained", when: "epsilon_q_avg > 0.05", snapshot_interval_s: 0.02 }],
         variants: [{ name: "weak", overrides: friction(0.3) }, { name: "strong", overrides: friction(0.6) }] });
     await page.click("nav [data-opens=submit]");
     await page.fill("#study", JSON.stringify(several));

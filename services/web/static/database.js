@@ -2,7 +2,7 @@
 // gives, page by page; the address says which table and of which run: #/database/TABLE/RUN.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { show_state } from "./format.js";
+import { short_json, show_state } from "./format.js";
 import { run_address } from "./runs.js";
 import { DataTable } from "./table.js";
 
@@ -40,7 +40,7 @@ const columns = {
               text("reason", "reason", { wide: true }), run],
     triggers: [text("name"), text("kind"), state, amount("transfer_time", "s", "t_T"),
                amount("wanted_time", "s"), amount("lag_s", "s", "lag"), amount("fem_step"), amount("fired_ms", "ms", "fired after"),
-               amount("start_ms", "ms", "started after"), text("crossed", "crossed", { wide: true }), text("snapshot"),
+               amount("start_ms", "ms", "started after"), text("crossed", "crossed", { wide: true, cell: ({ crossed }) => (crossed ? short_json(crossed) : "–") }), text("snapshot"),
                text("sha256", "SHA-256"), text("fem_task"), run],
 };
 const of_one_run = ["tasks", "attempts", "results", "triggers"];
@@ -55,7 +55,7 @@ const readers = {
         attempts.map((attempt) => ({ run: whole.id, task: id, label, phase, variant, transfer_time, ...attempt }))),
     results: async ({ id }) => (await api.read_results(id)).rows.map((row) => ({ run: id, ...row })),
     triggers: async ({ id }) => (await api.read_triggers(id)).flatMap((trigger) =>
-        (trigger.firings.length ? trigger.firings : [{}]).map((firing) => ({ run: id, ...trigger, ...firing }))),
+        (trigger.firings.length ? trigger.firings : [{}]).map((firing) => ({ run: id, ...trigger, ...firing, lag_s: Number(firing.lag_s?.toFixed(9) ?? NaN) }))),
 };
 
 export class Database {

@@ -8,6 +8,10 @@ export function number(value, digits = 4) {
     return String(Number(value.toPrecision(digits)));
 }
 
+/// Any value as one line of text, numbers to six digits.
+export const short_json = (value) => JSON.stringify(value, (_, each) =>
+    (typeof each === "number" ? Number(each.toPrecision(6)) : each)).replaceAll(/([:,])(?=[^\s])/g, "$1 ");
+
 export const seconds = (value) => (Number.isFinite(value) ? `${number(value)} s` : "–");
 
 export function bytes(count) {

@@ -2,7 +2,7 @@
 // with its settings, inputs, files and hashes, and the command that makes it again.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
-import { bytes, clock, number, point_name, seconds, show_state, task_name } from "./format.js";
+import { bytes, clock, number, point_name, seconds, short_json, show_state, task_name } from "./format.js";
 import { moments } from "./triggers.js";
 
 const column_names = {
@@ -66,7 +66,7 @@ function asked_for(run, row, steps) {
     if (firing) {
         const [moment] = moments([{ ...trigger, firings: [firing] }]);
         if (moment) lines.push(["fired", moment.label]);
-        if (firing.crossed) lines.push(["what it saw", JSON.stringify(firing.crossed)]);
+        if (firing.crossed) lines.push(["what it saw", short_json(firing.crossed)]);
         lines.push(["snapshot", `${firing.snapshot}, SHA-256 ${firing.sha256}`]);
     }
     if (variant) lines.push(["variant sets", (variant.overrides ?? []).join(", ") || "nothing"]);
