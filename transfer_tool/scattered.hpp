@@ -31,8 +31,8 @@ struct Targets {
 
 /// What the interpolation had to do beside interpolating.
 struct GaussFieldReport {
-    std::size_t merged_centres = 0;          ///< coincident sources that were taken as one
-    std::size_t raised_strains = 0;          ///< epsilon_q below zero, set to zero
+    std::size_t merged_centres = 0;  ///< coincident sources that were taken as one
+    std::size_t raised_strains = 0;  ///< epsilon_q below zero by more than 1e-12, set to zero
     std::size_t smallest_neighbourhood = 0;  ///< fewest centres that any group had; local only
 };
 

@@ -1,6 +1,7 @@
 #include "services/report/transfer_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
@@ -81,6 +82,12 @@ Field on_points(const ParticleState& points, const std::vector<double>& value,
         field.value.push_back(value[p]);
     }
     return field;
+}
+
+/// From 0 to the next 50 kPa.
+Range stress_range(const std::vector<double>& stress) {
+    const double largest = stress.empty() ? 0.0 : *std::ranges::max_element(stress);
+    return {0.0, 50.0 * std::max(1.0, std::ceil(largest / 50.0))};
 }
 
 /// The quantity whose pair is drawn.
@@ -165,7 +172,7 @@ std::vector<BeforeAndAfter> compare(const MeshSnapshot& mesh, const ParticleStat
     std::vector<BeforeAndAfter> pairs;
     const std::vector<double> stress = sigma_v(mesh);
     pairs.push_back(
-        pair_of({"sigma_v", "vertical effective stress", "σ′v [kPa]", colour_range(stress)}, mesh,
+        pair_of({"sigma_v", "vertical effective stress", "σ′v [kPa]", stress_range(stress)}, mesh,
                 stress, points, sigma_v(points)));
     const std::vector<double> r_u = element_r_u(mesh);
     if (r_u.empty() || points.r_u.empty()) return pairs;

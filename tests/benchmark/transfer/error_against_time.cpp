@@ -3,6 +3,8 @@
 // other, 3 x 3 points per element); error of the round trip against n, neighbours and mode on the
 // case document's graded elements; and time against size. One thread, CPU seconds, but for the last
 // table.
+#include <sys/resource.h>
+
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -105,7 +107,7 @@ void round_trips() {
 void sizes() {
     std::printf(
         "\nlocal, 40 neighbours, 3 x 3 points per element, 2 threads\n"
-        "Gauss points  wall seconds  microseconds per Gauss point\n");
+        "Gauss points  wall seconds  microseconds per Gauss point  peak memory so far [MB]\n");
     for (const int n : {50, 79, 112, 158}) {
         const auto mesh = graded(n, n);
         const Points points = meshes::points_on(mesh, 3);
@@ -115,8 +117,11 @@ void sizes() {
         interpolate(mesh, values, meshes::settings(3), {.threads = 2}, points);
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-        std::printf("%12zu  %12.3f  %28.1f\n", mesh.stress.size(), seconds,
-                    1e6 * seconds / static_cast<double>(mesh.stress.size()));
+        rusage usage{};
+        getrusage(RUSAGE_SELF, &usage);
+        std::printf("%12zu  %12.3f  %28.1f  %23.1f\n", mesh.stress.size(), seconds,
+                    1e6 * seconds / static_cast<double>(mesh.stress.size()),
+                    static_cast<double>(usage.ru_maxrss) / 1024.0);
         std::fflush(stdout);
     }
 }
@@ -124,8 +129,8 @@ void sizes() {
 }  // namespace
 
 int main() {
+    sizes();  // first: the peak memory is this table's
     round_trips();
-    sizes();
     std::printf("\nfield    Gauss points  mode  neighbours  RMS [kPa]  max [kPa]  seconds\n");
     const std::pair<const char*, meshes::Field> fields[] = {
         {"smooth", smooth}, {"band", band}, {"jump", jump}};
