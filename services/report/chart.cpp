@@ -17,7 +17,7 @@ constexpr double free_width = 560, free_height = 360;
 constexpr double equal_width = 860, least_equal_height = 150;
 // colours that stay apart for colour-blind eyes (Okabe and Ito, then Tol)
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-                                "#555555", "#000000", "#882255", "#999933", "#332288", "#aa4499"};
+                                "#117733", "#000000", "#882255", "#999933", "#332288", "#aa4499"};
 constexpr std::array earths = {"#b08d57", "#d9c9a5", "#8c8c7a", "#c2b280", "#a3a380"};
 
 Range covering(const std::vector<double>& values, Scale scale) {

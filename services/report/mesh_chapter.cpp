@@ -41,7 +41,8 @@ Figure contour(const MeshSnapshot& mesh, const std::string& name, std::vector<do
                   empty_chart(label + " at " + time_text(mesh.time))};
     figure.chart.field = on_deformed_mesh(mesh, std::move(value), label, range);
     figure.chart.series = {borders_of(mesh)};
-    figure.caption = "Element averages on the mesh where it has moved to, true to scale.";
+    figure.caption =
+        "Element averages on the mesh where it has moved to; displacements are not exaggerated.";
     return figure;
 }
 
@@ -49,7 +50,8 @@ Figure deformed_mesh(const MeshSnapshot& mesh) {
     Figure figure{"mesh_" + short_number(mesh.time) + "s",
                   empty_chart("Deformed mesh at " + time_text(mesh.time))};
     figure.chart.series = {edges_of(mesh)};
-    figure.caption = std::to_string(mesh.quads.size()) + " elements, displacements true to scale.";
+    figure.caption =
+        std::to_string(mesh.quads.size()) + " elements; displacements are not exaggerated.";
     return figure;
 }
 

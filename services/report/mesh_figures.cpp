@@ -100,7 +100,7 @@ Range colour_range(std::vector<double> values) {
     const double high = values[rank];
     if (high <= 0.0) return {0.0, 1.0};
     const double power = std::pow(10.0, std::floor(std::log10(high)));
-    for (const double fold : {1.0, 2.0, 5.0}) {
+    for (const double fold : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
         if (high <= fold * power) return {0.0, fold * power};
     }
     return {0.0, 10.0 * power};

@@ -24,7 +24,7 @@ std::filesystem::path motion_file(const Material& from, const PhaseFolder& fem,
     return {};
 }
 
-/// Acceleration as the scene scales it; of a recorded velocity its differences are not taken.
+/// Acceleration as the scene scales it; a recorded velocity is not differentiated.
 std::optional<motion::Series> acceleration_of(const motion::Recording& recording,
                                               const json& wanted) {
     if (recording.quantity != motion::Quantity::acceleration) return {};
@@ -43,7 +43,11 @@ Figure figure_of(const std::string& name, const std::string& title, const std::s
         s.x.push_back(static_cast<double>(k) * series.dt);
         s.y.push_back(series.values[k] / unit);
     }
-    return {name, {title, {"time [s]"}, {label}, {s}}};
+    return {name, {title, {"time [s]"}, {label}, {s}}, "From below the mesh, horizontal."};
+}
+
+Figure velocity_figure(const motion::Series& v) {
+    return figure_of("motion_velocity", "Velocity", "velocity [cm/s]", v, 0.01);
 }
 
 /// pi / (2 g) times the integral of a^2 up to each time.
@@ -51,6 +55,21 @@ motion::Series arias_course(const motion::Series& a) {
     motion::Series squares = a;
     for (double& each : squares.values) each *= each * std::numbers::pi / (2.0 * g);
     return motion::integral(squares);
+}
+
+std::string facts_of(const motion::Series& a) {
+    const motion::StrongPart strong = motion::strong_part(a);
+    return "PGA " + rounded(motion::peak(a) / g, 3) + " g, PGV " +
+           rounded(100.0 * motion::peak(motion::integral(a)), 3) + " cm/s, Arias intensity " +
+           rounded(motion::arias_intensity(a), 3) + " m/s, strong shaking (5 to 95 % of it) from " +
+           rounded(strong.begin, 3) + " to " + rounded(strong.end, 3) + " s.";
+}
+
+std::vector<Figure> figures_of(const motion::Series& a) {
+    return {figure_of("motion_acceleration", "Acceleration", "acceleration [g]", a, g),
+            velocity_figure(motion::integral(a)),
+            figure_of("motion_arias", "Arias intensity", "Arias intensity [m/s]", arias_course(a),
+                      1.0)};
 }
 
 }  // namespace
@@ -72,24 +91,17 @@ void add_motion(const Material& from, Document& document) {
         return;
     }
     const motion::Recording recording = motion::read_motion(file);
-    const auto a = acceleration_of(recording, wanted);
-    if (!a) {
-        document.left_out.push_back({what, file.string() + " is not an acceleration"});
-        return;
+    Chapter chapter{"Motion"};
+    if (const auto a = acceleration_of(recording, wanted)) {
+        chapter.text = recording.title + ", as the FEM took it: " + facts_of(*a);
+        chapter.figures = figures_of(*a);
+    } else {
+        chapter.text = recording.title + ", a velocity: PGV " +
+                       rounded(100.0 * motion::peak(recording.series), 3) + " cm/s.";
+        chapter.figures = {velocity_figure(recording.series)};
+        document.left_out.push_back({"acceleration and Arias intensity of the motion",
+                                     "the scene gives its velocity (" + file.string() + ")"});
     }
-    const motion::Series v = motion::integral(*a);
-    const motion::StrongPart strong = motion::strong_part(*a);
-    Chapter chapter{"Motion", recording.title + ", as the FEM took it: PGA " +
-                                  rounded(motion::peak(*a) / g, 3) + " g, PGV " +
-                                  rounded(100.0 * motion::peak(v), 3) + " cm/s, Arias intensity " +
-                                  rounded(motion::arias_intensity(*a), 3) +
-                                  " m/s, strong shaking (5 to 95 % of it) from " +
-                                  rounded(strong.begin, 3) + " to " + rounded(strong.end, 3) +
-                                  " s."};
-    chapter.figures = {figure_of("motion_acceleration", "acceleration", "acceleration [g]", *a, g),
-                       figure_of("motion_velocity", "velocity", "velocity [cm/s]", v, 0.01),
-                       figure_of("motion_arias", "Arias intensity", "Arias intensity [m/s]",
-                                 arias_course(*a), 1.0)};
     document.chapters.push_back(std::move(chapter));
 }
 

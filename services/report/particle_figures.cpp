@@ -19,7 +19,7 @@ std::size_t stride_of(const ParticleState& state) {
 std::string drawn(const ParticleState& state) {
     const std::size_t stride = stride_of(state);
     std::string text = std::to_string(state.size()) + " material points";
-    if (stride > 1) text += ", every " + std::to_string(stride) + "th drawn";
+    if (stride > 1) text += ", one in " + std::to_string(stride) + " drawn";
     return text + ".";
 }
 

@@ -120,6 +120,7 @@ void add_shaking(const Material& from, Document& document) {
             figure.chart.marks.push_back({Mark::At::x, *window.lower, "window opens"});
         if (window.upper)
             figure.chart.marks.push_back({Mark::At::x, *window.upper, "window closes"});
+        add_points(from.paper, figure);
         chapter.figures.push_back(std::move(figure));
     }
     document.chapters.push_back(std::move(chapter));

@@ -23,7 +23,7 @@ Figure safety_against_depth(const json& result) {
                 {F},
                 {{Mark::At::y, 1.0, "FS = 1"}}};
     const double critical = result.at("critical_depth");
-    chart.marks.push_back({Mark::At::x, critical, "critical " + short_number(critical) + " m"});
+    chart.marks.push_back({Mark::At::x, critical, "critical " + rounded(critical, 3) + " m"});
     return {"safety_against_depth", chart};
 }
 
