@@ -1,14 +1,12 @@
 // A person's way through the page with nothing made up: the real orchestrator, the real phases, a small column. The
 // job is submitted in the browser, seen finishing, and its curve and particles are looked at.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import path from "node:path";
-import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
 import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { start_service } from "./service.mjs";
 
-const programs = process.env.BREACH_BIN;
 const study_file = new URL("small_study.json", import.meta.url);
 const study = JSON.parse(readFileSync(study_file, "utf8"));
 
@@ -18,36 +16,17 @@ let data;
 let browser;
 let page;
 
-/// Starts the service on a free port; its first line says where it listens.
-async function start_service() {
-    const program = path.join(programs, "breachline");
-    assert.ok(existsSync(program), `${program} is built`);
-    service = spawn(program, ["serve", "--data", data, "--port", "0"], { stdio: ["ignore", "pipe", "inherit"] });
-    const lines = createInterface({ input: service.stdout });
-    const first = await Promise.race([
-        new Promise((resume) => lines.once("line", resume)),
-        new Promise((_, give_up) => service.once("exit", (code) => give_up(new Error(`the service ended: ${code}`)))),
-    ]);
-    return JSON.parse(first).url.replace(/\/$/, "");
-}
-
-function stop_service() {
-    if (service.exitCode !== null) return null;
-    const ended = new Promise((resume) => service.once("exit", resume));
-    service.kill("SIGTERM");
-    return ended;
-}
-
 before(async () => {
     data = mkdtempSync(path.join(build_folder, "data-"));
-    url = await start_service();
+    service = await start_service(data);
+    url = service.url;
     browser = await open_browser();
     page = browser.page;
 });
 
 after(async () => {
     await browser?.close();
-    await stop_service();
+    await service?.stop();
     rmSync(data, { recursive: true, force: true });
 });
 
@@ -223,7 +202,7 @@ test("the finished run is photographed, light and dark", async () => {
 });
 
 test("a service that ends is noticed, and what was seen stays", async () => {
-    await stop_service();
+    await service?.stop();
     await until("the notice", async () => /Connection lost/.test(await text_of("#connection")), 30000);
     assert.equal(await markers(), study.transfer_times.length);
 });
