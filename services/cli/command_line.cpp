@@ -71,6 +71,7 @@ class CommandLine {
             "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed,\n"
             "74 file fault, 75 the server does not answer.");
         add_run_commands();
+        add_sweep_commands();
         add_task_commands();
         add_file_commands();
     }
@@ -93,23 +94,50 @@ class CommandLine {
         return sub;
     }
 
+    void take_study(CLI::App* sub) {
+        sub->add_option("STUDY", a_.submit.study,
+                        "study file (JSON); a scene named in it is put into it")
+            ->required();
+        sub->add_option("--set", a_.submit.overrides,
+                        "/json/pointer=value, changes the scene; repeatable")
+            ->allow_extra_args(false);
+        sub->add_option("--key", a_.submit.idempotency_key,
+                        "submitting again with the same key makes no second run");
+        sub->add_flag("--watch", a_.watch, "watch the run until it ends");
+    }
+
+    void add_sweep_commands() {
+        CLI::App* sweep_ = add("sweep", "submit a study as a sweep; prints its id",
+                               [this](Server& s, const Console& c) {
+                                   a_.submit.door = "/v1/sweeps";
+                                   const std::string run = submit(s, a_.submit, c);
+                                   return a_.watch ? watch(s, run, c) : ExitCode::done;
+                               });
+        take_study(sweep_);
+        sweep_
+            ->add_option("--times", a_.submit.transfer_times,
+                         "transfer times instead of the study's, separated by commas [s]")
+            ->delimiter(',');
+        CLI::App* extend_ =
+            add("extend", "more transfer times for a sweep; what was computed stays",
+                [this](Server& s, const Console& c) {
+                    return extend(s, a_.id, a_.submit.transfer_times, c);
+                });
+        take_run(extend_);
+        extend_
+            ->add_option("--times", a_.submit.transfer_times,
+                         "transfer times, separated by commas [s]")
+            ->delimiter(',')
+            ->required();
+    }
+
     void add_run_commands() {
         CLI::App* submit_ = add("submit", "submit a study; prints the run's id",
                                 [this](Server& s, const Console& c) {
                                     const std::string run = submit(s, a_.submit, c);
                                     return a_.watch ? watch(s, run, c) : ExitCode::done;
                                 });
-        submit_
-            ->add_option("STUDY", a_.submit.study,
-                         "study file (JSON); a scene named in it is put into it")
-            ->required();
-        submit_
-            ->add_option("--set", a_.submit.overrides,
-                         "/json/pointer=value, changes the scene; repeatable")
-            ->allow_extra_args(false);
-        submit_->add_option("--key", a_.submit.idempotency_key,
-                            "submitting again with the same key makes no second run");
-        submit_->add_flag("--watch", a_.watch, "watch the run until it ends");
+        take_study(submit_);
 
         CLI::App* list_ = add("list", "the newest runs", [this](Server& s, const Console& c) {
             return list_runs(s, a_.most_runs, c);

@@ -54,16 +54,30 @@ std::string run_named(Server& server, const std::string& name) {
 }
 
 std::string submit(Server& server, const SubmitWish& wish, const Console& console) {
-    const json study = read_study(wish.study, wish.overrides);
+    json study = read_study(wish.study, wish.overrides);
+    if (!wish.transfer_times.empty()) study["transfer_times"] = wish.transfer_times;
     Headers headers;
     if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
-    const json run = server.post("/v1/runs", study, headers);
+    const json run = server.post(wish.door, study, headers);
     if (console.style == Style::json) {
         show_json(run, console);
     } else {
         console.out << cell(run, "id") << std::endl;
     }
     return run.at("id");
+}
+
+ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
+                const Console& console) {
+    const json answer = server.post(path_of({"sweeps", run_named(server, sweep), "extend"}),
+                                    {{"transfer_times", times}});
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        for (const json& each : answer.at("added")) console.out << each.dump() << "\n";
+        if (answer.at("added").empty()) console.notes << "the sweep has all of them\n";
+    }
+    return ExitCode::done;
 }
 
 ExitCode list_runs(Server& server, std::size_t most, const Console& console) {

@@ -27,11 +27,17 @@ struct Console {
 struct SubmitWish {
     std::filesystem::path study;
     std::vector<std::string> overrides;
-    std::string idempotency_key;  ///< empty: none
+    std::string idempotency_key;              ///< empty: none
+    std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: as it says
+    std::string door = "/v1/runs";            ///< or "/v1/sweeps"
 };
 
 /// Prints the new run's id, and returns it.
 std::string submit(Server& server, const SubmitWish& wish, const Console& console);
+
+/// More transfer times [s] for a sweep; prints those that are new to it.
+fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
+                       const Console& console);
 
 fault::ExitCode list_runs(Server& server, std::size_t most, const Console& console);
 /// `id`: of a run or of a task

@@ -20,6 +20,14 @@ namespace {
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
 constexpr auto pause_after_trouble = std::chrono::seconds(1);
 
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        names.insert(entry.path().filename());
+    return names;
+}
+
 }  // namespace
 
 Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
@@ -64,6 +72,7 @@ void Dispatcher::settle_all() {
 }
 
 void Dispatcher::serve(const std::stop_token& stop) {
+    stop_ = stop;
     bool reconciled = false;
     while (!stop.stop_requested()) {
         try {
@@ -102,7 +111,10 @@ void Dispatcher::reconcile() {
         }
     }
     for (Task& task : store_.tasks_in(TaskState::finalizing, all)) registrar_.add(std::move(task));
-    for (const std::string& parent : store_.parents_of_blocked()) settle_children(parent);
+    for (const std::string& parent : store_.parents_of_blocked()) {
+        if (stop_.stop_requested()) return;
+        settle_children(parent);
+    }
 }
 
 void Dispatcher::look_around() {
@@ -119,8 +131,12 @@ void Dispatcher::look_around() {
     forget_the_ended();
     triggers_.look();
     release_retries();
-    if (unsettled_.exchange(false))
-        for (const std::string& parent : store_.parents_of_blocked()) settle_children(parent);
+    if (unsettled_.exchange(false)) {
+        for (const std::string& parent : store_.parents_of_blocked()) {
+            if (stop_.stop_requested()) return;
+            settle_children(parent);
+        }
+    }
 }
 
 void Dispatcher::wait_for_something() {
@@ -330,18 +346,18 @@ void Dispatcher::release_retries() {
 }
 
 void Dispatcher::settle_children(const std::string& parent_id) {
-    const std::vector<Task> children = store_.blocked_children(parent_id);
+    const std::vector<BlockedTask> children = store_.blocked_children(parent_id);
     if (children.empty()) return;
     const Task parent = *store_.task(parent_id);
     const bool succeeded =
         parent.state == TaskState::succeeded || parent.state == TaskState::cached;
+    // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
+    const std::set<std::string> files = names_in(data_.output(parent));
     std::vector<std::string> released;
     std::vector<std::string> skipped;
-    for (const Task& child : children) {
-        // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
-        const bool delivered = child.release == Release::file_exists
-                                   ? std::filesystem::exists(data_.output(parent) / child.input)
-                                   : succeeded;
+    for (const BlockedTask& child : children) {
+        const bool delivered =
+            child.release == Release::file_exists ? files.contains(child.input) : succeeded;
         if (delivered) {
             released.push_back(child.id);
         } else if (is_final(parent.state)) {
@@ -354,8 +370,8 @@ void Dispatcher::settle_children(const std::string& parent_id) {
     store_.write([&](Transaction& transaction) {
         for (const std::string& each : released)
             transaction.try_move_task(each, TaskEvent::release);
-        for (const Task& child : children) {
-            if (std::ranges::find(skipped, child.id) == skipped.end()) continue;
+        for (const BlockedTask& child : children) {
+            if (!std::ranges::binary_search(skipped, child.id)) continue;
             transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
         }
     });

@@ -111,6 +111,7 @@ class Dispatcher {
     FolderWatch watch_;
     TriggerWatch triggers_;
     int wake_descriptor_;
+    std::stop_token stop_;  ///< of the serving thread
     std::list<Live> live_;
     std::chrono::steady_clock::time_point looked_at_all_{};
 

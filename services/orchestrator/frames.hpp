@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -35,6 +36,12 @@ class FrameReader {
     /// (it is damaged).
     std::string points(const std::filesystem::path& file, const std::string& phase,
                        std::size_t stride);
+
+    /// With HDF5 to itself.
+    void alone(const std::function<void()>& work) {
+        const std::lock_guard lock(mutex_);
+        work();
+    }
 
   private:
     std::mutex mutex_;

@@ -114,6 +114,13 @@ struct Task {
     std::int64_t priority = 0;
 };
 
+/// As much of a blocked task as its release needs.
+struct BlockedTask {
+    std::string id;
+    Release release;
+    std::string input;
+};
+
 struct Attempt {
     std::string task;
     std::int64_t number;

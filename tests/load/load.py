@@ -164,6 +164,7 @@ def measure(chosen, service):
     kept |= acknowledged_runs(table.loop(what, client.Loop(port, submit, chosen.clients, chosen.seconds, keep=True)))
     memory.append(service.resident_megabytes())
     run = max(kept)
+    print(f"-- load average {os.getloadavg()[0]:.1f}")
     print(f"-- {len(kept)} runs and {3 * len(kept)} tasks queued")
     table.loop("list of 100 runs, 1 client", client.Loop(port, get(port, "/v1/runs"), 1, short))
     table.loop("one run with its tasks, 1 client", client.Loop(port, get(port, f"/v1/runs/{run}"), 1, short))
@@ -179,6 +180,8 @@ def measure(chosen, service):
     kept |= sweeps
     sweep_id = min(sweeps, default="none")
     table.loop("its table of results, 1 client", client.Loop(port, get(port, f"/v1/runs/{sweep_id}/results"), 1, short))
+    table.loop("   100 rows of it", client.Loop(port, get(port, f"/v1/runs/{sweep_id}/results?limit=100&from=2000"), 1, short))
+    table.loop("   100 of its tasks", client.Loop(port, get(port, f"/v1/runs/{sweep_id}/tasks?limit=100"), 1, short))
     table.loop("its page with 10,001 tasks, 1 client", client.Loop(port, get(port, f"/v1/runs/{sweep_id}"), 1, short))
     table.loop("list of 100 runs, 1 client", client.Loop(port, get(port, "/v1/runs"), 1, short))
 

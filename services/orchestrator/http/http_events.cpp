@@ -58,7 +58,10 @@ void long_poll(const Service& service, Call& call, const std::atomic<bool>& stop
     }
     json list = json::array();
     std::int64_t next = after;
-    for (const Event& each : service.store.events_after(after, largest_batch)) {
+    const auto run = call.parameter("run");
+    const auto events = run ? service.store.events_of_run(*run, after, largest_batch)
+                            : service.store.events_after(after, largest_batch);
+    for (const Event& each : events) {
         list.push_back(as_json(each));
         next = each.seq;
     }
@@ -77,6 +80,7 @@ std::int64_t stream_start(const Service& service, const Call& call) {
 struct Stream {
     Seat seat;
     std::int64_t after;
+    std::optional<std::string> run;  ///< only its events; empty: of all runs
     Clock::time_point spoke = Clock::now();
 };
 
@@ -90,9 +94,10 @@ bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& 
     std::string text;
     if (service.store.wait_for_event(stream.after, look_at_stopping)) {
         for (const Event& each : service.store.events_after(stream.after, largest_batch)) {
+            stream.after = each.seq;
+            if (stream.run && each.run != *stream.run) continue;
             text += "id: " + std::to_string(each.seq) + "\ndata: " +
                     as_json(each).dump(-1, ' ', false, json::error_handler_t::replace) + "\n\n";
-            stream.after = each.seq;
         }
     } else if (Clock::now() - stream.spoke > sign_of_life) {
         text = ": still here\n\n";  // a client that went away shows when it is written to
@@ -103,8 +108,9 @@ bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& 
 }
 
 void server_sent(const Service& service, Call& call, const std::atomic<bool>& stopping) {
-    auto stream = std::shared_ptr<Stream>(
-        new Stream{Seat(streams, most_streams, call.response), stream_start(service, call)});
+    auto stream =
+        std::shared_ptr<Stream>(new Stream{Seat(streams, most_streams, call.response),
+                                           stream_start(service, call), call.parameter("run")});
     call.response.set_header("Cache-Control", "no-store");
     call.response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
     call.response.set_chunked_content_provider(
@@ -126,7 +132,8 @@ void server_sent(const Service& service, Call& call, const std::atomic<bool>& st
 
 void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping) {
     router.get("/v1/events", [&](Call& call) {
-        call.allow_parameters({"after", "wait"});
+        call.allow_parameters({"after", "wait", "run"});
+        if (const auto run = call.parameter("run")) wanted_run(service, *run);
         if (call.request.get_header_value("Accept").find("text/event-stream") !=
             std::string::npos) {
             server_sent(service, call, stopping);

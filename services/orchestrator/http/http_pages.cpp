@@ -5,6 +5,7 @@
 
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/http/openapi_text.hpp"
 #include "services/orchestrator/plan_question.hpp"
 #include "services/orchestrator/study.hpp"
 
@@ -77,6 +78,10 @@ void add_page_routes(Router& router, Service& service) {
     router.get("/static/{file...}", [&](Call& call) { send_file(service, call, call.parts[0]); });
     router.get("/healthz", [](Call& call) { reply(call.response, {{"status", "ok"}}); });
     router.get("/readyz", [&](Call& call) { ready(service, call); });
+    router.get("/openapi.json", [](Call& call) {
+        call.allow_parameters({});
+        call.response.set_content(openapi_text(), "application/json");
+    });
     router.get("/v1/schema/scene", [](Call& call) { reply(call.response, scene::scene_schema()); });
     router.get("/v1/schema/study", [](Call& call) { reply(call.response, scene::study_schema()); });
     router.post("/v1/scenes/plan", [&](Call& call) {

@@ -78,6 +78,10 @@ void reply(httplib::Response& response, const json& body, int status) {
 }
 
 void Call::allow_parameters(const std::set<std::string>& names) const {
+    // A form's fields would pass for parameters; curl calls any body a form unless told otherwise.
+    if (request.get_header_value("Content-Type").starts_with("application/x-www-form-urlencoded") &&
+        !request.body.empty())
+        json_body();
     for (const auto& [name, value] : request.params) {
         if (names.contains(name)) continue;
         std::string known;

@@ -1,6 +1,8 @@
 #include "services/orchestrator/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
+#include "services/orchestrator/results_file.hpp"
+#include "services/orchestrator/sweep_extension.hpp"
 #include "services/orchestrator/why.hpp"
 
 namespace breach::orchestrator {
@@ -11,6 +13,17 @@ namespace {
 
 json run_json(const Service& service, const std::string& id) {
     return as_json(wanted_run(service, id), service.board);
+}
+
+/// These tasks with their attempts and artifacts: three queries however many they are.
+json tasks_json(const Service& service, const std::vector<Task>& tasks) {
+    json list = json::array();
+    if (tasks.empty()) return list;
+    auto attempts = service.store.attempts_between(tasks.front().id, tasks.back().id);
+    auto artifacts = service.store.artifacts_between(tasks.front().id, tasks.back().id);
+    for (const Task& each : tasks)
+        list.push_back(as_json(each, attempts[each.id], artifacts[each.id], service.board));
+    return list;
 }
 
 json task_json(const Service& service, const Task& task) {
@@ -40,10 +53,23 @@ void show(const Service& service, Call& call) {
     json body = run_json(service, id);
     body["study"] = *service.store.study_of(id);
     body["study"]["scene"] = json::parse(*service.store.scene_of(id));
-    body["tasks"] = json::array();
-    for (const Task& each : service.store.tasks_of(id))
-        body["tasks"].push_back(task_json(service, each));
+    body["tasks"] = tasks_json(service, service.store.tasks_of(id));
     reply(call.response, body);
+}
+
+/// The same tasks in pages, for runs with thousands.
+void list_tasks(const Service& service, Call& call) {
+    call.allow_parameters({"limit", "cursor"});
+    wanted_run(service, call.parts[0]);
+    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, 500));
+    auto tasks =
+        service.store.tasks_of(call.parts[0], call.parameter("cursor").value_or(""), limit + 1);
+    json next = nullptr;
+    if (tasks.size() > limit) {
+        tasks.pop_back();
+        next = tasks.back().id;
+    }
+    reply(call.response, {{"tasks", tasks_json(service, tasks)}, {"next", next}});
 }
 
 void cancel(Service& service, Call& call) {
@@ -81,15 +107,26 @@ void set_priority(Service& service, Call& call) {
 }
 
 void results(const Service& service, Call& call) {
-    call.allow_parameters({"format"});
+    call.allow_parameters({"format", "from", "limit"});
     wanted_run(service, call.parts[0]);
-    const std::vector<SweepRow> rows = service.store.results(call.parts[0]);
+    constexpr std::int64_t all = std::int64_t{1} << 30;
+    const std::vector<SweepRow> rows = service.store.results(
+        call.parts[0], static_cast<std::size_t>(call.whole_number("from", 0, 0, all)),
+        static_cast<std::size_t>(call.whole_number("limit", all, 1, all)));
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
         call.response.set_content(as_csv(rows), "text/csv; charset=utf-8");
         return;
     }
-    if (format != "json") throw bad_request("format must be json or csv");
+    if (format == "hdf5") {
+        call.response.set_header("Content-Disposition", "attachment; filename=\"results.h5\"");
+        call.response.set_content(
+            as_hdf5(rows, call.parts[0], *service.store.scene_of(call.parts[0]), service.frames,
+                    service.data.scratch()),
+            "application/x-hdf5");
+        return;
+    }
+    if (format != "json") throw bad_request("format must be json, csv or hdf5");
     json list = json::array();
     for (const SweepRow& each : rows) list.push_back(as_json(each));
     reply(call.response, {{"run", call.parts[0]}, {"rows", list}});
@@ -100,12 +137,7 @@ void results(const Service& service, Call& call) {
 /// A sweep is a run seen as a table: variants x transfer times. Both have the same id, and every
 /// run can be read so; the list holds those with several points.
 json sweep_json(const Service& service, const Run& run) {
-    std::int64_t points = 0;
-    std::int64_t done = 0;
-    for (const SweepRow& row : service.store.results(run.id)) {
-        ++points;
-        done += row.state == "succeeded" ? 1 : 0;
-    }
+    const auto [points, done] = service.store.points_of(run.id);
     json body = as_json(run, service.board);
     body["run"] = run.id;
     body["points_total"] = points;
@@ -124,6 +156,29 @@ void submit_sweep(Service& service, Call& call) {
     const Accepted accepted = accept_study(service, call, Ask::sweep);
     call.response.set_header("Location", "/v1/sweeps/" + accepted.run);
     reply(call.response, sweep_json(service, wanted_run(service, accepted.run)), 202);
+}
+
+/// More transfer times; 202 when they are stored. What was computed is not computed again.
+void extend_sweep(Service& service, Call& call) {
+    call.allow_parameters({});
+    const std::string& id = call.parts[0];
+    const Run run = wanted_sweep(service, id);
+    if (run.state == "cancelled")
+        throw Problem{409, "/problems/cancelled", "Cancelled",
+                      "the sweep was cancelled; retry it first, or submit another"};
+    const json body = json::parse(call.json_body(), nullptr, false);
+    if (!body.is_object() || body.size() != 1 || !body.contains("transfer_times"))
+        throw bad_request("the body must be {\"transfer_times\": [...] or {from, to, step}}");
+    const Extension extension =
+        plan_extension(service.store, service.data, id, body["transfer_times"]);
+    if (!extension.tasks.empty()) {
+        service.store.write(
+            [&](Transaction& transaction) { transaction.extend_run(id, extension); });
+        service.dispatcher.settle_all();
+    }
+    json answer = sweep_json(service, wanted_run(service, id));
+    answer["added"] = extension.times;
+    reply(call.response, answer, 202);
 }
 
 void list_sweeps(const Service& service, Call& call) {
@@ -167,12 +222,14 @@ void add_run_routes(Router& router, Service& service) {
         wanted_sweep(service, call.parts[0]);
         results(service, call);
     });
+    router.post("/v1/sweeps/{id}/extend", [&](Call& call) { extend_sweep(service, call); });
     router.post("/v1/sweeps/{id}/cancel", [&](Call& call) {
         wanted_sweep(service, call.parts[0]);
         cancel(service, call);
     });
     router.post("/v1/runs", [&](Call& call) { submit(service, call); });
     router.get("/v1/runs", [&](Call& call) { list(service, call); });
+    router.get("/v1/runs/{id}/tasks", [&](Call& call) { list_tasks(service, call); });
     router.get("/v1/runs/{id}", [&](Call& call) { show(service, call); });
     router.post("/v1/runs/{id}/cancel", [&](Call& call) { cancel(service, call); });
     router.post("/v1/runs/{id}/pause", [&](Call& call) {

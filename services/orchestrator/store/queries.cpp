@@ -161,6 +161,18 @@ std::vector<Task> Store::tasks_of(const std::string& run) const {
     return found;
 }
 
+std::vector<Task> Store::tasks_of(const std::string& run, const std::string& after,
+                                  std::size_t most) const {
+    std::vector<Task> found;
+    read([&](Connection& database) {
+        // Ids begin with the run's, so that they are a range of the primary key.
+        database.query(std::string(task_columns) + "WHERE id>? AND id<? ORDER BY id LIMIT ?",
+                       {after.empty() ? run + "-" : after, run + ".", as_value(most)},
+                       [&](const Row& row) { found.push_back(task_from(row)); });
+    });
+    return found;
+}
+
 std::vector<Task> Store::tasks_in(TaskState state, std::size_t most) const {
     std::vector<Task> found;
     read([&](Connection& database) {
@@ -185,11 +197,14 @@ std::vector<Task> Store::tasks_to_start(const std::vector<std::string>& full_que
     return found;
 }
 
-std::vector<Task> Store::blocked_children(const std::string& parent) const {
-    std::vector<Task> found;
+std::vector<BlockedTask> Store::blocked_children(const std::string& parent) const {
+    std::vector<BlockedTask> found;
     read([&](Connection& database) {
-        database.query(std::string(task_columns) + "WHERE parent=? AND state='blocked' ORDER BY id",
-                       {parent}, [&](const Row& row) { found.push_back(task_from(row)); });
+        database.query(
+            "SELECT id, release, input FROM tasks WHERE parent=? AND state='blocked' ORDER BY id",
+            {parent}, [&](const Row& row) {
+                found.push_back({row.text(0), release_named(row.text(1)), row.text(2)});
+            });
     });
     return found;
 }
@@ -230,25 +245,48 @@ std::optional<std::int64_t> Store::next_retry() const {
     return found;
 }
 
+namespace {
+
+constexpr const char* attempt_columns =
+    "SELECT task, number, state, created, started, finished, exit_code, signal, wall_seconds, "
+    "cpu_seconds FROM attempts ";
+
+Attempt attempt_from(const Row& row) {
+    return {.task = row.text(0),
+            .number = row.integer(1),
+            .state = attempt_state_named(row.text(2)),
+            .created = row.text(3),
+            .started = row.optional_text(4),
+            .finished = row.optional_text(5),
+            .exit_code = row.optional_integer(6),
+            .signal = row.optional_integer(7),
+            .wall_seconds = row.optional_real(8),
+            .cpu_seconds = row.optional_real(9)};
+}
+
+Artifact artifact_from(const Row& row) {
+    return {row.text(0), row.text(1), row.text(2), row.integer(3)};
+}
+
+}  // namespace
+
 std::vector<Attempt> Store::attempts_of(const std::string& task) const {
     std::vector<Attempt> found;
     read([&](Connection& database) {
+        database.query(std::string(attempt_columns) + "WHERE task=? ORDER BY number", {task},
+                       [&](const Row& row) { found.push_back(attempt_from(row)); });
+    });
+    return found;
+}
+
+std::map<std::string, std::vector<Attempt>> Store::attempts_between(const std::string& first,
+                                                                    const std::string& last) const {
+    std::map<std::string, std::vector<Attempt>> found;
+    read([&](Connection& database) {
         database.query(
-            "SELECT task, number, state, created, started, finished, exit_code, signal, "
-            "wall_seconds, "
-            "cpu_seconds FROM attempts WHERE task=? ORDER BY number",
-            {task}, [&](const Row& row) {
-                found.push_back({.task = row.text(0),
-                                 .number = row.integer(1),
-                                 .state = attempt_state_named(row.text(2)),
-                                 .created = row.text(3),
-                                 .started = row.optional_text(4),
-                                 .finished = row.optional_text(5),
-                                 .exit_code = row.optional_integer(6),
-                                 .signal = row.optional_integer(7),
-                                 .wall_seconds = row.optional_real(8),
-                                 .cpu_seconds = row.optional_real(9)});
-            });
+            std::string(attempt_columns) + "WHERE task>=? AND task<=? ORDER BY task, number",
+            {first, last},
+            [&](const Row& row) { found[row.text(0)].push_back(attempt_from(row)); });
     });
     return found;
 }
@@ -257,9 +295,20 @@ std::vector<Artifact> Store::artifacts_of(const std::string& task) const {
     std::vector<Artifact> found;
     read([&](Connection& database) {
         database.query("SELECT task, name, sha256, bytes FROM artifacts WHERE task=? ORDER BY name",
-                       {task}, [&](const Row& row) {
-                           found.push_back({row.text(0), row.text(1), row.text(2), row.integer(3)});
-                       });
+                       {task}, [&](const Row& row) { found.push_back(artifact_from(row)); });
+    });
+    return found;
+}
+
+std::map<std::string, std::vector<Artifact>> Store::artifacts_between(
+    const std::string& first, const std::string& last) const {
+    std::map<std::string, std::vector<Artifact>> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT task, name, sha256, bytes FROM artifacts WHERE task>=? AND task<=? ORDER BY "
+            "task, name",
+            {first, last},
+            [&](const Row& row) { found[row.text(0)].push_back(artifact_from(row)); });
     });
     return found;
 }
@@ -276,14 +325,33 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
 }
 
 std::vector<SweepRow> Store::results(const std::string& run) const {
+    constexpr std::size_t all = static_cast<std::size_t>(1) << 30;
+    return results(run, 0, all);
+}
+
+std::pair<std::int64_t, std::int64_t> Store::points_of(const std::string& run) const {
+    std::pair<std::int64_t, std::int64_t> counts{0, 0};
+    read([&](Connection& database) {
+        database.query(
+            "SELECT count(*), coalesce(sum(state IN ('succeeded', 'cached')), 0) FROM tasks WHERE "
+            "run=? AND phase='mpm_solver'",
+            {run}, [&](const Row& row) {
+                counts = {row.integer(0), row.integer(1)};
+            });
+    });
+    return counts;
+}
+
+std::vector<SweepRow> Store::results(const std::string& run, std::size_t from,
+                                     std::size_t most) const {
     std::vector<SweepRow> found;
     read([&](Connection& database) {
         database.query(
             "SELECT transfer_time, state, runout, runout_beyond_toe, runout_largest, volume_ratio, "
             "numerical_share, cpu_seconds, reason, transfer_task, mpm_task, variant, overlap, "
             "reused, trigger "
-            "FROM sweep_results WHERE run=? ORDER BY variant, transfer_time",
-            {run}, [&](const Row& row) {
+            "FROM sweep_results WHERE run=? ORDER BY variant, transfer_time LIMIT ? OFFSET ?",
+            {run, as_value(most), as_value(from)}, [&](const Row& row) {
                 found.push_back({.variant = row.text(11),
                                  .transfer_time = row.real(0),
                                  .state = row.text(1),
@@ -304,20 +372,39 @@ std::vector<SweepRow> Store::results(const std::string& run) const {
     return found;
 }
 
+namespace {
+
+Event event_from(const Row& row) {
+    return {.seq = row.integer(0),
+            .time = row.text(1),
+            .run = row.text(2),
+            .task = row.optional_text(3),
+            .kind = row.text(4),
+            .detail = json::parse(row.text(5))};
+}
+
+}  // namespace
+
 std::vector<Event> Store::events_after(std::int64_t seq, std::size_t most) const {
     std::vector<Event> found;
     read([&](Connection& database) {
         database.query(
             "SELECT seq, time, run, task, kind, detail FROM events WHERE seq>? ORDER BY seq LIMIT "
             "?",
-            {seq, as_value(most)}, [&](const Row& row) {
-                found.push_back({.seq = row.integer(0),
-                                 .time = row.text(1),
-                                 .run = row.text(2),
-                                 .task = row.optional_text(3),
-                                 .kind = row.text(4),
-                                 .detail = json::parse(row.text(5))});
-            });
+            {seq, as_value(most)}, [&](const Row& row) { found.push_back(event_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Event> Store::events_of_run(const std::string& run, std::int64_t after,
+                                        std::size_t most) const {
+    std::vector<Event> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT seq, time, run, task, kind, detail FROM events WHERE run=? AND seq>? ORDER BY "
+            "seq LIMIT ?",
+            {run, after, as_value(most)},
+            [&](const Row& row) { found.push_back(event_from(row)); });
     });
     return found;
 }

@@ -61,9 +61,12 @@ class Store {
     std::map<std::string, std::int64_t> tasks_by_state() const;
     std::map<std::string, std::int64_t> attempts_by_state() const;
     std::vector<Task> tasks_of(const std::string& run) const;
+    /// A page of them: those after the id `after`, in the order of their ids.
+    std::vector<Task> tasks_of(const std::string& run, const std::string& after,
+                               std::size_t most) const;
     std::vector<Task> tasks_in(TaskState state, std::size_t most) const;
     /// Blocked tasks whose input comes from `parent`.
-    std::vector<Task> blocked_children(const std::string& parent) const;
+    std::vector<BlockedTask> blocked_children(const std::string& parent) const;
     std::vector<std::string> parents_of_blocked() const;
     /// When the task last became ready [ms since 1970].
     std::optional<std::int64_t> ready_at(const std::string& task) const;
@@ -73,8 +76,16 @@ class Store {
 
     std::vector<Attempt> attempts_of(const std::string& task) const;
     std::vector<Artifact> artifacts_of(const std::string& task) const;
+    /// Of all tasks from the id `first` to the id `last`, by task.
+    std::map<std::string, std::vector<Attempt>> attempts_between(const std::string& first,
+                                                                 const std::string& last) const;
+    std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
+                                                                   const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
     std::vector<SweepRow> results(const std::string& run) const;
+    std::vector<SweepRow> results(const std::string& run, std::size_t from, std::size_t most) const;
+    /// Points of a sweep, and how many of them have their runout.
+    std::pair<std::int64_t, std::int64_t> points_of(const std::string& run) const;
 
     /// Of FEMs that have begun.
     std::vector<Trigger> open_triggers() const;
@@ -84,6 +95,8 @@ class Store {
     std::vector<Sample> samples_of(const std::string& trigger) const;
 
     std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
+    std::vector<Event> events_of_run(const std::string& run, std::int64_t after,
+                                     std::size_t most) const;
     /// Changes of state that were committed together.
     const Histogram& commit_sizes() const { return commit_sizes_; }
     std::int64_t last_event() const { return last_event_; }

@@ -1,6 +1,7 @@
 #include "services/orchestrator/store/transaction.hpp"
 
 #include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/sweep_extension.hpp"
 
 namespace breach::orchestrator {
 
@@ -40,22 +41,49 @@ void Transaction::add_run(const NewRun& run) {
     add_event(run.id, std::nullopt, "run", {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
-        const TaskState state =
-            task.release == Release::at_once ? TaskState::ready : TaskState::blocked;
-        Value parent = nullptr;
+        std::optional<std::string> parent;
         if (task.parent) parent = task_id(run.id, *task.parent);
-        database_.change(
-            "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
-            "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
-            "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-            {task_id(run.id, i), run.id, task.phase, task.label, value_or_null(task.transfer_time),
-             parent, std::string(name_of(task.release)), task.input, json(task.overrides).dump(),
-             std::string(orchestrator::name_of(state)), task.variant, run.priority,
-             task.resources.cores, task.resources.memory_mb,
-             task.recipe.empty() ? Value(nullptr) : Value(task.recipe),
-             state == TaskState::ready ? Value(epoch_ms()) : Value(nullptr)});
+        insert_task(run.id, task_id(run.id, i), task, parent, run.priority);
     }
     add_triggers(run);
+}
+
+void Transaction::insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
+                              const std::optional<std::string>& parent, std::int64_t priority) {
+    const TaskState state =
+        task.release == Release::at_once ? TaskState::ready : TaskState::blocked;
+    database_.change(
+        "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
+        "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
+        "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+        {id, run, task.phase, task.label, value_or_null(task.transfer_time), value_or_null(parent),
+         std::string(name_of(task.release)), task.input, json(task.overrides).dump(),
+         std::string(orchestrator::name_of(state)), task.variant, priority, task.resources.cores,
+         task.resources.memory_mb, task.recipe.empty() ? Value(nullptr) : Value(task.recipe),
+         state == TaskState::ready ? Value(epoch_ms()) : Value(nullptr)});
+}
+
+std::int64_t Transaction::next_ordinal(const std::string& run) {
+    std::int64_t ordinal = 0;
+    database_.query("UPDATE runs SET last_task = last_task + 1 WHERE id=? RETURNING last_task - 1",
+                    {run}, [&](const Row& row) { ordinal = row.integer(0); });
+    return ordinal;
+}
+
+void Transaction::extend_run(const std::string& run, const Extension& extension) {
+    add_recipes(extension.recipes);
+    database_.change("UPDATE runs SET study=?, sweep=1 WHERE id=?", {extension.study.dump(), run});
+    add_event(run, std::nullopt, "run", {{"event", "extend"}, {"tasks", extension.tasks.size()}});
+    std::int64_t priority = 0;
+    database_.query("SELECT max(priority) FROM tasks WHERE run=?", {run},
+                    [&](const Row& row) { priority = row.integer(0); });
+    std::vector<std::string> ids;
+    for (const AddedTask& each : extension.tasks) {
+        auto parent = each.parent;
+        if (each.plan.parent) parent = ids[*each.plan.parent];
+        ids.push_back(task_id(run, static_cast<std::size_t>(next_ordinal(run))));
+        insert_task(run, ids.back(), each.plan, parent, priority);
+    }
 }
 
 void Transaction::add_recipes(const std::vector<Recipe>& recipes) {

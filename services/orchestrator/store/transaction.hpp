@@ -16,6 +16,8 @@ struct AttemptEnd {
     std::string reason;  ///< "cancel", "shutdown" when the service stopped it; else empty
 };
 
+struct Extension;
+
 class Transaction {
   public:
     explicit Transaction(Connection& database) : database_(database) {}
@@ -57,6 +59,8 @@ class Transaction {
 
     /// Cancels what has not started and marks what runs as cancelling. False: no such run.
     bool cancel_run(const std::string& run, const std::string& why);
+    /// More tasks for a run that exists; `study`: its document from now on.
+    void extend_run(const std::string& run, const Extension& extension);
     /// False: no such run.
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
@@ -78,6 +82,9 @@ class Transaction {
     std::int64_t last_event() const { return last_event_; }
 
   private:
+    void insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
+                     const std::optional<std::string>& parent, std::int64_t priority);
+    std::int64_t next_ordinal(const std::string& run);
     void add_triggers(const NewRun& run);
     void disarm_triggers(const std::string& run, const std::string& why);
     void add_transfer(const std::string& run, const std::string& fem_task, double time);

@@ -135,10 +135,7 @@ void Transaction::add_transfer(const std::string& run, const std::string& fem_ta
 std::string Transaction::add_fired_task(const std::string& run, const std::string& parent,
                                         const std::string& label, const json& task, double time,
                                         std::int64_t priority) {
-    std::int64_t ordinal = 0;
-    database_.query("UPDATE runs SET last_task = last_task + 1 WHERE id=? RETURNING last_task - 1",
-                    {run}, [&](const Row& row) { ordinal = row.integer(0); });
-    const std::string id = task_id(run, static_cast<std::size_t>(ordinal));
+    const std::string id = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
     // Its snapshot exists: a transfer has nothing to wait for.
     const bool ready = task.at("release") == "file_exists";
     const std::string recipe = task.at("recipe");

@@ -7,5 +7,6 @@ namespace breach::orchestrator {
 extern const char* const version_1;  ///< runs, tasks, attempts, events, artifacts
 extern const char* const version_2;  ///< variants, cache, queues, idempotency, counts per run
 extern const char* const version_3;  ///< triggers, firings
+extern const char* const version_4;  ///< indices for thousands of tasks
 
 }  // namespace breach::orchestrator

@@ -94,25 +94,28 @@ def sbatch(words):
         throttle = int(match[2]) if match and match[2] else 0
         for index in indices:
             path = jobs / f"{number:06}_{index or 0:04}.json"
-            write(path, {"number": number, "index": index, "name": wanted["job-name"], "state": "PENDING", "pid": 0})
-            start_runner(path, number, index, script, throttle)
+            start_runner(path, {"number": number, "index": index, "name": wanted["job-name"]}, script, throttle)
+            while not path.exists():
+                time.sleep(0.002)
     if take("lose_answer"):
         fail("sbatch: error: Batch job submission failed: Socket timed out on send/recv operation")
     print(number)
 
 
-def start_runner(path, number, index, script, throttle):
-    """A process that outlives the command, as slurmd would."""
+def start_runner(path, job, script, throttle):
+    """A process that outlives the command, as slurmd would. It makes the job itself: a command that is killed on its way
+    leaves no job that nobody runs."""
     if os.fork():
         return
     os.setsid()
+    write(path, {**job, "state": "PENDING", "pid": 0})
     ctypes.CDLL(None).prctl(36, 1)  # PR_SET_CHILD_SUBREAPER
     nothing = os.open(os.devnull, os.O_RDWR)
     for descriptor in range(3):
         os.dup2(nothing, descriptor)
     os.closerange(3, 256)
     try:
-        run(path, number, index, script, throttle)
+        run(path, job["number"], job["index"], script, throttle)
     finally:
         os._exit(0)
 

@@ -75,6 +75,15 @@ class RealService(unittest.TestCase):
         # What was exported can be submitted again as it is.
         self.breach("submit", out / "study.json", "--watch")
 
+    def test_a_sweep_is_extended(self):
+        study = self.study(small, [0.3])
+        run = self.breach("sweep", study, "--times", "0.1", "--watch").stdout.splitlines()[0]
+        self.assertEqual(self.breach("extend", run, "--times", "0.1,0.2").stdout, "0.2\n")
+        self.breach("watch", run)
+        table = self.breach("results", run, "--csv").stdout.splitlines()
+        self.assertEqual([line.split(",")[0] for line in table[1:]], ["0.1", "0.2"])
+        self.assertEqual(self.breach("extend", run, "--times", "0.2").stdout, "")
+
     def test_faults_come_back_with_their_pointers(self):
         refused = self.breach("submit", self.study(small + ["/mpm/cell_size=-1"], [0.1]), code=65)
         self.assertIn("/scene/mpm/cell_size", refused.stderr)

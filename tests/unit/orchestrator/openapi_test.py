@@ -1,0 +1,168 @@
+"""/openapi.json against the server that serves it: every route of the source is in it and no other, every operation
+answers with a documented status and media type, and every JSON answer fits its schema."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+import jsonschema
+
+root = pathlib.Path(os.environ["BREACH_ROOT"])
+programs = pathlib.Path(os.environ["BREACH_BIN"])
+
+
+def study(times):
+    scene = json.loads((root / "workflows/scenes/slope.json").read_text())
+    return {"format": "breachline-study/1", "name": "described", "scene": scene, "transfer_times": times}
+
+
+class Described(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        here = pathlib.Path(cls.folder.name)
+        (here / "bin").mkdir()
+        for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
+            (here / "bin" / name).symlink_to(programs / "fake_phase")
+        cls.service = subprocess.Popen([programs / "breachline", "serve", "--data", here / "data", "--port", "0", "--bin",
+                                        here / "bin"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        cls.url = json.loads(cls.service.stdout.readline())["url"]
+        cls.document = json.loads(cls.ask("GET", "/openapi.json")[2])
+        cls.seen = set()
+        cls.run_id = json.loads(cls.ask("POST", "/v1/runs", study([0.25, 0.5]))[2])["id"]
+        cls.wait()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.service.terminate()
+        cls.service.wait(30)
+        cls.service.stdout.close()
+        cls.folder.cleanup()
+
+    @classmethod
+    def ask(cls, method, path, body=None, **headers):
+        data = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
+        headers = {"Content-Type": "application/json", **headers}
+        request = urllib.request.Request(cls.url + path, data, headers, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return answer.status, answer.headers, answer.read()
+        except urllib.error.HTTPError as error:
+            return error.code, error.headers, error.read()
+
+    @classmethod
+    def wait(cls):
+        for _ in range(600):
+            run = json.loads(cls.ask("GET", f"/v1/runs/{cls.run_id}")[2])
+            if run["finished"]:
+                return run
+            time.sleep(0.05)
+        raise AssertionError("the run does not end")
+
+    def check(self, method, template, path, status, body=None, **headers):
+        """The answer has this status and is as its operation says."""
+        operation = self.document["paths"][template][method.lower()]
+        self.seen.add((template, method.lower()))
+        got, answer_headers, text = self.ask(method, path, body, **headers)
+        self.assertEqual(got, status, f"{method} {path}: {text[:300]}")
+        response = operation["responses"].get(str(got), operation["responses"]["default"])
+        if "$ref" in response:
+            response = self.document["components"]["responses"][response["$ref"].split("/")[-1]]
+        media = answer_headers.get("Content-Type", "").split(";")[0]
+        described = response.get("content", {})
+        self.assertTrue(media in described or "*/*" in described, f"{method} {path}: {media} is not described")
+        if media.endswith("json"):
+            self.fits(json.loads(text), described[media]["schema"], f"{method} {path}")
+        return text
+
+    def fits(self, value, schema, where):
+        resolver = jsonschema.RefResolver.from_schema(self.document)
+        faults = list(jsonschema.Draft202012Validator(schema, resolver=resolver).iter_errors(value))
+        self.assertFalse(faults, f"{where}: {[f'{list(each.absolute_path)}: {each.message[:200]}' for each in faults[:3]]}")
+
+    def test_1_it_is_openapi_3_1_and_its_schemas_are_sound(self):
+        self.assertTrue(self.document["openapi"].startswith("3.1"))
+        for schema in self.document["components"]["schemas"].values():
+            jsonschema.Draft202012Validator.check_schema(schema)
+        named = set(re.findall(r'"#/components/schemas/(\w+)"', json.dumps(self.document)))
+        self.assertEqual(named, set(self.document["components"]["schemas"]))
+
+    def test_2_it_has_every_route_of_the_source_and_no_other(self):
+        source = "".join(each.read_text() for each in (root / "services/orchestrator/http").glob("*.cpp"))
+        routes = {(path, method) for method, path in re.findall(r'router\.(get|post)\(\s*"([^"]+)"', source)}
+        described = {(path, method) for path, methods in self.document["paths"].items() for method in methods}
+        self.assertEqual(routes, described)
+        for path, methods in self.document["paths"].items():
+            for operation in methods.values():
+                parts = set(re.findall(r"\{([^}]+)\}", path))
+                given = {each["name"] for each in operation.get("parameters", []) if each["in"] == "path"}
+                self.assertEqual(parts, given, path)
+
+    def test_3_every_operation_answers_as_described(self):
+        run, task = self.run_id, f"{self.run_id}-00000"
+        page = json.loads(self.ask("GET", f"/v1/runs/{run}")[2])
+        transfer = next(each for each in page["tasks"] if each["phase"] == "transfer_tool")
+        artifact = page["tasks"][0]["artifacts"][0]["sha256"]
+        get = lambda template, path, status=200, **headers: self.check("GET", template, path, status, **headers)
+        post = lambda template, path, status, body=None: self.check("POST", template, path, status, body)
+        for path in ("/", "/healthz", "/readyz", "/metrics", "/openapi.json", "/v1/schema/scene", "/v1/schema/study",
+                     "/v1/examples", "/v1/runs", "/v1/sweeps"):
+            get(path, path)
+        get("/static/{file...}", "/static/none.js", 404)
+        example = json.loads(get("/v1/examples", "/v1/examples"))["examples"][0]["name"]
+        get("/v1/examples/{name}", f"/v1/examples/{example}")
+        post("/v1/scenes/plan", "/v1/scenes/plan", 200, study([0.5])["scene"])
+        post("/v1/runs", "/v1/runs", 202, study([0.25]))
+        post("/v1/sweeps", "/v1/sweeps", 202, study([0.25, 0.75]))
+        get("/v1/runs/{id}", f"/v1/runs/{run}")
+        get("/v1/runs/{id}/tasks", f"/v1/runs/{run}/tasks?limit=2")
+        for kind, name in (("runs", "/v1/runs"), ("sweeps", "/v1/sweeps")):
+            for form in ("", "?format=csv", "?format=hdf5", "?from=1&limit=1"):
+                get(f"/v1/{kind}/{{id}}/results", f"{name}/{run}/results{form}")
+        get("/v1/runs/{id}/telemetry", f"/v1/runs/{run}/telemetry")
+        get("/v1/runs/{id}/triggers", f"/v1/runs/{run}/triggers")
+        get("/v1/sweeps/{id}", f"/v1/sweeps/{run}")
+        get("/v1/tasks/{id}", f"/v1/tasks/{task}")
+        get("/v1/tasks/{id}/attempts/{n}/log", f"/v1/tasks/{task}/attempts/1/log")
+        get("/v1/tasks/{id}/frames", f"/v1/tasks/{task}/frames")
+        get("/v1/tasks/{id}/frames/{name}/points", f"/v1/tasks/{transfer['id']}/frames/none.vtkhdf/points", 404)
+        get("/v1/artifacts/{sha256}", f"/v1/artifacts/{artifact}")
+        get("/v1/events", f"/v1/events?after=0&run={run}")
+        post("/v1/sweeps/{id}/extend", f"/v1/sweeps/{run}/extend", 202, {"transfer_times": [0.25, 0.75]})
+        self.wait()
+        criterion = {"kind": "criterion", "when": "time > 0.1"}
+        post("/v1/runs/{id}/triggers", f"/v1/runs/{run}/triggers", 202, criterion)
+        for order in ("pause", "resume", "retry"):
+            post(f"/v1/runs/{{id}}/{order}", f"/v1/runs/{run}/{order}", 202)
+        post("/v1/runs/{id}/priority", f"/v1/runs/{run}/priority", 202, {"priority": 3})
+        post("/v1/sweeps/{id}/cancel", f"/v1/sweeps/{run}/cancel", 202)
+        post("/v1/runs/{id}/cancel", f"/v1/runs/{run}/cancel", 202)
+
+    def test_4_what_is_wrong_is_a_described_problem(self):
+        for template, methods in self.document["paths"].items():
+            if "{id}" not in template:
+                continue
+            path = template.replace("{id}", "nobody").replace("{n}", "1").replace("{name}", "x")
+            bodies = {"priority": {"priority": 1}, "triggers": {"kind": "manual"}, "extend": {"transfer_times": [1]}}
+            for method in methods:
+                body = bodies.get(path.split("/")[-1]) if method == "post" else None
+                self.check(method.upper(), template, path, 404, body)
+        self.check("POST", "/v1/runs", "/v1/runs", 422, {"name": 1})
+        self.check("GET", "/v1/runs", "/v1/runs?limit=0", 400)
+        self.check("GET", "/v1/runs", "/v1/runs?limits=1", 400)
+        self.check("POST", "/v1/runs", "/v1/runs", 415, b"{}", **{"Content-Type": "text/plain"})
+
+    def test_5_no_operation_was_left_out(self):
+        described = {(path, method) for path, methods in self.document["paths"].items() for method in methods}
+        self.assertEqual(described - self.seen, set())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], failfast=True)
