@@ -36,7 +36,7 @@ std::string colour_at(double share) {
     const double lightness = 0.92 - 0.67 * s;
     // pale yellow over green and blue to violet; most colourful in the middle, where sRGB has room
     const double hue = (100.0 + 200.0 * s) * std::numbers::pi / 180.0;
-    const double chroma = 0.05 + 0.20 * s * (1.0 - s);
+    const double chroma = 0.05 + 0.16 * s * (1.0 - s);
     const Triple rgb = linear_rgb(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
     char text[8];
     const auto byte = [](double linear) {

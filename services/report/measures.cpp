@@ -162,7 +162,9 @@ Table comparison(const Paper& paper, const Measures& ours) {
                 "The paper's numbers beside ours",
                 {"quantity", "unit", "paper", "here", "here / paper", "from", "error", "CPU s"},
                 {},
-                "Paper: " + paper.source + "."};
+                "Paper: " + paper.source +
+                    ". Here a plateau is the median over the transfer times inside the window, and "
+                    "over all of them while telemetry opens no window."};
     for (const PaperValue& each : paper.values) {
         std::vector<std::string> row = {each.what, each.unit, short_number(each.value)};
         if (const auto it = ours.find(each.key); it != ours.end()) {

@@ -176,7 +176,8 @@ TEST(TableData, QuotesTextAndKeepsNumbers) {
 }
 
 TEST(ColourRange, EndsAtARoundNumberAboveNearlyAll) {
-    EXPECT_EQ(colour_range({0.1, 1.7, 0.27}).high, 0.3) << "rank 99 % of three is the middle one";
+    EXPECT_DOUBLE_EQ(colour_range({0.1, 1.7, 0.27}).high, 0.3)
+        << "rank 99 % of three is the middle one";
     EXPECT_EQ(colour_range(std::vector<double>(100, 3.2)).high, 4.0);
     EXPECT_EQ(colour_range({0.0, 0.0}).high, 1.0);
 }
