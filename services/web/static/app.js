@@ -14,7 +14,7 @@ import { Telemetry } from "./telemetry.js";
 
 const settle = 250;        // [ms] events that arrive together cause one look
 const look_again = 1500;   // [ms] between looks while something runs: progress is no event
-const most_share = 0.2;    // of the time that looking may take: a large sweep is looked at less often
+const most_share = 0.5;    // of the time that looking may take: a large sweep is looked at less often
 
 const particles = new Particles();
 function look_at(row) {

@@ -36,7 +36,8 @@ export class Provenance {
         try {
             const steps = await chain_of(run, row);
             if (this.row !== row) return;
-            by_id("provenance-chain").replaceChildren(...asked_for(run, row, steps), ...steps.map(step_section));
+            by_id("provenance-chain").replaceChildren(asked_for(run, row, steps),
+                                                     ...steps.map((step) => step_section(step, (run.study?.variants ?? []).length > 0)));
         } catch (fault) {
             set_text(by_id("provenance-chain"), `This could not be read: ${fault.message}`);
         }
@@ -70,18 +71,18 @@ function asked_for(run, row, steps) {
         lines.push(["snapshot", `${firing.snapshot}, SHA-256 ${firing.sha256}`]);
     }
     if (variant) lines.push(["variant sets", (variant.overrides ?? []).join(", ") || "nothing"]);
-    const cpu = steps.flatMap(({ task }) => task.attempts).reduce((sum, attempt) => sum + (attempt.cpu_seconds ?? 0), 0);
-    lines.push(["CPU time of the chain", `${seconds(cpu)} (the FEM and the transfer serve other points too)`]);
-    return [facts(lines)];
+    const cost = steps.reduce((sum, { provenance }) => sum + (provenance?.cpu_seconds ?? 0), 0);
+    lines.push(["CPU time of the chain", `${seconds(cost)} when it was computed (the FEM and the transfer serve other points too)`]);
+    return facts(lines);
 }
 
-function step_section({ task, provenance }) {
+function step_section({ task, provenance }, has_variants) {
     const state = element("span");
     show_state(state, task.state);
     return element("section", { class: "step" },
         element("div", { class: "row" }, element("h3", {}, task_name(task)), state),
         facts(facts_of(task, provenance)),
-        settings(provenance, task.variant === "" ? " (given by one variant for all that share this task)" : ""),
+        settings(provenance, has_variants && task.variant === "" ? " (given by one variant for all that share this task)" : ""),
         files(task),
         again(task, provenance));
 }
@@ -95,7 +96,7 @@ function facts_of(task, provenance) {
         lines.push(["finished", clock(last.finished)], ["CPU", seconds(last.cpu_seconds)], ["wall", seconds(last.wall_seconds)],
                    ["attempts", String(task.attempts.length)]);
     }
-    if (task.same_as) lines.push(["taken from", task.same_as]);
+    if (task.same_as) lines.push(["taken from", task.same_as], ["CPU then", seconds(provenance?.cpu_seconds)]);
     if (why) lines.push(["why it ran", why]);
     return lines;
 }
