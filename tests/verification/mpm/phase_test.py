@@ -90,6 +90,22 @@ def test_grid_too_small(scratch):
     print("grid too small: exit 70, says where and when, last good state saved")
 
 
+def test_terrain(scratch):
+    deeper = ["--set", "/mpm/domain_y=[-10,24]", "--set", "/mpm/floor/level=-10"]
+    folder = os.path.join(scratch, "terrain")
+    ended = run(folder, *deeper, "--set", "/mpm/terrain=[[0,0],[12,0],[30,-6],[60,-6]]", "--set", "/mpm/duration=3")
+    assert ended.returncode == 0, ended.stderr
+    table = np.genfromtxt(os.path.join(folder, "profile.csv"), delimiter=",", names=True)
+    assert np.allclose(np.interp([0, 12, 21, 30, 60], table["x_m"], table["ground_m"]), [0, 0, -3, -6, -6])
+    points = arrays(os.path.join(folder, "final.vtkhdf"))
+    place = next(value for name, value in points.items() if name.split("/")[-1] == "Points")
+    ground = np.interp(place[:, 0], [0, 12, 30, 60], [0, 0, -6, -6])
+    assert np.min(place[:, 1] - ground) > -0.5, np.min(place[:, 1] - ground)  # half a cell
+    buried = run(os.path.join(scratch, "buried"), *deeper, "--set", "/mpm/terrain=[[0,1],[60,0]]")
+    assert buried.returncode == 65 and "/mpm/terrain" in buried.stderr, (buried.returncode, buried.stderr)
+    print(f"terrain: deepest point {np.min(place[:, 1] - ground):+.3f} m from the ground; a section in the ground is refused with exit 65")
+
+
 if __name__ == "__main__":
     if not os.path.exists(SOLVER):
         print("mpm_solver is not built")
@@ -97,3 +113,4 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
         test_outputs_and_resume(scratch)
         test_grid_too_small(scratch)
+        test_terrain(scratch)
