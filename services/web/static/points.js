@@ -47,9 +47,11 @@ export function spacing_of({ columns: { x, y }, count }) {
 
 /// The values that only one in a hundred is below and above, zero included: a few wild points do not own the scale.
 export function reach_of(values) {
-    const step = Math.max(1, Math.floor(values.length / 5000));
-    const sample = Float32Array.from({ length: Math.ceil(values.length / step) }, (_, i) => values[i * step])
-        .filter(Number.isFinite).sort();
+    const step = Math.max(1, Math.floor(values.length / 2000));
+    const picked = new Float32Array(Math.ceil(values.length / step));
+    let count = 0;
+    for (let i = 0; i < values.length; i += step) if (Number.isFinite(values[i])) picked[count++] = values[i];
+    const sample = picked.subarray(0, count).sort();
     const at = (share) => sample[Math.floor(share * (sample.length - 1))];
     return sample.length ? [Math.min(0, at(0.01)), Math.max(0, at(0.99))] : [0, 0];
 }
@@ -64,6 +66,7 @@ export class PointView {
         this.box = null;
         this.fitted = true;
         this.paint_time = 0; // [ms] of the last picture
+        this.image = null; // the canvas's pixels, kept between pictures
         new ResizeObserver(() => this.resize()).observe(canvas);
         this.listen();
     }
@@ -186,13 +189,17 @@ export class PointView {
 
     paint_soil(ground, line) {
         const { width, height } = this.canvas;
-        const data = this.context.createImageData(width, height);
-        const image = { pixels: new Uint32Array(data.data.buffer).fill(packed(ground)), width, height };
+        if (this.image?.width !== width || this.image?.height !== height) {
+            this.data = this.context.createImageData(width, height);
+            this.image = { pixels: new Uint32Array(this.data.data.buffer), width, height };
+        }
+        const { image } = this;
+        image.pixels.fill(packed(ground));
         const shades = this.shades();
         const palette = this.colour.named ? region_packed : scale_packed;
         if (this.snapshot.quads) this.paint_quads(image, shades, palette, line);
         else this.paint_squares(image, shades, palette);
-        this.context.putImageData(data, 0, 0);
+        this.context.putImageData(this.data, 0, 0);
     }
 
     paint_squares(image, shades, palette) {
