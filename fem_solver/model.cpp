@@ -4,6 +4,7 @@
 
 #include "fem_solver/ground.hpp"
 #include "fem_solver/ground_water.hpp"
+#include "fem_solver/sand.hpp"
 
 namespace breach::fem {
 namespace {
@@ -29,6 +30,7 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::siz
 
 Model build_model(const scene::Scene& scene, Mesh mesh) {
     const scene::Fem& fem = scene::fem_of(scene);
+    check_sand(scene);
     Model model;
     model.points_per_element = fem.element == scene::ElementKind::ssp ? 1 : gauss_points;
     model.body = {mesh.nodes.size(), mesh.quads.size()};

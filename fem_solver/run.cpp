@@ -59,6 +59,9 @@ process::Plan plan(const scene::Scene& scene) {
     };
     const std::string plastic =
         regions_where(scene, [&](const auto& region) { return soil_of(region) != nullptr; });
+    const std::string sand = regions_where(scene, [&](const auto& region) {
+        return std::holds_alternative<materials::PM4Sand>(scene.materials[region.material].law);
+    });
     const std::string softening = regions_where(scene, [&](const auto& region) {
         return soil_of(region) != nullptr && soil_of(region)->softening.has_value();
     });
@@ -72,7 +75,10 @@ process::Plan plan(const scene::Scene& scene) {
     return {
         on_if(scene.gravity > 0.0, "gravity", "the load of every stage", "gravity is zero",
               "/gravity"),
-        on_if(!plastic.empty(), "plasticity", "in " + plastic, "every region is linear elastic",
+        on_if(!sand.empty(), "PM4Sand",
+              "in " + sand + "; elastic until the first stage with its laws", "no material has it",
+              "/materials"),
+        on_if(!plastic.empty(), "plasticity", "Mohr-Coulomb in " + plastic, "no Mohr-Coulomb soil",
               "/materials"),
         on_if(!softening.empty(), "softening",
               "in " + softening + "; explicit per step, so shear bands are one element wide",

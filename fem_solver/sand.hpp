@@ -9,6 +9,10 @@
 
 namespace breach::fem {
 
+/// Throws BadInput where PM4Sand meets what it cannot do: the moving mesh (its histories per
+/// component do not turn), or an elastic stage after the switch.
+void check_sand(const scene::Scene& scene);
+
 /// What the switch left as a constant stress because it lay below p_min or outside the surfaces.
 struct StressBias {
     std::size_t points = 0;

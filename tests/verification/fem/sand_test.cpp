@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/materials/pm4sand_fields.hpp"
+#include "fem_solver/checkpoint.hpp"
 #include "fem_solver/element_bench/specimen.hpp"
 #include "tests/verification/fem/bench.hpp"
 
@@ -108,6 +110,41 @@ TEST(SandInTheMesh, RefusesAnImpossibleStrainAtOnce) {
     EXPECT_EQ(sheared.shear(std::nan("")), Geometry::degenerate);
     EXPECT_EQ(sheared.shear(1e-4), Geometry::sound);
     EXPECT_LT(sheared.force.sand_counts().evaluations, 100);
+}
+
+TEST(SandInTheMesh, MemorySurvivesACheckpointToTheLastBit) {
+    ShearedElement sheared("ssp");
+    ASSERT_EQ(sheared.shear(3e-3), Geometry::sound);
+    ASSERT_EQ(sheared.shear(-2e-3), Geometry::sound);
+    const scene::Scene scene = bench::parse(element_scene("ssp"));
+    Checkpoint checkpoint;
+    checkpoint.motion = sheared.now;
+    const auto archive = checkpoint_archive(checkpoint, scene);
+    ShearedElement resumed("ssp");
+    resumed.now = checkpoint_from(archive, scene, resumed.model, "memory").motion;
+    resumed.trial = resumed.now;
+    for (ShearedElement* each : {&sheared, &resumed}) {
+        ASSERT_EQ(each->shear(1e-3), Geometry::sound);
+        ASSERT_EQ(each->shear(4e-3), Geometry::sound);
+    }
+    EXPECT_EQ(sheared.now.points.at(0).sigma, resumed.now.points.at(0).sigma);
+    const auto numbers = [](pm4sand::State& state) {
+        std::vector<double> all;
+        for_each_real(state, [&](double x) { all.push_back(x); });
+        return all;
+    };
+    EXPECT_EQ(numbers(sheared.now.sand.at(0)), numbers(resumed.now.sand.at(0)));
+    EXPECT_EQ(numbers(sheared.now.sand.at(0)).size() + 1, pm4sand::stored_numbers);
+}
+
+TEST(SandInTheMesh, RefusesTheMovingMeshAndALateElasticStage) {
+    json moving = element_scene("ssp");
+    moving["fem"]["kinematics"] = "updated_lagrangian";
+    EXPECT_THROW(bench::model_of(bench::parse(moving)), fault::BadInput);
+    json late = element_scene("ssp");
+    late["fem"]["stages"] = {{{"type", "static"}, {"name", "plastic"}, {"laws", "scene"}},
+                             {{"type", "static"}, {"name", "elastic"}, {"laws", "elastic"}}};
+    EXPECT_THROW(bench::model_of(bench::parse(late)), fault::BadInput);
 }
 
 }  // namespace
