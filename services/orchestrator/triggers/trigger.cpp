@@ -149,6 +149,7 @@ const std::vector<std::string>& telemetry_fields() {
         "liquefaction_depth",
         "failure_surfaces",
         "r_u_max",
+        "critical_depth",  // not of the FEM: the stability analysis of the same run
     };
     return fields;
 }

@@ -37,9 +37,30 @@ bool has_regular_snapshots(const Task& fem, const json& scene) {
     return scene.at("fem").value("snapshot_interval", 0.0) > 0.0;
 }
 
-criteria::Line line_for(const criteria::Expression& expression, const json& telemetry) {
+constexpr std::string_view critical_depth_field = "critical_depth";
+
+bool asks_for_critical_depth(const criteria::Criterion& criterion) {
+    const auto& fields = criterion.expression().fields;
+    return std::ranges::find(fields, critical_depth_field) != fields.end();
+}
+
+bool asks_for_critical_depth(const Work& work) {
+    if (const auto* when = std::get_if<When>(&work))
+        return asks_for_critical_depth(when->criterion);
+    const auto* between = std::get_if<Between>(&work);
+    return between && (asks_for_critical_depth(between->window.lower()) ||
+                       asks_for_critical_depth(between->window.upper()));
+}
+
+/// critical_depth stands beside the fields of the telemetry.
+criteria::Line line_for(const criteria::Expression& expression, const json& telemetry,
+                        std::optional<double> critical_depth) {
     criteria::Line line{telemetry.at("time"), telemetry.value("step", std::int64_t{0}), {}};
     for (const std::string& field : expression.fields) {
+        if (field == critical_depth_field) {
+            line.values.push_back(critical_depth.value());
+            continue;
+        }
         const auto found = telemetry.find(field);
         const bool known = found != telemetry.end() && found->is_number();
         line.values.push_back(known ? found->get<double>()
@@ -69,7 +90,10 @@ void TriggerWatch::look() {
     load_open_triggers();
     for (auto& [id, fem] : fems_) {
         read_on(fem);
-        for (Armed& each : fem.armed) settle(fem, each);
+        for (Armed& each : fem.armed) {
+            feed(fem, each);
+            if (each.lines_taken == fem.lines.size()) settle(fem, each);
+        }
     }
 }
 
@@ -125,23 +149,47 @@ void TriggerWatch::arm(Fem& fem, const Trigger& trigger) {
         {.trigger = trigger, .work = work_of({trigger.name, trigger.kind, trigger.spec})});
     Armed& armed = fem.armed.back();
     if (trigger.kind == "manual") armed.noticed_at = epoch_ms();
-    for (const json& line : fem.lines) feed(armed, line);
 }
 
 void TriggerWatch::read_on(Fem& fem) {
     // Asked before reading: what ended before was written before.
     fem.ended = has_ended(fem.task.state);
     if (!fem.ended) fem.watch = watch_.add(fem.tail.file(), Notice::every_change);
-    for (json& line : fem.tail.fresh()) {
-        for (Armed& each : fem.armed) feed(each, line);
-        fem.lines.push_back(std::move(line));
-    }
+    for (json& line : fem.tail.fresh()) fem.lines.push_back(std::move(line));
+    if (!fem.critical_depth) look_for_stability(fem);
     fem.snapshots.clear();
     for (Frame& each : frames_in(fem.output, fem.task.phase))
         fem.snapshots.push_back({each.time, std::move(each.name)});
 }
 
-void TriggerWatch::feed(Armed& armed, const json& line) {
+/// Only when a trigger asks: a run may be large.
+void TriggerWatch::look_for_stability(Fem& fem) {
+    const auto asks = [](const Armed& each) { return asks_for_critical_depth(each.work); };
+    if (!std::ranges::any_of(fem.armed, asks)) return;
+    constexpr std::size_t first_tasks = 8;  // a run's single tasks are made before its transfers
+    const std::vector<Task> tasks = store_.tasks_of(fem.task.run, "", first_tasks);
+    const auto lem = std::ranges::find(tasks, std::string("lem_tool"), &Task::phase);
+    if (lem != tasks.end() && !is_final(lem->state)) return;
+    double depth = std::numeric_limits<double>::quiet_NaN();
+    if (lem != tasks.end() && lem->result && lem->result->contains("critical_depth")) {
+        depth = lem->result->at("critical_depth");
+    }
+    fem.critical_depth = depth;
+}
+
+/// A trigger that asks for the critical depth takes no line before that is known, so that what it
+/// decides does not depend on which phase was faster.
+void TriggerWatch::feed(const Fem& fem, Armed& armed) {
+    if (asks_for_critical_depth(armed.work) && !fem.critical_depth) return;
+    for (; armed.lines_taken < fem.lines.size(); ++armed.lines_taken) {
+        take_line(fem, armed, fem.lines[armed.lines_taken]);
+    }
+}
+
+void TriggerWatch::take_line(const Fem& fem, Armed& armed, const json& line) {
+    const auto on = [&](const criteria::Criterion& criterion) {
+        return line_for(criterion.expression(), line, fem.critical_depth);
+    };
     const auto note = [&](const criteria::Criterion& criterion, bool before) {
         if (before || criterion.state() != criteria::Criterion::State::met) return;
         armed.noticed_at = epoch_ms();
@@ -153,14 +201,14 @@ void TriggerWatch::feed(Armed& armed, const json& line) {
     };
     if (auto* when = std::get_if<When>(&armed.work)) {
         const bool before = met(when->criterion);
-        when->criterion.take(line_for(when->criterion.expression(), line));
+        when->criterion.take(on(when->criterion));
         note(when->criterion, before);
     } else if (auto* between = std::get_if<Between>(&armed.work)) {
         criteria::Window& window = between->window;
         const bool lower = met(window.lower()), upper = met(window.upper());
-        window.take_lower(line_for(window.lower().expression(), line));
+        window.take_lower(on(window.lower()));
         note(window.lower(), lower);
-        window.take_upper(line_for(window.upper().expression(), line));
+        window.take_upper(on(window.upper()));
         note(window.upper(), upper);
     }
 }

@@ -44,6 +44,7 @@ class TriggerWatch {
         std::int64_t noticed_at = 0;  ///< when the line that met it was read [ms since 1970]
         nlohmann::json crossed = nullptr;
         std::int64_t crossed_step = 0;
+        std::size_t lines_taken = 0;  ///< of the FEM's telemetry
     };
     /// A FEM with open triggers.
     struct Fem {
@@ -57,12 +58,16 @@ class TriggerWatch {
         bool regular = false;  ///< takes snapshots at an interval
         std::vector<Snapshot> snapshots = {};
         std::chrono::steady_clock::time_point asked{};
+        /// Of the run's stability analysis once that has ended; NaN when there is none [m].
+        std::optional<double> critical_depth{};
     };
 
     void load_open_triggers();
     void arm(Fem& fem, const Trigger& trigger);
     void read_on(Fem& fem);
-    void feed(Armed& armed, const nlohmann::json& line);
+    void feed(const Fem& fem, Armed& armed);
+    void take_line(const Fem& fem, Armed& armed, const nlohmann::json& line);
+    void look_for_stability(Fem& fem);
     void settle(Fem& fem, Armed& armed);
     void settle_work(Fem& fem, Armed& armed, Manual& manual);
     void settle_work(Fem& fem, Armed& armed, When& when);
