@@ -114,8 +114,10 @@ test("the FEM's mesh and telemetry are drawn", async () => {
     await page.selectOption("#view-source", { label: "FEM mesh" });
     await until("50 elements", async () => (await text_of("#view-count")) === "50 elements");
     await until("colours", async () => (await canvas_facts(page)).share > 0.02);
-    assert.deepEqual((await page.locator("#telemetry-plots figcaption").allTextContents()).slice(0, 4),
-                     ["Crest displacement", "Kinetic energy", "Jacobian ratio, averages", "Deviatoric strain, average"]);
+    const titles = await page.locator("#telemetry-plots figcaption").allTextContents();
+    for (const title of ["Crest displacement", "Kinetic energy", "Jacobian ratio, averages", "Deviatoric strain, average"]) {
+        assert.ok(titles.includes(title), `${title} is in ${titles}`);
+    }
     await page.selectOption("#telemetry-source", { index: 1 });
     await until("the front's curve", async () =>
         (await page.locator("#telemetry-plots figcaption").allTextContents()).includes("Front"));
