@@ -41,7 +41,7 @@ void measure_stability(const Run& run, Measures& found) {
 
 void measure_shaking(const Run& run, Measures& found) {
     const PhaseFolder* fem = phase_named(run, "fem_solver");
-    if (!fem) return;
+    if (!fem || !has_telemetry(*fem)) return;
     const Telemetry telemetry(fem->files / "telemetry.jsonl");
     const auto keep = [&](const std::string& key, std::optional<double> time) {
         if (time) found[key] = {*time, fem->label, cpu_of(*fem), "telemetry interval"};

@@ -124,6 +124,7 @@ Run read_run(const fs::path& folder) {
             ": is no folder; give the folder of a run, as breach export writes it");
     }
     Run run;
+    run.folder = folder;
     try {
         for (const fs::path& each : phase_folders(folder)) {
             if (auto phase = read_phase(each)) run.phases.push_back(std::move(*phase));
@@ -164,6 +165,10 @@ std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& 
 const PhaseFolder* phase_named(const Run& run, const std::string& phase) {
     const auto found = phases_named(run, phase);
     return found.empty() ? nullptr : found.front();
+}
+
+bool has_telemetry(const PhaseFolder& phase) {
+    return fs::is_regular_file(phase.files / "telemetry.jsonl");
 }
 
 std::vector<TimedFile> timed_files(const fs::path& folder, const std::string& prefix) {

@@ -24,6 +24,7 @@ struct PhaseFolder {
 };
 
 struct Run {
+    std::filesystem::path folder;
     std::string name;
     std::string title;
     std::string id;                   ///< empty: not known to a service
@@ -40,6 +41,9 @@ Run read_run(const std::filesystem::path& folder);
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.
 const PhaseFolder* phase_named(const Run& run, const std::string& phase);
+
+/// False for a phase that ended before its first line.
+bool has_telemetry(const PhaseFolder& phase);
 
 /// A file with a time in its name: "snapshot_2.750000.vtkhdf".
 struct TimedFile {

@@ -7,7 +7,9 @@
 
 namespace breach::report {
 
-Document document_of(const Run& run, const Choice& choice) {
+namespace {
+
+Document filled(const Run& run, const Choice& choice) {
     const std::optional<Paper> paper = paper_for(run.scene.at("name"));
     const Measures measures = measures_of(run);
     Document document{run.title, {}, {}, {}};
@@ -22,6 +24,17 @@ Document document_of(const Run& run, const Choice& choice) {
         add(material, document);
     }
     return document;
+}
+
+}  // namespace
+
+Document document_of(const Run& run, const Choice& choice) {
+    try {
+        return filled(run, choice);
+    } catch (const nlohmann::json::exception& error) {
+        throw fault::BadInput(run.folder.string(),
+                              {{"", error.what(), "run its phases again with this version"}});
+    }
 }
 
 void write_report(Document document, const std::filesystem::path& page) {

@@ -108,6 +108,15 @@ std::vector<const PhaseFolder*> first_runouts(const Run& run) {
     return {};
 }
 
+std::string window_text(const Measures& measures) {
+    const auto lower = measures.find("window_lower"), upper = measures.find("window_upper");
+    if (lower == measures.end()) return "";
+    return "The window of transfer times opens at " + short_number(lower->second.value) +
+           " s and " +
+           (upper == measures.end() ? std::string("stays open to the end of the FEM.")
+                                    : "closes at " + short_number(upper->second.value) + " s.");
+}
+
 }  // namespace
 
 std::string of_transfer(const PhaseFolder& phase) {
@@ -156,7 +165,7 @@ void add_runout(const Material& from, Document& document) {
              mpm ? "no runout ended well: " + mpm->fault : "the run has no runout"});
         return;
     }
-    Chapter chapter{"Runout"};
+    Chapter chapter{"Runout", window_text(from.measures)};
     Figure against = runout_against_time(from);
     if (against.chart.series.empty()) {
         document.left_out.push_back({"runout against transfer time",

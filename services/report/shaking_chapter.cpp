@@ -5,6 +5,8 @@
 
 namespace breach::report {
 
+using namespace nlohmann::literals;
+
 namespace {
 
 struct Curve {
@@ -92,15 +94,29 @@ std::vector<Plan> plans() {
     };
 }
 
+/// Cyclic resistance belongs to a material and not to a run: where to find it.
+void note_element_tests(const nlohmann::json& scene, Document& document) {
+    const nlohmann::json materials = scene.value("materials", nlohmann::json::object());
+    for (const auto& [name, material] : materials.items()) {
+        if (material.value("/law/type"_json_pointer, "") != "pm4sand") continue;
+        document.left_out.push_back({"cyclic resistance and undrained strength of " + name,
+                                     "fem_solver element-test computes them, report element-test "
+                                     "draws them"});
+    }
+}
+
 }  // namespace
 
 void add_shaking(const Material& from, Document& document) {
     const PhaseFolder* fem = phase_named(from.run, "fem_solver");
-    if (!fem) {
-        document.left_out.push_back({"courses of crest, energy, strain and distortion",
-                                     "the run has no FEM: its points fill the section"});
+    if (!fem || !has_telemetry(*fem)) {
+        document.left_out.push_back(
+            {"courses of crest, energy, strain and distortion",
+             fem ? "the FEM ended before its first line of telemetry: " + fem->fault
+                 : "the run has no FEM: its points fill the section"});
         return;
     }
+    note_element_tests(fem->scene, document);
     const Telemetry telemetry(fem->files / "telemetry.jsonl");
     Chapter chapter{"Shaking and failure",
                     fem->fault.empty() ? "" : "The FEM ended early: " + fem->fault};

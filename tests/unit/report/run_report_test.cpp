@@ -155,6 +155,23 @@ TEST_F(WetRun, IsOnePageThatNeedsNoNetworkWithAllItsFilesBesideIt) {
     EXPECT_NE(html.find("the run has no limit equilibrium"), std::string::npos);
 }
 
+TEST_F(WetRun, WithoutAFileThatAPhaseDidNotReachSaysSo) {
+    fs::remove(folder_ / "tasks/fem/telemetry.jsonl");
+    fs::remove(folder_ / "tasks/fem/snapshot_14.000000.vtkhdf");
+    fs::remove(folder_ / "tasks/fem/shake.csv");
+    std::string why;
+    for (const LeftOut& each : document().left_out) why += each.why + "\n";
+    EXPECT_NE(why.find("before its first line of telemetry"), std::string::npos);
+    EXPECT_NE(why.find("left no snapshot"), std::string::npos);
+    EXPECT_NE(why.find("no snapshot at t_T = 14 s"), std::string::npos);
+    EXPECT_NE(why.find("give it with --motion"), std::string::npos);
+}
+
+TEST_F(WetRun, WithASceneThatIsNotWholeIsRefused) {
+    std::ofstream(folder_ / "tasks/mpm_13.000000_softened/scene.completed.json") << "{}";
+    EXPECT_THROW(document(), fault::BadInput);
+}
+
 TEST_F(WetRun, WithALineThatIsNoTelemetryIsRefused) {
     std::ofstream(folder_ / "tasks/fem/telemetry.jsonl") << "{\"time\":0}\nnonsense\n";
     EXPECT_THROW(document(), fault::BadInput);
