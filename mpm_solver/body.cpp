@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "mpm_solver/step.hpp"
-#include "mpm_solver/viscosity.hpp"
+#include "mpm_solver/choose.hpp"
 
 namespace breach::mpm {
 
@@ -26,9 +25,17 @@ void refuse_points_outside(const Grid& grid, const Points& points, const std::st
                 "enlarge /mpm/domain_x and /mpm/domain_y, or lower /mpm/floor/level"}});
 }
 
+/// Fewer points than this per thread cost more to share than to do.
+constexpr std::size_t least_points_per_thread = 2000;
+
+int useful_threads(int asked_for, std::size_t points) {
+    return std::min(asked_for, 1 + static_cast<int>(points / least_points_per_thread));
+}
+
 }  // namespace
 
-Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file) {
+Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
+               const Computing& computing) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     Body body{.grid = make_grid(mpm),
               .points = std::move(points.points),
@@ -37,29 +44,37 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .gimp_half_size = mpm.gimp_half_size,
               .blending_rate = mpm.blending_rate,
               .overlap_rate = mpm.overlap_correction.rate,
-              .verbs = choose_verbs(mpm),
+              .kernel = kernel_of(mpm.kernel),
+              .order = order_of(mpm),
               .averages = {},
               .drift_x = {},
               .drift_y = {},
+              .loops = {},
+              .strips = {},
+              .team = {},
+              .sums = {},
               .tally = {}};
     refuse_points_outside(body.grid, body.points, file);
-    if (mpm.anti_locking == scene::AntiLocking::on) {
-        const auto cells = static_cast<std::size_t>(body.grid.nodes());
-        body.averages.resize(body.zones.size());
-        for (std::size_t z = 0; z < body.zones.size(); ++z) {
-            body.averages[z].sums.resize(cells);
-            body.averages[z].filled.reserve(
-                std::min(cells, body.zones[z].end - body.zones[z].begin));
-        }
+    body.averages.resize(body.zones.size());
+    for (std::size_t z = 0; z < body.zones.size(); ++z) {
+        const Choice choice = choice_of(mpm, body.zones[z]);
+        body.loops.push_back(choose_loops(choice, computing.instructions));
+        if (choice.averages == Averages::per_cell) body.averages[z].resize(body.grid.nodes());
     }
-    if (mpm.order == scene::UpdateOrder::musl) {
-        body.drift_x.resize(body.points.size());
-        body.drift_y.resize(body.points.size());
-    }
-    for (std::size_t p = 0; p < body.points.size(); ++p) {
+    const std::size_t n = body.points.size();
+    body.points.cell.resize(n);
+    body.team = std::make_shared<Team>(useful_threads(computing.threads, n));
+    if (body.order == Order::musl) body.drift_x.resize(n), body.drift_y.resize(n);
+    for (std::size_t p = 0; p < n; ++p) {
         const Vec2 v{body.points.vx[p], body.points.vy[p]};
         body.tally.kinetic += 0.5 * body.points.m[p] * v.squaredNorm();
         body.tally.fastest = std::max(body.tally.fastest, v.norm());
+    }
+    const bool has_homes = body.points.home[0] >= 0;
+    if (has_homes) {
+        body.strips.cut(body.grid, body.points, body.zones);
+    } else {
+        body.strips.sort(body.grid, body.points, body.zones);
     }
     return body;
 }
@@ -89,6 +104,10 @@ double wave_speed(const Body& body) {
         fastest = std::max(fastest, zone.elasticity.wave_speed(1.0 / zone.largest_specific_volume));
     }
     return fastest;
+}
+
+double viscous_speed(const Zone& zone, double h) {
+    return 16.0 / 3.0 * zone.viscosity * zone.largest_specific_volume / h;
 }
 
 double courant_step(const Body& body, double cfl) {

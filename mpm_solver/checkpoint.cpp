@@ -9,7 +9,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 3;
+constexpr int version = 4;
 constexpr const char* records_prefix = "records.";
 
 /// The numbers of the run that are not per point. Calls visit(name, value).
@@ -25,6 +25,7 @@ void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& 
     visit("plastic", tally.plastic), visit("friction", tally.friction);
     visit("viscous", tally.viscous), visit("pushed_in", tally.pushed_in);
     visit("kinetic", tally.kinetic), visit("fastest", tally.fastest);
+    visit("strayed", tally.strayed);
 }
 
 std::string digests(const exchange::Provenance& provenance) {
@@ -86,14 +87,14 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
 }
 
 Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
-                        const exchange::Provenance& provenance) {
+                        const exchange::Provenance& provenance, const Computing& computing) {
     const Archive archive = exchange::read_archive(file, kind, version);
     refuse_if_different(archive, "scene", provenance.scene, file.string());
     refuse_if_different(archive, "inputs", digests(provenance), file.string());
     try {
         ZonedPoints points{load_points(archive), {}};
         points.zones = zones_of(scene, points.points);
-        Body body = make_body(scene, std::move(points), file.string());
+        Body body = make_body(scene, std::move(points), file.string(), computing);
         Clock clock;
         Start start;
         for_each_number(clock, start, body.tally, [&](const char* name, double& value) {

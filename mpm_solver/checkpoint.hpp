@@ -17,6 +17,6 @@ struct Resumed {
 
 /// Throws BadInput if the checkpoint belongs to another scene or input, or is damaged.
 Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
-                        const exchange::Provenance& provenance);
+                        const exchange::Provenance& provenance, const Computing& computing = {});
 
 }  // namespace breach::mpm

@@ -83,12 +83,9 @@ Grid make_grid(const scene::Mpm& mpm) {
         grid.conditions[(cells_x + 1) * grid.rows + j] |= wall_condition(mpm.right);
     }
     if (!mpm.terrain.empty()) lay_terrain(grid, mpm);
-    grid.mass.assign(n, 0.0);
+    constexpr std::size_t wide = 4;  // rows of masses are read and written four at a time
+    grid.mass.assign(n + wide, 0.0);
     grid.motion.assign(n, Lane::Zero());
-    grid.is_stencil.assign(n, 0);
-    grid.is_active.assign(n, 0);
-    grid.stencils.reserve(n);
-    grid.active.reserve(n);
     return grid;
 }
 
@@ -96,23 +93,6 @@ void clear(Grid& grid) {
     for (const std::int32_t node : grid.active) {
         grid.mass[node] = 0.0;
         grid.motion[node].setZero();
-        grid.is_active[node] = 0;
-    }
-    for (const std::int32_t first : grid.stencils) grid.is_stencil[first] = 0;
-    grid.active.clear();
-    grid.stencils.clear();
-}
-
-void find_active_nodes(Grid& grid) {
-    for (const std::int32_t first : grid.stencils) {
-        for (std::int32_t i = 0; i < 3; ++i) {
-            for (std::int32_t node = first + i * grid.rows; node < first + i * grid.rows + 3;
-                 ++node) {
-                if (grid.is_active[node]) continue;
-                grid.is_active[node] = 1;
-                grid.active.push_back(node);
-            }
-        }
     }
 }
 

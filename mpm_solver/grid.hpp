@@ -45,11 +45,8 @@ struct Grid {
     /// velocity at the end of the step [m/s] and its change over the step [m/s].
     std::vector<Lane> motion;
 
-    // nodes in use
-    std::vector<std::int32_t> stencils;  ///< first node of every 3 x 3 stencil that a point uses
-    std::vector<std::uint8_t> is_stencil;
+    /// Nodes that points may reach before they are sorted again, ascending.
     std::vector<std::int32_t> active;
-    std::vector<std::uint8_t> is_active;
 
     std::int32_t nodes() const { return columns * rows; }
     double xi(double x) const { return (x - origin.x()) * per_h; }
@@ -61,19 +58,11 @@ struct Grid {
     bool holds(double x, double y) const {
         return x >= low.x() && x <= high.x() && y >= low.y() && y <= high.y();
     }
-    void use_stencil(std::int32_t first) {
-        if (is_stencil[first]) return;
-        is_stencil[first] = 1;
-        stencils.push_back(first);
-    }
 };
 
 Grid make_grid(const scene::Mpm& mpm);
 
-/// Forgets the last step: zeroes the nodes that were in use.
+/// Forgets the last step: zeroes the active nodes.
 void clear(Grid& grid);
-
-/// Fills `active` from the stencils in use.
-void find_active_nodes(Grid& grid);
 
 }  // namespace breach::mpm

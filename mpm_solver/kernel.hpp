@@ -1,22 +1,24 @@
 // One-dimensional shape functions of a point over three neighbouring nodes; a point's weight at a
 // node is the product of one in x and one in y. Lengths in cells; wall-clipped near walls and
-// floor.
+// floor. One formula for one point (Real = double) or for several side by side (Real = Lanes).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
+
+#include "core/materials/lanes.hpp"
 
 namespace breach::mpm {
 
 /// Weights of the nodes first, first + 1, first + 2 and their derivatives [1/cell]. They always sum
 /// to 1 (derivatives to 0), and reproduce a linear field about `centre`, the centroid of the
-/// point's domain [cells].
+/// point's domain [cells]. `first` is a whole number.
+template <class Real>
 struct Stencil {
-    std::int32_t first;
-    double N[3];
-    double dN[3];
-    double centre;
+    Real first;
+    Real N[3];
+    Real dN[3];
+    Real centre;
 };
 
 /// Node rows that carry a wall; a domain does not reach through them. Open ends lie out of reach.
@@ -25,38 +27,90 @@ struct WallRows {
     std::int32_t high = std::numeric_limits<std::int32_t>::max();
 };
 
+/// The nearest whole number; |a| < 2^51.
+template <class Real>
+[[gnu::always_inline]] inline Real nearest_whole(const Real& a) {
+    return (a + Real(materials::lanes::to_integer)) - Real(materials::lanes::to_integer);
+}
+
+/// Row of the nodes that is nearest to a place, and whether it carries a wall.
+template <class Real>
+struct NearestRow {
+    Real row;
+    Real d;  ///< from that row to the place [cells]
+    materials::MaskOf<Real> low_wall;
+    materials::MaskOf<Real> high_wall;
+
+    [[gnu::always_inline]] NearestRow(const Real& xi, const WallRows& walls)
+        : row(nearest_whole(xi)),
+          d(xi - row),
+          low_wall(row <= Real(walls.low)),
+          high_wall(row >= Real(walls.high)) {}
+};
+
+/// The hat functions about the nearest row, exact for a domain that ends there: what all kernels
+/// come down to beside a wall. `reach` >= 0 is the centroid's distance from the wall.
+template <class Real>
+[[gnu::always_inline]] inline void clip_at_low_wall(Stencil<Real>& s,
+                                                    const materials::MaskOf<Real>& where,
+                                                    const Real& reach) {
+    using materials::lanes::select;
+    s.N[0] = select(where, Real(0.0), s.N[0]);
+    s.N[1] = select(where, Real(1.0) - reach, s.N[1]);
+    s.N[2] = select(where, reach, s.N[2]);
+    s.dN[0] = select(where, Real(0.0), s.dN[0]);
+    s.dN[1] = select(where, Real(-1.0), s.dN[1]);
+    s.dN[2] = select(where, Real(1.0), s.dN[2]);
+    s.centre = select(where, (s.first + Real(1.0)) + reach, s.centre);
+}
+template <class Real>
+[[gnu::always_inline]] inline void clip_at_high_wall(Stencil<Real>& s,
+                                                     const materials::MaskOf<Real>& where,
+                                                     const Real& reach) {
+    using materials::lanes::select;
+    s.N[0] = select(where, reach, s.N[0]);
+    s.N[1] = select(where, Real(1.0) - reach, s.N[1]);
+    s.N[2] = select(where, Real(0.0), s.N[2]);
+    s.dN[0] = select(where, Real(-1.0), s.dN[0]);
+    s.dN[1] = select(where, Real(1.0), s.dN[1]);
+    s.dN[2] = select(where, Real(0.0), s.dN[2]);
+    s.centre = select(where, (s.first + Real(1.0)) - reach, s.centre);
+}
+
 /// GIMP (Bardenhagen & Kober 2004): the hat function averaged over a domain of fixed half size l.
 /// Beside a wall the domain is clipped there, so that partition of unity and gradients of linear
 /// fields stay exact.
 class GimpKernel {
   public:
     /// half_size: l [cells] in (0, 0.5].
-    explicit GimpKernel(double half_size)
+    [[gnu::always_inline]] explicit GimpKernel(double half_size)
         : l_(half_size), half_over_l_(0.5 / half_size), quarter_over_l_(0.25 / half_size) {}
 
     /// xi [cells] > 0 from the first (ghost) node row.
-    Stencil operator()(double xi, const WallRows& walls) const {
-        const auto nearest = static_cast<std::int32_t>(xi + 0.5);
-        const double d = xi - nearest;
-        if (nearest == walls.low && d < l_) {
-            const double reach = 0.5 * (d + l_);
-            return {nearest - 1, {0.0, 1.0 - reach, reach}, {0.0, -1.0, 1.0}, nearest + reach};
+    template <class Real>
+    [[gnu::always_inline]] Stencil<Real> operator()(const Real& xi, const WallRows& walls) const {
+        using namespace materials::lanes;
+        const NearestRow<Real> at(xi, walls);
+        const Real& d = at.d;
+        const Real l(l_);
+        const Real e = larger(smaller(d, l), -l);
+        const Real to_right = l + e;
+        const Real to_left = l - e;
+        const Real right = to_right * to_right * Real(quarter_over_l_) + positive(d - l);
+        const Real left = to_left * to_left * Real(quarter_over_l_) + positive(-d - l);
+        const Real d_right = to_right * Real(half_over_l_);
+        const Real d_left = -to_left * Real(half_over_l_);
+        Stencil<Real> s{at.row - Real(1.0),
+                        {left, Real(1.0) - left - right, right},
+                        {d_left, -d_left - d_right, d_right},
+                        xi};
+        const materials::MaskOf<Real> low = at.low_wall & (d < l);
+        const materials::MaskOf<Real> high = at.high_wall & (-d < l);
+        if (any(materials::MaskOf<Real>(low | high))) [[unlikely]] {
+            clip_at_low_wall(s, low, Real(0.5) * (d + l));
+            clip_at_high_wall(s, high, Real(0.5) * (l - d));
         }
-        if (nearest == walls.high && -d < l_) {
-            const double reach = 0.5 * (l_ - d);
-            return {nearest - 1, {reach, 1.0 - reach, 0.0}, {-1.0, 1.0, 0.0}, nearest - reach};
-        }
-        const double e = std::clamp(d, -l_, l_);
-        const double to_right = l_ + e;
-        const double to_left = l_ - e;
-        const double right = to_right * to_right * quarter_over_l_ + std::max(d - l_, 0.0);
-        const double left = to_left * to_left * quarter_over_l_ + std::max(-d - l_, 0.0);
-        const double d_right = to_right * half_over_l_;
-        const double d_left = -to_left * half_over_l_;
-        return {nearest - 1,
-                {left, 1.0 - left - right, right},
-                {d_left, -d_left - d_right, d_right},
-                xi};
+        return s;
     }
 
   private:
@@ -70,30 +124,42 @@ class GimpKernel {
 /// is needed, value and slope go over smoothly, linear fields stay exact.
 class BSplineKernel {
   public:
-    Stencil operator()(double xi, const WallRows& walls) const {
-        const auto nearest = static_cast<std::int32_t>(xi + 0.5);
-        const double d = xi - nearest;
-        if (nearest == walls.low) return {nearest - 1, {0.0, 1.0 - d, d}, {0.0, -1.0, 1.0}, xi};
-        if (nearest == walls.high) return {nearest - 1, {-d, 1.0 + d, 0.0}, {-1.0, 1.0, 0.0}, xi};
-        const double to_right = 0.5 + d;
-        const double to_left = 0.5 - d;
-        return {nearest - 1,
-                {0.5 * to_left * to_left, 0.75 - d * d, 0.5 * to_right * to_right},
-                {-to_left, -2.0 * d, to_right},
-                xi};
+    template <class Real>
+    [[gnu::always_inline]] Stencil<Real> operator()(const Real& xi, const WallRows& walls) const {
+        using namespace materials::lanes;
+        const NearestRow<Real> at(xi, walls);
+        const Real& d = at.d;
+        const Real to_right = Real(0.5) + d;
+        const Real to_left = Real(0.5) - d;
+        Stencil<Real> s{
+            at.row - Real(1.0),
+            {Real(0.5) * to_left * to_left, Real(0.75) - d * d, Real(0.5) * to_right * to_right},
+            {-to_left, Real(-2.0) * d, to_right},
+            xi};
+        if (any(materials::MaskOf<Real>(at.low_wall | at.high_wall))) [[unlikely]] {
+            clip_at_low_wall(s, at.low_wall, d);
+            clip_at_high_wall(s, at.high_wall, -d);
+            s.centre = xi;
+        }
+        return s;
     }
 };
 
 /// Hat functions: for tests. Points on a node belong to the cell above it, except at the far wall.
 class LinearKernel {
   public:
-    Stencil operator()(double xi, const WallRows& walls) const {
-        const auto nearest = static_cast<std::int32_t>(xi + 0.5);
-        const double d = xi - nearest;
-        if (d >= 0.0 && nearest != walls.high) {
-            return {nearest - 1, {0.0, 1.0 - d, d}, {0.0, -1.0, 1.0}, xi};
-        }
-        return {nearest - 1, {-d, 1.0 + d, 0.0}, {-1.0, 1.0, 0.0}, xi};
+    template <class Real>
+    [[gnu::always_inline]] Stencil<Real> operator()(const Real& xi, const WallRows& walls) const {
+        using namespace materials::lanes;
+        const NearestRow<Real> at(xi, walls);
+        const Real& d = at.d;
+        const materials::MaskOf<Real> above = (d >= Real(0.0)) & !at.high_wall;
+        const Real none(0.0);
+        const Real one(1.0);
+        return {at.row - one,
+                {select(above, none, -d), select(above, one - d, one + d), select(above, d, none)},
+                {select(above, none, -one), select(above, -one, one), select(above, one, none)},
+                xi};
     }
 };
 

@@ -6,52 +6,69 @@ namespace breach::mpm {
 
 namespace {
 
+/// Calls visit(kernel) with the body's own kernel.
+template <class Visit>
+auto with_kernel(const Body& body, Visit&& visit) {
+    switch (body.kernel) {
+        case KernelKind::gimp:
+            return visit(GimpKernel(body.gimp_half_size));
+        case KernelKind::b_spline:
+            return visit(BSplineKernel{});
+        default:
+            return visit(LinearKernel{});
+    }
+}
+
 /// Integral of every node's weight over the places a point can take, by the midpoint rule.
-std::vector<double> capacities(const GimpKernel& kernel, const WallRows& walls, std::int32_t rows,
-                               double h) {
+std::vector<double> capacities(const Body& body, const WallRows& walls, std::int32_t rows) {
     constexpr int samples = 200;  // per cell; the weights are quadratic
     std::vector<double> capacity(rows, 0.0);
-    for (std::int32_t cell = 1; cell < rows - 2; ++cell) {
-        for (int k = 0; k < samples; ++k) {
-            const Stencil s = kernel(cell + (k + 0.5) / samples, walls);
-            for (int i = 0; i < 3; ++i) capacity[s.first + i] += s.N[i] * h / samples;
+    with_kernel(body, [&](const auto& kernel) {
+        for (std::int32_t cell = 1; cell < rows - 2; ++cell) {
+            for (int k = 0; k < samples; ++k) {
+                const auto s = kernel(cell + (k + 0.5) / samples, walls);
+                double* node = &capacity[static_cast<std::size_t>(s.first)];
+                for (int i = 0; i < 3; ++i) node[i] += s.N[i] * body.grid.h / samples;
+            }
         }
-    }
+    });
     return capacity;
 }
 
+/// Calls visit(p, i, j, weight) for every point and each of its nodes.
 template <class Visit>
-void for_each_weight(const Body& body, std::size_t p, Visit&& visit) {
-    const GimpKernel kernel(body.gimp_half_size);
+void for_each_weight(const Body& body, Visit&& visit) {
     const Grid& grid = body.grid;
-    const Stencil sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
-    const Stencil sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            visit(sx.first + i, sy.first + j, sx.N[i] * sy.N[j]);
+    with_kernel(body, [&](const auto& kernel) {
+        for (std::size_t p = 0; p < body.points.size(); ++p) {
+            const auto sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
+            const auto sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);
+            const auto first_i = static_cast<std::int32_t>(sx.first);
+            const auto first_j = static_cast<std::int32_t>(sy.first);
+            for (int i = 0; i < 3; ++i) {
+                for (int j = 0; j < 3; ++j) {
+                    visit(p, first_i + i, first_j + j, sx.N[i] * sy.N[j]);
+                }
+            }
         }
-    }
+    });
 }
 
 }  // namespace
 
 OverlapMeter::OverlapMeter(const Body& body, double thickness)
-    : capacity_x_(capacities(GimpKernel(body.gimp_half_size), body.grid.walls_x, body.grid.columns,
-                             body.grid.h)),
-      capacity_y_(capacities(GimpKernel(body.gimp_half_size), body.grid.walls_y, body.grid.rows,
-                             body.grid.h)),
+    : capacity_x_(capacities(body, body.grid.walls_x, body.grid.columns)),
+      capacity_y_(capacities(body, body.grid.walls_y, body.grid.rows)),
       thickness_(thickness),
-      filled_(body.grid.mass.size(), 0.0) {}
+      filled_(body.grid.nodes(), 0.0) {}
 
 void OverlapMeter::fill_nodes(const Body& body) {
     std::fill(filled_.begin(), filled_.end(), 0.0);
     const Points& points = body.points;
     const std::int32_t rows = body.grid.rows;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        for_each_weight(body, p, [&](std::int32_t i, std::int32_t j, double N) {
-            filled_[i * rows + j] += points.V[p] * N;
-        });
-    }
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        filled_[i * rows + j] += points.V[p] * N;
+    });
 }
 
 double OverlapMeter::fill_at(std::int32_t i, std::int32_t j) const {
@@ -64,25 +81,20 @@ double OverlapMeter::measure(const Body& body) {
     fill_nodes(body);
     const Points& points = body.points;
     double excess = 0.0;
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(i, j) - 1.0, 0.0);
+    });
     double volume = 0.0;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        for_each_weight(body, p, [&](std::int32_t i, std::int32_t j, double N) {
-            if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(i, j) - 1.0, 0.0);
-        });
-        volume += points.V[p];
-    }
+    for (const double V : points.V) volume += V;
     return volume > 0.0 ? excess / volume : 0.0;
 }
 
 void OverlapMeter::mark(Body& body, double tolerance) {
     fill_nodes(body);
-    for (std::size_t p = 0; p < body.points.size(); ++p) {
-        double excess = 0.0;
-        for_each_weight(body, p, [&](std::int32_t i, std::int32_t j, double N) {
-            if (N > 0.0) excess += N * std::max(fill_at(i, j) - 1.0 - tolerance, 0.0);
-        });
-        body.points.excess[p] = excess;
-    }
+    std::fill(body.points.excess.begin(), body.points.excess.end(), 0.0);
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        if (N > 0.0) body.points.excess[p] += N * std::max(fill_at(i, j) - 1.0 - tolerance, 0.0);
+    });
 }
 
 }  // namespace breach::mpm

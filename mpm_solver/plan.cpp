@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "mpm_solver/choose.hpp"
 #include "mpm_solver/run.hpp"
-#include "mpm_solver/sort.hpp"
 
 namespace breach::mpm {
 
@@ -42,6 +42,27 @@ void plan_viscosity(const scene::Material& material, Plan& plan) {
                     "/materials/" + material.name + "/viscosity"});
 }
 
+process::PlanLine plan_anti_locking(const scene::Mpm& mpm, const scene::Material& soil) {
+    const std::string pointer = "/mpm/anti_locking";
+    const std::string what = "anti-locking of " + soil.name;
+    const bool plastic = std::holds_alternative<materials::MohrCoulomb>(soil.law);
+    switch (mpm.anti_locking) {
+        case scene::AntiLocking::on:
+            return {what, Use::on,
+                    "volumetric increment and mean stress averaged per cell and material", pointer};
+        case scene::AntiLocking::off:
+            return {what, Use::left_out, "switched off", pointer};
+        default:
+            break;
+    }
+    const bool on = plastic || materials::elasticity(soil.law).nu > locking_nu;
+    return {what, on ? Use::on : Use::left_out,
+            plastic ? "plastic flow keeps its volume"
+            : on    ? "nearly incompressible"
+                    : "elastic and compressible: it does not lock, averaging would take energy",
+            pointer};
+}
+
 void plan_laws(const scene::Scene& scene, Plan& plan) {
     for (const scene::Material& material : scene.materials) {
         const std::string pointer = "/materials/" + material.name + "/law";
@@ -51,6 +72,7 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
                             "PM4Sand belongs to the FEM: no particle may have it", pointer});
             continue;
         }
+        plan.push_back(plan_anti_locking(*scene.mpm, material));
         const auto* mohr_coulomb = std::get_if<materials::MohrCoulomb>(&material.law);
         if (!mohr_coulomb) {
             plan.push_back({"law of " + material.name, Use::on, "linear elastic", pointer});
@@ -83,19 +105,24 @@ process::PlanLine plan_kernel(const scene::Mpm& mpm) {
     }
 }
 
+process::PlanLine plan_order(scene::UpdateOrder order) {
+    switch (order) {
+        case scene::UpdateOrder::musl:
+            return {"second mapping of momentum (MUSL)", Use::on, "asked for", "/mpm/order"};
+        case scene::UpdateOrder::usf:
+            return {"stress before forces (USF)", Use::on,
+                    "asked for: forces are mapped after momentum, on their own", "/mpm/order"};
+        default:
+            return {"second mapping of momentum (MUSL)", Use::left_out,
+                    "usl: the gradient comes from the nodes' new velocities", "/mpm/order"};
+    }
+}
+
 void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
     plan.push_back(plan_kernel(mpm));
-    const bool musl = mpm.order == scene::UpdateOrder::musl;
-    plan.push_back({"second momentum mapping (MUSL)", musl ? Use::on : Use::left_out,
-                    musl ? "asked for" : "usl: the gradient comes from the nodes' new velocities",
-                    "/mpm/order"});
+    plan.push_back(plan_order(mpm.order));
     plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
                     "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
-    const bool averages = mpm.anti_locking == scene::AntiLocking::on;
-    plan.push_back({"anti-locking", averages ? Use::on : Use::left_out,
-                    averages ? "volumetric increment and mean stress averaged per cell and material"
-                             : "switched off",
-                    "/mpm/anti_locking"});
     const bool corrects = mpm.overlap_correction.rate > 0.0;
     plan.push_back({"overlap correction", corrects ? Use::on : Use::left_out,
                     corrects ? "rate " + text_of(mpm.overlap_correction.rate) + " 1/s beyond " +
@@ -161,11 +188,13 @@ Plan plan(const scene::Scene& scene) {
     plan_boundaries(mpm, plan);
     plan.push_back({"total epsilon_q", Use::on, "for pictures; softening has its own", "/mpm"});
     plan.push_back({"active nodes only", Use::on, "empty cells cost nothing", "/mpm/domain_x"});
-    plan.push_back({"sorting of points", Use::left_out,
-                    "starts by itself at " + std::to_string(least_points_to_sort) +
-                        " points: fewer fit the cache",
-                    "/mpm/fill_points"});
-    plan.push_back({"threads", Use::left_out, "one core does this scene", "/mpm"});
+    plan.push_back(
+        {"sorting of points", Use::on,
+         "whenever one has strayed half a cell: neighbours share cache and threads share "
+         "no nodes",
+         "/mpm/cell_size"});
+    plan.push_back(
+        {"threads", Use::on, "as --threads says; the results do not depend on it", "/mpm"});
     return plan;
 }
 

@@ -154,7 +154,7 @@ void settle_volumes(Points& points, Zone& zone, double stiffness_scale) {
 void Points::resize(std::size_t n) {
     for_each_real(*this, [n](const char*, std::vector<double>& values) { values.resize(n); });
     for_each_integer(*this,
-                     [n](const char*, std::vector<std::int32_t>& values) { values.resize(n); });
+                     [n](const char*, std::vector<std::int32_t>& values) { values.resize(n, -1); });
 }
 
 std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points) {

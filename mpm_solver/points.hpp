@@ -10,6 +10,7 @@
 #include "core/exchange/particle_state.hpp"
 #include "core/materials/mohr_coulomb.hpp"
 #include "core/scene/scene.hpp"
+#include "mpm_solver/loops.hpp"
 
 namespace breach::mpm {
 
@@ -28,7 +29,8 @@ struct Points {
     std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-]
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
     std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
-    std::vector<std::int32_t> cell;    ///< cell at the start of the step
+    std::vector<std::int32_t> home;    ///< cell when the points were last sorted
+    std::vector<std::int32_t> cell;    ///< cell at the start of the step; anti-locking only
 
     std::size_t size() const { return x.size(); }
     void resize(std::size_t n);
@@ -51,14 +53,8 @@ void for_each_real(AnyPoints& points, Visit&& visit) {
 
 template <class AnyPoints, class Visit>
 void for_each_integer(AnyPoints& points, Visit&& visit) {
-    visit("region", points.region), visit("number", points.number), visit("cell", points.cell);
+    visit("region", points.region), visit("number", points.number), visit("home", points.home);
 }
-
-/// How the volume of the force follows the soil.
-enum class VolumeRule {
-    tracked,      ///< V = volume: laws that never open, or gap closure switched off
-    from_stress,  ///< V = V_0 (1 + sigma_m / K): opened gaps carry no stress (mpm.md, section 0)
-};
 
 using ReadyLaw = std::variant<materials::LinearElastic, materials::ReadyMohrCoulomb>;
 

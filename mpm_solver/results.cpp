@@ -9,6 +9,17 @@ namespace breach::mpm {
 
 namespace {
 
+const char* name_of(scene::UpdateOrder order) {
+    switch (order) {
+        case scene::UpdateOrder::musl:
+            return "musl";
+        case scene::UpdateOrder::usf:
+            return "usf";
+        default:
+            return "usl";
+    }
+}
+
 using nlohmann::json;
 using process::Session;
 
@@ -72,7 +83,7 @@ void conclude(Session& session, const Simulation& simulation, double speed) {
     result["dt_max"] = clock.dt_max;
     result["particles"] = simulation.body().points.size();
     result["particle_steps_per_second"] = speed;
-    result["order"] = mpm.order == scene::UpdateOrder::usl ? "usl" : "musl";
+    result["order"] = name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
 }
 

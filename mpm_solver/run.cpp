@@ -19,6 +19,8 @@ using process::Session;
 
 constexpr const char* checkpoint_name = "checkpoint.h5";
 
+Computing computing_of(const Session& session) { return {.threads = session.settings().threads}; }
+
 void log_sampling(const std::vector<SampledRegion>& regions) {
     for (const SampledRegion& region : regions) {
         spdlog::log(
@@ -31,8 +33,8 @@ void log_sampling(const std::vector<SampledRegion>& regions) {
 }
 
 Body fresh_body(const scene::Scene& scene, const exchange::ParticleState& state,
-                const std::string& source) {
-    Body body = make_body(scene, zoned_points(scene, state, source), source);
+                const std::string& source, const Computing& computing) {
+    Body body = make_body(scene, zoned_points(scene, state, source), source, computing);
     refuse_buried_points(body, source);
     return body;
 }
@@ -43,18 +45,19 @@ Simulation begin(const Session& session) {
         const FilledSection filled = fill_section(scene);
         log_sampling(filled.regions);
         const std::string source = scene.name + " (section filled with points)";
-        return {scene, fresh_body(scene, filled.state, source), 0.0};
+        return {scene, fresh_body(scene, filled.state, source, computing_of(session)), 0.0};
     }
     const exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
     const std::string source = session.input().string();
     log_sampling(sampling_of(scene, state));
-    return {scene, fresh_body(scene, state, source), state.transfer_time};
+    return {scene, fresh_body(scene, state, source, computing_of(session)), state.transfer_time};
 }
 
 Simulation begin_or_resume(Session& session) {
     const auto checkpoint = session.output(checkpoint_name);
     if (session.settings().start == process::Start::resume && std::filesystem::exists(checkpoint)) {
-        Resumed resumed = load_checkpoint(checkpoint, session.scene(), session.provenance());
+        Resumed resumed = load_checkpoint(checkpoint, session.scene(), session.provenance(),
+                                          computing_of(session));
         session.truncate_telemetry(resumed.telemetry_lines);
         spdlog::info("goes on at t = {:.6f} s, step {}", resumed.simulation.clock().time,
                      resumed.simulation.clock().step);

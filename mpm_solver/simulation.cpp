@@ -24,7 +24,6 @@ Simulation::Simulation(const scene::Scene& scene, Body body, Clock clock, Start 
       records_(std::move(records)),
       view_(flow_view(scene, body_.grid)),
       overlap_(body_, scene.thickness),
-      sorter_(body_),
       limits_(limits_of(body_, mpm_, start_.energy)),
       last_good_(body_.points),
       last_good_time_(clock.time),
@@ -39,9 +38,6 @@ double Simulation::next_step() const {
 }
 
 void Simulation::advance() {
-    if (body_.points.size() >= least_points_to_sort && clock_.step % steps_between_sorts == 0) {
-        sorter_.sort(body_);
-    }
     if (mpm_.overlap_correction.rate > 0.0 && clock_.step % steps_between_marks == 0) {
         overlap_.mark(body_, mpm_.overlap_correction.tolerance);
     }

@@ -10,7 +10,6 @@
 #include "mpm_solver/history.hpp"
 #include "mpm_solver/overlap.hpp"
 #include "mpm_solver/runout.hpp"
-#include "mpm_solver/sort.hpp"
 
 namespace breach::mpm {
 
@@ -84,7 +83,6 @@ class Simulation {
     Records records_;
     FlowView view_;
     OverlapMeter overlap_;
-    Sorter sorter_;
     Limits limits_;
     Points last_good_;
     double last_good_time_;

@@ -1,37 +1,35 @@
-// One explicit time step of the material point method, verb by verb.
+// One explicit time step of the material point method, verb by verb. What a verb does to a point
+// stands in the loops (*_loop.hpp); here they are shared out to the threads.
 #pragma once
 
 #include "mpm_solver/body.hpp"
 
 namespace breach::mpm {
 
-/// Advances the body by dt [s]. No allocation, no checks: the caller looks at body.tally.
+/// Advances the body by dt [s]. No checks: the caller looks at body.tally. Allocates only where
+/// points have to be sorted anew. Points that were moved from outside must be sorted first.
 void step(Body& body, double dt);
 
-/// Chooses the verbs that the scene's options ask for.
-Verbs choose_verbs(const scene::Mpm& mpm);
+/// Sorts the points when one has strayed too far from its home.
+void keep_sorted(Body& body);
 
-/// Mass, affine momentum and internal force of the points onto the nodes.
-template <class Kernel>
-void particle_to_grid(Body& body);
+/// Mass, affine momentum and (unless USF) internal force of the points onto the nodes.
+void particle_to_grid(Body& body, double dt);
 
 /// Newton's second law at the active nodes, then walls, floor and friction.
 void update_momentum(Body& body, double dt);
 
 /// Velocity (affine FLIP drawn to affine PIC at the rate beta), its gradient and the position of
 /// the points.
-template <class Kernel, scene::UpdateOrder order, scene::AntiLocking anti_locking>
 void grid_to_particle(Body& body, double dt);
 
 /// MUSL: the new momentum, affine part included, onto the nodes once more; gradient from there.
-template <class Kernel, scene::AntiLocking anti_locking>
 void map_again(Body& body, double dt);
 
-/// Is the points' `excess` overlap pushed apart?
-enum class Overlap { left_alone, corrected };
+/// USF: gradient from the momentum before forces, stress from it, then the forces.
+void update_stress_first(Body& body, double dt);
 
 /// Strain increment, rotation, law, anti-locking and volume of every zone.
-template <scene::AntiLocking anti_locking, Overlap overlap>
 void update_stress(Body& body, double dt);
 
 }  // namespace breach::mpm

@@ -10,6 +10,16 @@ using nlohmann::json;
 
 namespace {
 
+UpdateOrder order_of(const std::string& word) {
+    if (word == "musl") return UpdateOrder::musl;
+    return word == "usf" ? UpdateOrder::usf : UpdateOrder::usl;
+}
+
+AntiLocking anti_locking_of(const std::string& word) {
+    if (word == "auto") return AntiLocking::automatic;
+    return word == "on" ? AntiLocking::on : AntiLocking::off;
+}
+
 void check_grid(Reader& reader, const Mpm& mpm) {
     const auto whole = [&](double from, double to) {
         const double cells = (to - from) / mpm.cell_size;
@@ -122,9 +132,9 @@ void read_mpm(Reader& reader, Scene& scene) {
     }
     result.kernel = kernel_from(mpm.at("kernel"));
     result.gimp_half_size = mpm.at("gimp_half_size");
-    result.order = mpm.at("order") == "usl" ? UpdateOrder::usl : UpdateOrder::musl;
+    result.order = order_of(mpm.at("order"));
     result.blending_rate = mpm.at("blending_rate");
-    result.anti_locking = mpm.at("anti_locking") == "on" ? AntiLocking::on : AntiLocking::off;
+    result.anti_locking = anti_locking_of(mpm.at("anti_locking"));
     result.gap_closure = mpm.at("gap_closure");
     result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
                                  mpm.at("overlap_correction").at("tolerance")};

@@ -363,8 +363,9 @@ struct Transfer {
 // ---------------------------------------------------------------- mpm_solver
 
 enum class Kernel { gimp, b_spline, linear };
-enum class UpdateOrder { usl, musl };
-enum class AntiLocking { on, off };
+enum class UpdateOrder { usl, musl, usf };
+/// automatic: on where the law is plastic or nu > 0.45.
+enum class AntiLocking { on, off, automatic };
 enum class Wall { roller, fixed, open };
 
 /// Stress of points that fill the section: none, or what the soil above weighs, sigma_h = K_0

@@ -1,12 +1,18 @@
-// mpm_benchmark speed: particle-steps per CPU second over a whole column collapse, verb by verb.
+// mpm_benchmark speed: particle-steps per CPU second over a whole column collapse, verb by verb, by
+// instruction set, threads and number of points, with the error beside it.
 // mpm_benchmark error: runout error against CPU seconds over cell size, points per cell, Courant
 // number and order.
+#include <malloc.h>
+
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <numeric>
 
 #include "mpm_solver/runout.hpp"
-#include "mpm_solver/sort.hpp"
+#include "mpm_solver/simulation.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm {
@@ -32,45 +38,107 @@ scene::Scene column(double h, int fill_points, double cfl, scene::UpdateOrder or
 
 constexpr double duration = 4.0;
 
-void measure_speed(double h) {
-    Body body = test::filled_body(column(h, 2, 0.4, scene::UpdateOrder::usl));
-    Sorter sorter(body);
-    double spent[6] = {};
-    std::int64_t steps = 0;
-    double time = 0.0;
-    while (time < duration) {
+/// Bytes that the program has asked for and not given back.
+double bytes_in_use() {
+    const auto use = mallinfo2();
+    return static_cast<double>(use.uordblks + use.hblkhd);
+}
+
+double bytes_per_point(const scene::Scene& scene) {
+    const double before = bytes_in_use();
+    const Simulation simulation(scene, test::filled_body(scene), 0.0);
+    return (bytes_in_use() - before) / static_cast<double>(simulation.body().points.size());
+}
+
+constexpr int verbs = 6;
+
+struct Speed {
+    std::size_t points;
+    std::int64_t steps;
+    double spent[verbs];  ///< CPU seconds
+    double wall;
+    double x99;
+    double numerical_share;
+
+    double work() const { return static_cast<double>(points) * static_cast<double>(steps); }
+    double cpu() const { return std::accumulate(spent, spent + verbs, 0.0); }
+};
+
+Speed collapse(double h, double end, const Computing& computing) {
+    const scene::Scene scene = column(h, 2, 0.4, scene::UpdateOrder::usl);
+    Body body = make_body(scene, zoned_points(scene, fill_section(scene).state, "column"), "column",
+                          computing);
+    const Energy start = energy_of(body);
+    Speed speed{.points = body.points.size(),
+                .steps = 0,
+                .spent = {},
+                .wall = 0.0,
+                .x99 = 0.0,
+                .numerical_share = 0.0};
+    const auto began = std::chrono::steady_clock::now();
+    for (double time = 0.0; time < end; ++speed.steps) {
         const double dt = courant_step(body, 0.4);
         double at = cpu_seconds();
         const auto lap = [&](int verb) {
             const double now = cpu_seconds();
-            spent[verb] += now - at;
+            speed.spent[verb] += now - at;
             at = now;
         };
-        if (body.points.size() >= least_points_to_sort && steps % steps_between_sorts == 0) {
-            sorter.sort(body);
-        }
+        keep_sorted(body);
         lap(0);
         clear(body.grid);
         lap(1);
-        body.verbs.particle_to_grid(body);
+        particle_to_grid(body, dt);
         lap(2);
         update_momentum(body, dt);
         lap(3);
-        body.verbs.grid_to_particle(body, dt);
+        grid_to_particle(body, dt);
         lap(4);
-        body.verbs.update_stress(body, dt);
+        update_stress(body, dt);
         lap(5);
         time += dt;
-        ++steps;
     }
-    const double work = static_cast<double>(body.points.size()) * static_cast<double>(steps);
-    double sum = 0.0;
-    for (const double s : spent) sum += s;
-    std::printf("%7zu %7ld %8.2f %8.1f %6.1f %6.1f %6.1f %6.1f %6.1f %12.2f\n", body.points.size(),
-                static_cast<long>(steps), sum, 1e9 * spent[0] / work, 1e9 * spent[1] / work,
-                1e9 * spent[2] / work, 1e9 * spent[3] / work, 1e9 * spent[4] / work,
-                1e9 * spent[5] / work, 1e-6 * work / sum);
+    speed.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    speed.x99 = runout_of(body.points, {1}, 0.0).all;
+    speed.numerical_share = numerical_share(start, energy_of(body));
+    return speed;
+}
+
+const char* name_of(InstructionSet instructions) {
+    switch (instructions) {
+        case InstructionSet::avx512:
+            return "avx512";
+        case InstructionSet::avx2:
+            return "avx2";
+        default:
+            return "plain";
+    }
+}
+
+void measure_speed(double h, double end, const Computing& computing) {
+    const Speed s = collapse(h, end, computing);
+    std::printf("%7zu %6ld %7s %7d %7.2f", s.points, static_cast<long>(s.steps),
+                name_of(computing.instructions), computing.threads, s.cpu());
+    for (const double spent : s.spent) std::printf(" %6.1f", 1e9 * spent / s.work());
+    std::printf(" %8.2f %8.2f %7.2f %+7.1f %% %7.0f\n", 1e-6 * s.work() / s.cpu(),
+                1e-6 * s.work() / s.wall, s.x99, 100.0 * s.numerical_share,
+                bytes_per_point(column(h, 2, 0.4, scene::UpdateOrder::usl)));
     std::fflush(stdout);
+}
+
+void measure_speeds(double end) {
+    std::printf(
+        "column 10 x 20 m, Mohr-Coulomb, friction, anti-locking, gap closure, usl, CFL 0.4, to "
+        "%.1f s\nper verb: ns per particle-step\n",
+        end);
+    std::printf(
+        " points  steps     set threads   CPU s   sort  clear    p2g   grid    g2p stress    "
+        "M/CPU s  M/wall s    x99 numerical bytes/pt\n");
+    const InstructionSet best = best_instruction_set();
+    for (const double h : {1.0, 0.4, 0.2}) measure_speed(h, end, {.instructions = best});
+    measure_speed(0.2, end, {.instructions = InstructionSet::plain});
+    measure_speed(0.2, end, {.threads = 2, .instructions = best});
+    measure_speed(0.1, end, {.instructions = best});
 }
 
 struct Run {
@@ -120,19 +188,14 @@ void measure_errors() {
 
 int main(int argc, char** argv) {
     using namespace breach::mpm;
-    if (argc == 2 && std::strcmp(argv[1], "speed") == 0) {
-        std::printf(
-            "column, Mohr-Coulomb, friction, anti-locking, gap closure, usl, CFL 0.4, to %.0f s\n",
-            duration);
-        std::printf(
-            " points   steps    CPU s   sort ns  clear    p2g   grid    g2p stress   M steps/s\n");
-        for (const double h : {1.0, 0.4, 0.2}) measure_speed(h);
+    if (argc >= 2 && std::strcmp(argv[1], "speed") == 0) {
+        measure_speeds(argc > 2 ? std::strtod(argv[2], nullptr) : duration);
         return 0;
     }
     if (argc == 2 && std::strcmp(argv[1], "error") == 0) {
         measure_errors();
         return 0;
     }
-    std::fprintf(stderr, "usage: mpm_benchmark speed | error\n");
+    std::fprintf(stderr, "usage: mpm_benchmark speed [seconds of the collapse] | error\n");
     return 2;
 }

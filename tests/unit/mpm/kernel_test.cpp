@@ -11,7 +11,7 @@ template <class Kernel>
 void expect_complete(const Kernel& kernel) {
     for (int k = 0; k <= 6000; ++k) {
         const double xi = 1.0 + k / 1000.0;
-        const Stencil s = kernel(xi, walls);
+        const auto s = kernel(xi, walls);
         double sum = 0.0;
         double first = 0.0;
         double d_sum = 0.0;
@@ -48,12 +48,12 @@ TEST(Kernel, BSplineSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
 TEST(Kernel, BSplineAndItsSlopeAreContinuousUpToTheWalls) {
     const BSplineKernel kernel;
     const auto at = [&](double xi, int node, auto part) {
-        const Stencil s = kernel(xi, walls);
-        const int i = node - s.first;
+        const auto s = kernel(xi, walls);
+        const int i = node - static_cast<int>(s.first);
         return i >= 0 && i < 3 ? part(s, i) : 0.0;
     };
-    const auto weight = [](const Stencil& s, int i) { return s.N[i]; };
-    const auto slope = [](const Stencil& s, int i) { return s.dN[i]; };
+    const auto weight = [](const auto& s, int i) { return s.N[i]; };
+    const auto slope = [](const auto& s, int i) { return s.dN[i]; };
     for (int node = 1; node <= 7; ++node) {
         for (int k = 0; k < 6000; ++k) {
             const double xi = 1.0 + k / 1000.0;
@@ -70,8 +70,8 @@ TEST(Kernel, LinearSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
 TEST(Kernel, GimpIsContinuousThroughTheCellAndAtTheClip) {
     const GimpKernel kernel(0.25);
     const auto weight = [&](double xi, int node) {
-        const Stencil s = kernel(xi, walls);
-        const int i = node - s.first;
+        const auto s = kernel(xi, walls);
+        const int i = node - static_cast<int>(s.first);
         return i >= 0 && i < 3 ? s.N[i] : 0.0;
     };
     for (int node = 1; node <= 7; ++node) {
@@ -93,7 +93,7 @@ TEST(Kernel, GimpInTheInteriorIsBardenhagenAndKobers) {
     };
     for (int k = 0; k < 1000; ++k) {
         const double xi = 3.0 + k / 1000.0;
-        const Stencil s = kernel(xi, walls);
+        const auto s = kernel(xi, walls);
         for (int i = 0; i < 3; ++i) EXPECT_NEAR(s.N[i], exact(xi - (s.first + i)), 1e-14) << xi;
     }
 }

@@ -78,7 +78,8 @@ TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Orders, Resume,
-                         testing::Values(scene::UpdateOrder::usl, scene::UpdateOrder::musl));
+                         testing::Values(scene::UpdateOrder::usl, scene::UpdateOrder::musl,
+                                         scene::UpdateOrder::usf));
 
 TEST(Simulation, HitsSnapshotTimesExactly) {
     const scene::Scene scene = heap();

@@ -62,6 +62,9 @@ TEST(ElasticBar, KeepsItsEnergyWithGimpUsl) {
 TEST(ElasticBar, KeepsItsEnergyWithGimpMusl) {
     expect_swing("gimp musl", bar(scene::Kernel::gimp, scene::UpdateOrder::musl, 0.1), 0.05);
 }
+TEST(ElasticBar, KeepsItsEnergyWithGimpUsf) {
+    expect_swing("gimp usf", bar(scene::Kernel::gimp, scene::UpdateOrder::usf, 0.1), 0.05);
+}
 TEST(ElasticBar, KeepsItsEnergyWithBSplineUsl) {
     expect_swing("b_spline usl", bar(scene::Kernel::b_spline, scene::UpdateOrder::usl, 0.1), 0.05);
 }

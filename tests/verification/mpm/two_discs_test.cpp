@@ -51,6 +51,7 @@ TEST(TwoDiscs, KeepTheirEnergyUsl) { expect_rebound("usl", scene::UpdateOrder::u
 TEST(TwoDiscs, KeepTheirEnergyMusl) {
     expect_rebound("musl", scene::UpdateOrder::musl, 0.05, 0.05);
 }
+TEST(TwoDiscs, KeepTheirEnergyUsf) { expect_rebound("usf", scene::UpdateOrder::usf, 0.05, 0.05); }
 TEST(TwoDiscs, KeepTheirEnergyWithinOnePerCentOnFinerCells) {
     expect_rebound("musl, 16 cells across", scene::UpdateOrder::musl, 0.025, 0.01);
 }

@@ -1,0 +1,14 @@
+// The inner loops for any CPU; the flags stand in CMakeLists.txt.
+#include "mpm_solver/loops_of.hpp"
+
+namespace breach::mpm {
+
+namespace {
+struct Plain {
+    static constexpr int lanes = 4;
+};
+}  // namespace
+
+Loops plain_loops(const Choice& choice) { return loops_of<Plain>(choice); }
+
+}  // namespace breach::mpm

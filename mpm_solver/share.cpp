@@ -1,0 +1,114 @@
+#include "mpm_solver/share.hpp"
+
+#include <algorithm>
+
+#include "mpm_solver/choose.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+PointArrays arrays_of(Body& body) {
+    Points& p = body.points;
+    return {.x = p.x.data(),
+            .y = p.y.data(),
+            .vx = p.vx.data(),
+            .vy = p.vy.data(),
+            .Lxx = p.Lxx.data(),
+            .Lxy = p.Lxy.data(),
+            .Lyx = p.Lyx.data(),
+            .Lyy = p.Lyy.data(),
+            .m = p.m.data(),
+            .V_0 = p.V_0.data(),
+            .V = p.V.data(),
+            .volume = p.volume.data(),
+            .sxx = p.sxx.data(),
+            .syy = p.syy.data(),
+            .szz = p.szz.data(),
+            .sxy = p.sxy.data(),
+            .epsilon_q = p.epsilon_q.data(),
+            .epsilon_q_plastic = p.epsilon_q_plastic.data(),
+            .gap = p.gap.data(),
+            .excess = p.excess.data(),
+            .drift_x = body.drift_x.empty() ? nullptr : body.drift_x.data(),
+            .drift_y = body.drift_y.empty() ? nullptr : body.drift_y.data(),
+            .cell = p.cell.data()};
+}
+
+GridArrays arrays_of(Grid& grid) {
+    return {.mass = grid.mass.data(),
+            .motion = grid.motion.data()->data(),
+            .rows = grid.rows,
+            .h = grid.h,
+            .per_h = grid.per_h,
+            .x_0 = grid.origin.x(),
+            .y_0 = grid.origin.y(),
+            .low_x = grid.low.x(),
+            .high_x = grid.high.x(),
+            .low_y = grid.low.y(),
+            .high_y = grid.high.y(),
+            .walls_x = grid.walls_x,
+            .walls_y = grid.walls_y};
+}
+
+ZoneWork work_of(Body& body, std::size_t z, double dt) {
+    const Zone& zone = body.zones[z];
+    return {.points = arrays_of(body),
+            .grid = arrays_of(body.grid),
+            .cells = body.averages[z].empty() ? nullptr : body.averages[z].data(),
+            .law = numbers_of(zone),
+            .eta = zone.viscosity,
+            .gimp_half_size = body.gimp_half_size,
+            .dt = dt,
+            .blend = std::min(body.blending_rate * dt, 1.0),
+            .overlap_rate = body.overlap_rate};
+}
+
+void add(Totals& whole, const Totals& part) {
+    whole.kinetic += part.kinetic;
+    whole.fastest_squared = std::max(whole.fastest_squared, part.fastest_squared);
+    whole.farthest = std::max(whole.farthest, part.farthest);
+    whole.lost = std::min(whole.lost, part.lost);
+    whole.plastic += part.plastic;
+    whole.viscous += part.viscous;
+    whole.pushed_in += part.pushed_in;
+}
+
+}  // namespace
+
+Totals run(Body& body, Loop Loops::*loop, Writes writes, double dt) {
+    const Strips& strips = body.strips;
+    const std::size_t zones = body.zones.size();
+    body.sums.assign(strips.count() * zones, {});
+    const auto over = [&](const std::vector<std::size_t>& together) {
+        body.team->share(together.size(), [&](std::size_t task) {
+            const std::size_t strip = together[task];
+            for (std::size_t z = 0; z < zones; ++z) {
+                const Span span = strips.span(strip, z);
+                const Loop chosen = body.loops[z].*loop;
+                if (chosen && span.begin < span.end) {
+                    chosen(work_of(body, z, dt), span, body.sums[strip * zones + z]);
+                }
+            }
+        });
+    };
+    if (writes == Writes::nodes) {
+        for (const std::vector<std::size_t>& together : strips.apart()) over(together);
+    } else {
+        over(strips.all());
+    }
+    Totals whole;
+    for (const std::size_t strip : strips.all()) {
+        for (std::size_t z = 0; z < zones; ++z) add(whole, body.sums[strip * zones + z]);
+    }
+    return whole;
+}
+
+void forget_averages(Body& body) {
+    for (std::vector<CellSum>& sums : body.averages) {
+        if (sums.empty()) continue;
+        for (const std::int32_t cell : body.grid.active) sums[cell] = {};
+    }
+}
+
+}  // namespace breach::mpm

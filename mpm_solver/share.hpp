@@ -1,0 +1,21 @@
+// A loop over all points, shared out by strips.
+#pragma once
+
+#include "mpm_solver/body.hpp"
+
+namespace breach::mpm {
+
+/// What a loop writes besides its own points.
+enum class Writes {
+    own_points,  ///< nothing: all strips at once
+    nodes,       ///< nodes or cells: strips that share none at once
+};
+
+/// Runs one of the loops of every zone over every strip and returns what it added up, strip by
+/// strip in their order: the same for any number of threads.
+Totals run(Body& body, Loop Loops::*loop, Writes writes, double dt);
+
+/// Anti-locking: empties the cells that are in use.
+void forget_averages(Body& body);
+
+}  // namespace breach::mpm
