@@ -129,6 +129,12 @@ class Listeners(unittest.TestCase):
                     each.read_until(b"\n\n")
             each.close()
 
+    def test_a_stop_right_after_the_start_is_heard(self):
+        for _ in range(6):
+            self.service.end(signal.SIGTERM)
+            self.assertEqual(self.service.process.returncode, 0)
+            self.service = Service(self.folder.name)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

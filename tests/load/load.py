@@ -74,6 +74,10 @@ class Service:
                 return int(line.split()[1]) / 1024
         return 0.0
 
+    def cpu_seconds(self):
+        fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def end(self, how):
         began = time.perf_counter()
         self.process.send_signal(how)
@@ -97,17 +101,23 @@ class Service:
 
 
 class Table:
-    def __init__(self):
-        self.faults = []
-        print(f"{'':46} {'count':>7} {'1/s':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'faults':>6}")
+    """The last column does not hang on what else the machine does: CPU time of the service since the row before, per
+    request."""
+
+    def __init__(self, service):
+        self.service, self.spent, self.faults = service, service.cpu_seconds(), []
+        print(f"{'':46} {'count':>7} {'1/s':>8} {'p50 ms':>8} {'p99 ms':>8} {'max ms':>8} {'faults':>6} {'CPU ms':>8}")
 
     def row(self, what, seconds, faults, duration=None):
         self.faults += [f"{what}: {each}" for each in faults]
         ordered = sorted(seconds)
         rate = f"{len(ordered) / duration:8.0f}" if duration else f"{'-':>8}"
         figures = [1000 * ordered[min(int(part * len(ordered)), len(ordered) - 1)] for part in (0.5, 0.99, 1.0)] if ordered else []
-        print(f"{what:46} {len(ordered):7} {rate} " + " ".join(f"{each:8.2f}" for each in figures) + f" {len(faults):6}",
-              flush=True)
+        spent, before = self.service.cpu_seconds(), self.spent
+        self.spent = spent
+        cpu = f"{1000 * (spent - before) / len(ordered):8.2f}" if ordered else f"{'-':>8}"
+        print(f"{what:46} {len(ordered):7} {rate} " + " ".join(f"{each:8.2f}" for each in figures)
+              + f" {len(faults):6} {cpu}", flush=True)
 
     def loop(self, what, loop):
         seconds, answers, faults = loop.result()
@@ -154,7 +164,7 @@ def acknowledged_runs(answers):
 def measure(chosen, service):
     """Every fault, and the ids of the runs that were acknowledged."""
     port, short = service.port, 1.0 if chosen.brief else 3.0
-    table = Table()
+    table = Table(service)
     submit = client.request_bytes(port, "POST", "/v1/runs", study([0.5]))
     memory = [service.resident_megabytes()]
     kept = set()

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include "services/orchestrator/http/http_routes.hpp"
 
@@ -93,9 +95,16 @@ class HttpServer::Implementation {
     }
 
     int port() const { return port_; }
-    void serve() { server_.listen_after_bind(); }
+    void serve() {
+        server_.listen_after_bind();
+        ended_ = true;
+    }
     void stop() {
         stopping_ = true;
+        // httplib ignores a stop that comes before its loop has begun, and would then serve for
+        // ever.
+        constexpr auto moment = std::chrono::milliseconds(5);
+        while (!ended_ && !server_.is_running()) std::this_thread::sleep_for(moment);
         server_.stop();
     }
 
@@ -203,6 +212,7 @@ class HttpServer::Implementation {
     HttpSettings settings_;
     Router router_;
     std::atomic<bool> stopping_ = false;
+    std::atomic<bool> ended_ = false;
     int port_ = -1;
     WideServer server_;
 };
