@@ -23,7 +23,8 @@ struct Plan {
     std::vector<Curve> curves;
     std::vector<Mark> marks;
     const char* caption;
-    const char* missing;  ///< why there may be none
+    const char* missing;     ///< why there may be none
+    const char* needs = "";  ///< what the scene must have, or its values mean nothing (pointer)
 };
 
 std::vector<Plan> plans() {
@@ -46,7 +47,8 @@ std::vector<Plan> plans() {
          {{"liquefaction_depth", "deepest r_u > 0.7"}},
          {},
          "Depth of the deepest liquefied node beneath the upper dam's crest.",
-         "nothing can liquefy: the scene is dry or gives no /fem/liquefaction"},
+         "nothing can liquefy: the scene is dry or gives no /fem/liquefaction",
+         "/fem/liquefaction"},
         {"kinetic_energy",
          "Kinetic energy",
          "kinetic energy [kJ]",
@@ -61,7 +63,7 @@ std::vector<Plan> plans() {
          1.0,
          {{"failure_surfaces", "failure surfaces"}},
          {},
-         "Bands of strained elements that cut through from the crest side to the face.",
+         "Bands of strained elements that cut the section from ground to ground.",
          "the scene asks for none (/fem/failure_surfaces)"},
         {"pore_pressure_ratio",
          "Largest pore pressure ratio",
@@ -70,7 +72,8 @@ std::vector<Plan> plans() {
          {{"r_u_max", "largest r_u"}},
          {{Mark::At::y, 0.7, "liquefied: 0.7"}},
          "Largest r_u = (u - u_0) / sigma'_v0 of all nodes.",
-         "the scene is dry: no pore pressure"},
+         "the scene is dry: no pore pressure",
+         "/fem/water"},
         {"jacobian_average",
          "Distortion of strained elements",
          "|J_t| / |J_0| [-]",
@@ -122,8 +125,10 @@ void add_shaking(const Material& from, Document& document) {
                     fem->fault.empty() ? "" : "The FEM ended early: " + fem->fault};
     for (const Plan& plan : plans()) {
         Figure figure{plan.file, {plan.title, {"time [s]"}, {plan.label}, {}}, plan.caption};
+        const bool needed =
+            *plan.needs == 0 || fem->scene.contains(nlohmann::json::json_pointer(plan.needs));
         for (const Curve& curve : plan.curves) {
-            if (!telemetry.has(curve.field)) continue;
+            if (!telemetry.has(curve.field) || !needed) continue;
             figure.chart.series.push_back(telemetry.series(curve.field, curve.name, plan.unit));
         }
         if (figure.chart.series.empty()) {

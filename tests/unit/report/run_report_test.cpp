@@ -155,6 +155,12 @@ TEST_F(WetRun, IsOnePageThatNeedsNoNetworkWithAllItsFilesBesideIt) {
     EXPECT_NE(html.find("the run has no limit equilibrium"), std::string::npos);
 }
 
+TEST_F(WetRun, ShowsOnlyTelemetryThatItsSceneGivesAMeaning) {
+    const Document d = document();
+    EXPECT_EQ(figure(d, "liquefaction_depth").chart.series.front().y.back(), 20);
+    EXPECT_THROW(figure(d, "pore_pressure_ratio"), std::runtime_error) << "no /fem/water";
+}
+
 TEST_F(WetRun, WithoutAFileThatAPhaseDidNotReachSaysSo) {
     fs::remove(folder_ / "tasks/fem/telemetry.jsonl");
     fs::remove(folder_ / "tasks/fem/snapshot_14.000000.vtkhdf");
