@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <regex>
 
 #include "core/exchange/mesh_snapshot.hpp"
@@ -38,8 +39,9 @@ bool is_transferred(const std::string& name) { return name == "particles.vtkhdf"
 
 struct Cloud {
     double time = 0.0;
-    std::vector<std::string> regions;
+    std::vector<std::string> regions, materials;
     std::vector<float> x, y, speed, epsilon_q, region;
+    std::vector<float> r_u, pore_pressure;  ///< empty when the file has none
     std::vector<std::uint32_t> quads;
 
     void add(const mechanics::Vec2& position, const mechanics::Vec2& velocity, double strain,
@@ -58,16 +60,25 @@ void append(std::string& bytes, const std::vector<Number>& numbers) {
 }
 
 std::string packed(const Cloud& cloud) {
+    std::vector<std::pair<std::string, const std::vector<float>*>> fields{
+        {"x", &cloud.x},
+        {"y", &cloud.y},
+        {"speed", &cloud.speed},
+        {"epsilon_q", &cloud.epsilon_q},
+        {"region", &cloud.region}};
+    if (!cloud.r_u.empty()) fields.emplace_back("r_u", &cloud.r_u);
+    if (!cloud.pore_pressure.empty()) fields.emplace_back("pore_pressure", &cloud.pore_pressure);
     json head{{"time", cloud.time},
               {"count", cloud.x.size()},
-              {"fields", {"x", "y", "speed", "epsilon_q", "region"}},
-              {"regions", cloud.regions}};
+              {"fields", json::array()},
+              {"regions", cloud.regions},
+              {"materials", cloud.materials}};
+    for (const auto& [name, values] : fields) head["fields"].push_back(name);
     if (!cloud.quads.empty()) head["quads"] = cloud.quads.size() / 4;
     std::string bytes = head.dump();
     while ((bytes.size() + 1) % 4 != 0) bytes += ' ';
     bytes += '\n';
-    for (const auto* field : {&cloud.x, &cloud.y, &cloud.speed, &cloud.epsilon_q, &cloud.region})
-        append(bytes, *field);
+    for (const auto& [name, values] : fields) append(bytes, *values);
     append(bytes, cloud.quads);
     return bytes;
 }
@@ -77,9 +88,26 @@ Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
     Cloud cloud;
     cloud.time = state.time;
     cloud.regions = state.regions;
-    for (std::size_t p = 0; p < state.size(); p += stride)
+    cloud.materials = state.materials_of_regions;
+    for (std::size_t p = 0; p < state.size(); p += stride) {
         cloud.add(state.position[p], state.velocity[p], state.epsilon_q[p], state.region[p]);
+        if (!state.r_u.empty()) cloud.r_u.push_back(static_cast<float>(state.r_u[p]));
+        if (!state.pore_pressure.empty())
+            cloud.pore_pressure.push_back(static_cast<float>(state.pore_pressure[p]));
+    }
     return cloud;
+}
+
+/// u and r_u = (u - u_0) / sigma'_v0 of a node, where the snapshot has them. Ground without
+/// effective stress before the shaking has no r_u: not a number, which the page draws grey.
+void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh, std::size_t node) {
+    if (mesh.pore_pressure.empty()) return;
+    cloud.pore_pressure.push_back(static_cast<float>(mesh.pore_pressure[node]));
+    if (mesh.sigma_v0.empty()) return;
+    const double rise = mesh.pore_pressure[node] - mesh.pore_pressure_0[node];
+    const double ratio = mesh.sigma_v0[node] > 0.0 ? rise / mesh.sigma_v0[node]
+                                                   : std::numeric_limits<double>::quiet_NaN();
+    cloud.r_u.push_back(static_cast<float>(ratio));
 }
 
 /// Nodes at their displaced places; a node's strain is the mean of its elements' Gauss values, its
@@ -105,9 +133,11 @@ Cloud nodes_of(const std::filesystem::path& file) {
     }
     cloud.time = mesh.time;
     cloud.regions = mesh.regions;
+    cloud.materials = mesh.materials_of_regions;
     for (std::size_t i = 0; i < n_nodes; ++i) {
         const mechanics::Vec2 position = mesh.position_0[i] + mesh.displacement[i];
         cloud.add(position, mesh.velocity[i], strain[i] / std::max(1.0, touched[i]), region[i]);
+        add_water(cloud, mesh, i);
     }
     return cloud;
 }

@@ -41,9 +41,10 @@ void log(const Service& service, Call& call) {
     call.response.set_content(text, "text/plain; charset=utf-8");
 }
 
-/// The task whose telemetry is meant: a phase, and for one per transfer the time.
+/// The task whose telemetry is meant: a phase, for one per transfer the time, for one per variant
+/// its name.
 Task meant_task(const Service& service, const std::string& run, const std::string& phase,
-                std::optional<double> transfer_time) {
+                std::optional<double> transfer_time, const std::optional<std::string>& variant) {
     constexpr double same_time = 5e-7;
     std::optional<Task> found;
     for (Task& each : service.store.tasks_of(run)) {
@@ -51,8 +52,10 @@ Task meant_task(const Service& service, const std::string& run, const std::strin
         if (transfer_time &&
             (!each.transfer_time || std::abs(*each.transfer_time - *transfer_time) > same_time))
             continue;
+        if (variant && each.variant != *variant) continue;
         if (found)
-            throw bad_request("several tasks run " + phase + "; say which with transfer_time=");
+            throw bad_request("several tasks run " + phase +
+                              "; say which with transfer_time= and variant=");
         found = std::move(each);
     }
     if (!found) throw not_found("such task of " + phase + " in run " + run);
@@ -60,10 +63,11 @@ Task meant_task(const Service& service, const std::string& run, const std::strin
 }
 
 void telemetry(const Service& service, Call& call) {
-    call.allow_parameters({"phase", "transfer_time", "fields", "from", "stride"});
+    call.allow_parameters({"phase", "transfer_time", "variant", "fields", "from", "stride"});
     wanted_run(service, call.parts[0]);
     const std::string phase = call.parameter("phase").value_or("fem_solver");
-    const Task task = meant_task(service, call.parts[0], phase, call.number("transfer_time"));
+    const Task task = meant_task(service, call.parts[0], phase, call.number("transfer_time"),
+                                 call.parameter("variant"));
     TelemetryWish wish{.fields = {},
                        .from = call.whole_number("from", 0, 0, largest_count),
                        .stride = call.whole_number("stride", 1, 1, largest_count)};
