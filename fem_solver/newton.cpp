@@ -328,9 +328,11 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
             return {End::not_converged, iteration, residual};
         }
         // Iterations that the present rate of convergence would still need.
-        const double rate = iteration == 0 ? 0.1 : residual / before;
+        // Before the first correction nothing is known about it.
+        const double rate = iteration == 0 ? 0.0 : residual / before;
         const double wanted = std::log(settings_.tolerance / residual);
-        const bool slow = rate >= 1.0 || wanted / std::log(rate) > 2.0 * worth_of_matrix;
+        const bool slow =
+            rate >= 1.0 || (rate > 0.0 && wanted / std::log(rate) > 2.0 * worth_of_matrix);
         const bool worth = slow && (!sand || residual > worst_jump * settings_.tolerance);
         matrix = worth && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
         before = residual;
