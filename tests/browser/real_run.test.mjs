@@ -179,7 +179,7 @@ test("variants are curves of their own, and a trigger's threshold and firing are
     await until("two curves of two points", async () => (await markers()) === 2 &&
         (await page.locator("#runout-plot svg.plot > .marker.series-1").count()) === 2);
     await until("the threshold", async () => (await page.locator("#telemetry-plots .level-text").allTextContents()).join() === "strained 0.05");
-    assert.ok((await page.locator("#telemetry-plots .event-text").count()) >= 4);
+    await until("the firing", async () => (await page.locator("#telemetry-plots .event-text").count()) >= 4);
     const [weak, strong] = (await answer_of(`/v1/runs/${page.url().split("/").at(-1)}/results`)).rows
         .filter((row) => row.transfer_time === 0.5).sort((a, b) => b.runout - a.runout);
     assert.deepEqual([weak.variant, strong.variant], ["weak", "strong"]);

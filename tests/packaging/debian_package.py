@@ -16,7 +16,7 @@ import urllib.request
 
 build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 source = pathlib.Path(os.environ["BREACH_ROOT"])
-programs = {"breachline", "breach", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver",
+programs = {"breachline", "breach", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "report",
             "breachline-backup", "breachline-restore"}
 
 
