@@ -72,7 +72,15 @@ std::string text_of(const fs::path& file) {
 
 void publish(const fs::path& file, const std::string& text) {
     const fs::path temporary = file.string() + ".part";
-    std::ofstream(temporary) << text;
+    std::ofstream stream(temporary);
+    stream << text;
+    stream.close();
+    if (!stream) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        std::cerr << file.string() << ": cannot be written\n";
+        std::exit(74);
+    }
     fs::rename(temporary, file);
 }
 

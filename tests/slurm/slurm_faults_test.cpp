@@ -155,7 +155,8 @@ TEST_F(SlurmFaults, RefusalFailsTheTaskWithSlurmsReason) {
 TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
     // What the controller forgets is lost in the queue, but goes on where it runs; its numbers are
     // given to other jobs.
-    const auto service = this->service({"--slots", "2"});
+    // Slots for all, so that the first run's transfers cannot keep the second run out.
+    const auto service = this->service({"--slots", "16"});
     const std::string run = service->submit(study("fem_steps=60 mpm_steps=5", four_times));
     ASSERT_TRUE(phase_runs("fem_solver"));
     begin("drained");
