@@ -13,19 +13,40 @@ using nlohmann::json;
 namespace {
 
 enum class Regions { whole, names_and_materials };
+enum class Materials {
+    of_regions,  ///< those that a region is made of
+    all,         ///< also those that soil becomes in the transfer
+};
 
 struct Reading {
     std::int64_t version;  ///< raised when the phase's numbers change for the same input
     std::vector<std::string> parts;
+    Materials materials;
     Regions regions;
 };
 
 const std::map<std::string, Reading> readings{
-    {"lem_tool", {1, {"gravity", "materials", "lem"}, Regions::whole}},
-    {"fem_solver", {1, {"gravity", "thickness", "materials", "fem"}, Regions::whole}},
-    {"transfer_tool", {1, {"gravity", "materials", "transfer"}, Regions::names_and_materials}},
-    {"mpm_solver", {1, {"gravity", "thickness", "materials", "mpm"}, Regions::names_and_materials}},
+    {"lem_tool", {1, {"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
+    {"fem_solver", {2, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    {"transfer_tool",
+     {2,
+      {"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
+       "/mpm/right", "/mpm/floor", "/mpm/terrain", "/mpm/kernel", "/mpm/gimp_half_size"},
+      Materials::all,
+      Regions::names_and_materials}},
+    {"mpm_solver",
+     {2, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
 };
+
+json materials_part(const json& scene, Materials wanted) {
+    if (wanted == Materials::all) return scene.at("materials");
+    json used = json::object();
+    for (const json& each : scene.at("section").at("regions")) {
+        const std::string& name = each.at("material").get_ref<const std::string&>();
+        used[name] = scene.at("materials").at(name);
+    }
+    return used;
+}
 
 json section_part(const json& scene, Regions wanted) {
     if (wanted == Regions::whole) return scene.at("section");
@@ -82,9 +103,12 @@ void collect(const json& a, const json& b, const std::string& at, std::vector<st
 
 Recipe recipe_of(const std::string& phase, const json& scene) {
     const Reading& reading = readings.at(phase);
-    json part{{"section", section_part(scene, reading.regions)}};
-    for (const std::string& each : reading.parts)
-        if (scene.contains(each)) part[each] = scene.at(each);
+    json part{{"section", section_part(scene, reading.regions)},
+              {"materials", materials_part(scene, reading.materials)}};
+    for (const std::string& each : reading.parts) {
+        const json::json_pointer at(each);
+        if (scene.contains(at)) part[at] = scene.at(at);
+    }
     for (const char* key : {"/fem/msh_file", "/fem/motion/file"}) {
         const json::json_pointer at(key);
         if (part.contains(at) && part[at].is_string())

@@ -133,6 +133,20 @@ TEST(Variants, ShareWhatDoesNotDiffer) {
     for (const json& row : rows) EXPECT_EQ(row.at("state"), "succeeded") << row;
 }
 
+TEST(Variants, OfSoilThatOnlyTheRunoutKnowsShareTheFem) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json wanted = study("", {0.25});
+    wanted["scene"]["materials"]["debris"] = wanted["scene"]["materials"]["slope_soil"];
+    wanted["variants"] = {{{"name", "plain"}},
+                          {{"name", "weak"}, {"overrides", {"/materials/debris/law/c_kPa=9"}}},
+                          {{"name", "coarse"}, {"overrides", {"/mpm/cell_size=2"}}}};
+    const json run = service.wait_for_end(service.submit(wanted));
+    ASSERT_EQ(run.at("state"), "succeeded") << run.at("message");
+    // one FEM, one LEM; what soil becomes, and on which grid, is the transfer's: three of them
+    EXPECT_EQ(run.at("tasks").size(), 2u + 3u + 3u);
+}
+
 TEST(Variants, FaultsNameTheVariant) {
     const Sandbox sandbox;
     Service service(sandbox);
