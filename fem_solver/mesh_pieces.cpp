@@ -29,7 +29,6 @@ struct Progression {
 Progression fill(double length, double first, double last) {
     if (length <= 2.0 * first || last <= first) return {divisions_for(length, first), 1.0};
     const double end = std::min(last, 0.5 * length);
-    if (end <= first) return {divisions_for(length, first), 1.0};
     const double wanted = (length - first) / (length - end);
     const double many = 1.0 + std::log(end / first) / std::log(wanted);
     const int n = 2 * std::max(1, static_cast<int>(std::lround(0.5 * many)));

@@ -20,10 +20,6 @@ struct AsSoil {
     }
 };
 
-}  // namespace
-
-namespace {
-
 /// phi = 0; r_u still says what sigma'_v0 was.
 void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soils) {
     Soil& soil = soils[entry.region];
