@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+"""Does the Mochikoshi section fail, whatever the element and its size? The shipped scene with the stand-in motion (San
+Fernando 1971 at LA Hollywood Storage, N-S, from ../shared/motions, scaled to 0.3 g); without ../shared the synthetic one.
+
+    does_it_fail.py BIN_FOLDER --output FOLDER [--rows ssp_2.4,bbar_2.4] [--limit 2400] [--motion stand-in|synthetic]
+
+A row that FOLDER holds is not repeated; one that met the limit of CPU seconds goes on when the limit is larger. Writes
+does_it_fail.csv and .md there.
+
+Verdict. fails: a failure surface reaches from ground to ground, and the mesh gives up (entangled, no convergence) while the
+crest's mean speed over the last second is above 0.1 m/s. rest: the whole duration is done and that speed is below 0.01 m/s.
+undecided: everything else. The second surface has a column of its own.
+"""
+import argparse
+import csv
+import pathlib
+
+import dam_runs
+
+ROWS = [("ssp", 2.4), ("bbar", 2.4), ("ssp", 1.2), ("bbar", 1.2), ("ssp", 0.6), ("bbar", 0.6)]
+END = 15.0  # s; strong shaking of the stand-in is over at 13.0 s
+LOOKED_AT = (8.0, 10.0, 13.0)  # s
+FAST, AT_REST = 0.1, 0.01  # m/s
+
+
+def name_of(element, size):
+    return f"{element}_{size:g}"
+
+
+def run_row(program, folder, element, size, motion, limit):
+    settings = {"section__element_size": size, "fem__element": element,
+                "fem__motion__file": str(dam_runs.MOTIONS[motion]), "fem__stages__1__duration": END,
+                "fem__snapshot_interval": 0.1}
+    return dam_runs.run_dam(program, folder, settings, limit)
+
+
+def speed_at_end(telemetry):
+    """Mean speed of the crest over the last second [m/s]."""
+    end = telemetry["time"][-1]
+    return (telemetry["crest_displacement"][-1] - dam_runs.at(telemetry, "crest_displacement", max(0.0, end - 1.0))) / min(1.0, end)
+
+
+def verdict_of(ended, telemetry):
+    speed = speed_at_end(telemetry)
+    cut = telemetry["failure_surfaces"].max() >= 1
+    if cut and ended in (dam_runs.ENTANGLED, dam_runs.NO_CONVERGENCE) and speed > FAST:
+        return "fails"
+    if ended == dam_runs.DURATION and abs(speed) < AT_REST:
+        return "rest"
+    return "undecided"
+
+
+def facts_of(folder, element, size, motion):
+    done = dam_runs.run_dam(None, folder, {}, 0.0)
+    telemetry = dam_runs.telemetry_of(folder)
+    last = dam_runs.Snapshot(dam_runs.snapshots_of(folder)[-1][1])
+    row = {"element": element, "size_m": size, "motion": motion, "elements": len(last.quads)}
+    for time in LOOKED_AT:
+        row[f"crest_at_{time:g}_s_m"] = dam_runs.at(telemetry, "crest_displacement", time)
+    row["depth_12_m_s"] = dam_runs.first_time(telemetry, telemetry["liquefaction_depth"] >= 12.0)
+    row["first_surface_s"] = dam_runs.first_time(telemetry, telemetry["failure_surfaces"] >= 1)
+    row["second_surface_s"] = dam_runs.first_time(telemetry, telemetry["failure_surfaces"] >= 2)
+    row["end_s"] = float(telemetry["time"][-1])
+    row["ended"] = done["ended"]
+    row["crest_at_end_m"] = float(telemetry["crest_displacement"][-1])
+    row["crest_speed_at_end_m_s"] = float(speed_at_end(telemetry))
+    row["verdict"] = verdict_of(done["ended"], telemetry)
+    row["hourglass_band_mean_kPa"] = row["hourglass_largest_kPa"] = None
+    stress = dam_runs.hourglass_stress(folder, last)
+    if stress is not None:
+        soft = (last.epsilon_q > 0.1) & (last.region == last.regions.index("tailings"))
+        row["hourglass_largest_kPa"] = float(stress[soft].max() / 1e3) if soft.any() else None
+        row["hourglass_band_mean_kPa"] = float(stress[soft].mean() / 1e3) if soft.any() else None
+    row["cpu_s"] = done["cpu_seconds"]
+    return row
+
+
+def text_of(value):
+    if value is None:
+        return "-"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def write_tables(folder, rows):
+    with open(folder / "does_it_fail.csv", "w", newline="") as out:
+        table = csv.DictWriter(out, rows[0], lineterminator="\n")
+        table.writeheader()
+        table.writerows({key: text_of(value) for key, value in row.items()} for row in rows)
+    lines = ["| " + " | ".join(key.replace("_", " ") for key in rows[0]) + " |", "|---" * len(rows[0]) + "|"]
+    lines += ["| " + " | ".join(text_of(value) for value in row.values()) + " |" for row in rows]
+    (folder / "does_it_fail.md").write_text("\n".join(lines) + "\n")
+    print("\n".join(lines), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bin", type=pathlib.Path)
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    parser.add_argument("--rows", default=",".join(name_of(*row) for row in ROWS))
+    parser.add_argument("--limit", type=float, default=2400.0, help="CPU seconds per row")
+    parser.add_argument("--motion", choices=dam_runs.MOTIONS, default="stand-in")
+    options = parser.parse_args()
+    motion = options.motion
+    if not dam_runs.MOTIONS[motion].exists():
+        print(f"{dam_runs.MOTIONS[motion]} is not there: the synthetic motion stands in")
+        motion = "synthetic"
+    wanted = options.rows.split(",")
+    for element, size in ROWS:
+        if name_of(element, size) in wanted:
+            folder = options.output / motion / name_of(element, size)
+            run_row(options.bin / "fem_solver", folder, element, size, motion, options.limit)
+    rows = []
+    for element, size in ROWS:
+        folder = options.output / motion / name_of(element, size)
+        if (folder / "run.json").exists():
+            rows.append(facts_of(folder, element, size, motion))
+    write_tables(options.output, rows)
+
+
+if __name__ == "__main__":
+    main()
