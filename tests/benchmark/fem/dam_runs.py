@@ -94,6 +94,12 @@ def at(telemetry, name, time):
     return float(numpy.interp(time, t, telemetry[name])) if t[-1] >= time - 1e-9 else None
 
 
+def snapshot_at(folder, time):
+    """Time and file of the first snapshot at or after a time, the last one otherwise."""
+    snapshots = snapshots_of(folder)
+    return next((each for each in snapshots if each[0] >= time - 1e-6), snapshots[-1])
+
+
 def snapshots_of(folder):
     """(time, file) in the order of time."""
     files = [(float(file.stem.split("_")[1]), file) for file in folder.glob("snapshot_*.vtkhdf")]
@@ -112,8 +118,9 @@ class Snapshot:
             self.region = h5["VTKHDF/CellData/region"][:]
             self.regions = [name.decode() for name in ours["regions"][:]]
             self.epsilon_q = ours["gauss/epsilon_q"][:].reshape(len(self.quads), -1).mean(axis=1)
-            p, p_0, sigma = (nodes[name][:] for name in ("pore_pressure", "pore_pressure_0", "sigma_v0"))
-        self.r_u = numpy.where(sigma > 5e3, (p - p_0) / numpy.maximum(sigma, 5e3), 0.0)
+            p, self.p_0, sigma = (nodes[name][:] for name in ("pore_pressure", "pore_pressure_0", "sigma_v0"))
+        self.excess = p - self.p_0
+        self.r_u = numpy.where(sigma > 5e3, self.excess / numpy.maximum(sigma, 5e3), 0.0)
         x, y = self.position_0[self.quads].transpose(2, 0, 1)
         self.area = 0.5 * numpy.abs((x[:, 0] - x[:, 2]) * (y[:, 1] - y[:, 3]) - (x[:, 1] - x[:, 3]) * (y[:, 0] - y[:, 2]))
 
@@ -122,6 +129,24 @@ class Snapshot:
         strain = numpy.sqrt(2) * self.epsilon_q
         above = strain > threshold
         return float(numpy.average(strain[above], weights=self.area[above])) if above.any() else 0.0
+
+    def wet_tailings(self, left, right):
+        """Elements of the tailings below the phreatic line whose centre lies between two x."""
+        x = self.position_0[self.quads, 0].mean(axis=1)
+        wet = (self.p_0[self.quads] > 1e3).all(axis=1) & (self.region == self.regions.index("tailings"))
+        return wet & (x > left) & (x < right)
+
+    def checkerboard(self):
+        """Root mean square of the alternating part of the pressure in the elements below the dam [Pa]."""
+        part = self.excess[self.quads] @ numpy.array([0.25, -0.25, 0.25, -0.25])
+        return float(numpy.sqrt(numpy.mean(part[self.wet_tailings(100, 150)] ** 2)))
+
+    def liquefied_below_crest(self):
+        """Of the tailings below the crest: share of the area where the element's mean r_u is above 0.7, and its depth [m]."""
+        window = self.wet_tailings(105, 120)
+        liquid = window & (self.r_u[self.quads].mean(axis=1) > 0.7)
+        lowest = self.position_0[self.quads, 1].mean(axis=1)[liquid]
+        return float(self.area[liquid].sum() / self.area[window].sum()), float(29.4 - lowest.min()) if lowest.size else 0.0
 
 
 def hourglass_stress(folder, snapshot):

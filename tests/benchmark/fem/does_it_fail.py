@@ -2,10 +2,11 @@
 """Does the Mochikoshi section fail, whatever the element and its size? The shipped scene with the stand-in motion (San
 Fernando 1971 at LA Hollywood Storage, N-S, from ../shared/motions, scaled to 0.3 g); without ../shared the synthetic one.
 
-    does_it_fail.py BIN_FOLDER --output FOLDER [--rows ssp_2.4,bbar_2.4] [--limit 2400] [--motion stand-in|synthetic]
+    does_it_fail.py BIN_FOLDER --output FOLDER [--rows ssp_2.4,bbar_2.4] [--limit 2400]
 
-A row that FOLDER holds is not repeated; one that met the limit of CPU seconds goes on when the limit is larger. Writes
-does_it_fail.csv and .md there.
+A row that FOLDER holds is not repeated; one that met the limit of CPU seconds goes on when the limit is larger. Rows after
+the six change one thing on 2.4 m: the motion, the hourglass stiffness, the pressure stabilisation. Writes does_it_fail.csv
+and .md there.
 
 Verdict. fails: a failure surface reaches from ground to ground, and the mesh gives up (entangled, no convergence) while the
 crest's mean speed over the last second is above 0.1 m/s. rest: the whole duration is done and that speed is below 0.01 m/s.
@@ -17,20 +18,20 @@ import pathlib
 
 import dam_runs
 
-ROWS = [("ssp", 2.4), ("bbar", 2.4), ("ssp", 1.2), ("bbar", 1.2), ("ssp", 0.6), ("bbar", 0.6)]
+ROWS = {f"{element}_{size:g}": {"fem__element": element, "section__element_size": size}
+        for size in (2.4, 1.2, 0.6) for element in ("ssp", "bbar")}
+ROWS |= {f"ssp_2.4_{change}": ROWS["ssp_2.4"] | settings for change, settings in {
+    "synthetic": {"fem__motion__file": str(dam_runs.MOTIONS["synthetic"])},
+    "elastic": {"fem__hourglass": "elastic"},
+    "alpha_1": {"fem__water__pressure_stabilisation": 1.0},
+}.items()}
 END = 15.0  # s; strong shaking of the stand-in is over at 13.0 s
 LOOKED_AT = (8.0, 10.0, 13.0)  # s
 FAST, AT_REST = 0.1, 0.01  # m/s
 
 
-def name_of(element, size):
-    return f"{element}_{size:g}"
-
-
-def run_row(program, folder, element, size, motion, limit):
-    settings = {"section__element_size": size, "fem__element": element,
-                "fem__motion__file": str(dam_runs.MOTIONS[motion]), "fem__stages__1__duration": END,
-                "fem__snapshot_interval": 0.1}
+def run_row(program, folder, row, motion, limit):
+    settings = {"fem__motion__file": str(motion), "fem__stages__1__duration": END, "fem__snapshot_interval": 0.1} | ROWS[row]
     return dam_runs.run_dam(program, folder, settings, limit)
 
 
@@ -50,11 +51,11 @@ def verdict_of(ended, telemetry):
     return "undecided"
 
 
-def facts_of(folder, element, size, motion):
+def facts_of(folder, name):
     done = dam_runs.run_dam(None, folder, {}, 0.0)
     telemetry = dam_runs.telemetry_of(folder)
     last = dam_runs.Snapshot(dam_runs.snapshots_of(folder)[-1][1])
-    row = {"element": element, "size_m": size, "motion": motion, "elements": len(last.quads)}
+    row = {"row": name, "elements": len(last.quads)}
     for time in LOOKED_AT:
         row[f"crest_at_{time:g}_s_m"] = dam_runs.at(telemetry, "crest_displacement", time)
     row["depth_12_m_s"] = dam_runs.first_time(telemetry, telemetry["liquefaction_depth"] >= 12.0)
@@ -66,6 +67,11 @@ def facts_of(folder, element, size, motion):
     row["crest_speed_at_end_m_s"] = float(speed_at_end(telemetry))
     row["verdict"] = verdict_of(done["ended"], telemetry)
     row["hourglass_band_mean_kPa"] = row["hourglass_largest_kPa"] = None
+    row["liquefied_share_at_end"], row["element_depth_at_end_m"] = last.liquefied_below_crest()
+    row["checkerboard_at_first_surface_kPa"] = None
+    if row["first_surface_s"] is not None:
+        then = dam_runs.Snapshot(dam_runs.snapshot_at(folder, row["first_surface_s"])[1])
+        row["checkerboard_at_first_surface_kPa"] = then.checkerboard() / 1e3
     stress = dam_runs.hourglass_stress(folder, last)
     if stress is not None:
         soft = (last.epsilon_q > 0.1) & (last.region == last.regions.index("tailings"))
@@ -96,24 +102,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--output", type=pathlib.Path, required=True)
-    parser.add_argument("--rows", default=",".join(name_of(*row) for row in ROWS))
+    parser.add_argument("--rows", default=",".join(ROWS))
     parser.add_argument("--limit", type=float, default=2400.0, help="CPU seconds per row")
-    parser.add_argument("--motion", choices=dam_runs.MOTIONS, default="stand-in")
     options = parser.parse_args()
-    motion = options.motion
-    if not dam_runs.MOTIONS[motion].exists():
-        print(f"{dam_runs.MOTIONS[motion]} is not there: the synthetic motion stands in")
-        motion = "synthetic"
+    motion, title = dam_runs.STAND_IN, "stand-in"
+    if not motion.exists():
+        print(f"{motion} is not there: the synthetic motion takes its place")
+        motion, title = dam_runs.MOTIONS["synthetic"], "synthetic"
     wanted = options.rows.split(",")
-    for element, size in ROWS:
-        if name_of(element, size) in wanted:
-            folder = options.output / motion / name_of(element, size)
-            run_row(options.bin / "fem_solver", folder, element, size, motion, options.limit)
+    for row in ROWS:
+        if row in wanted:
+            run_row(options.bin / "fem_solver", options.output / title / row, row, motion, options.limit)
     rows = []
-    for element, size in ROWS:
-        folder = options.output / motion / name_of(element, size)
+    for row in ROWS:
+        folder = options.output / title / row
         if (folder / "run.json").exists():
-            rows.append(facts_of(folder, element, size, motion))
+            rows.append(facts_of(folder, row))
     write_tables(options.output, rows)
 
 
