@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "core/motion/read_motion.hpp"
 #include "fem_solver/model.hpp"
 
 namespace breach::fem {
@@ -32,45 +31,49 @@ AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Serie
     return base;
 }
 
-motion::Series base_velocity(const scene::BaseMotion& wanted) {
-    const motion::Recording recording = motion::read_motion(wanted.file);
+motion::Recording applied_motion(const scene::BaseMotion& wanted) {
+    motion::Recording motion = motion::read_motion(wanted.file);
     const auto refuse = [](const std::string& pointer, const std::string& cause,
-                           const std::string& remedy) -> motion::Series {
+                           const std::string& remedy) {
         throw fault::BadInput("scene", {{pointer, cause, remedy}});
     };
-    if (recording.quantity == motion::Quantity::displacement) {
-        return refuse("/fem/motion/file", "is a displacement",
-                      "give the acceleration or the velocity of the same motion");
+    if (motion.quantity == motion::Quantity::displacement) {
+        refuse("/fem/motion/file", "is a displacement",
+               "give the acceleration or the velocity of the same motion");
     }
-    if (recording.quantity == motion::Quantity::velocity) {
+    if (motion.quantity == motion::Quantity::velocity) {
         if (wanted.scale_to_pga_g) {
-            return refuse("/fem/motion/scale_to_pga_g",
-                          "scales an acceleration; this is a velocity",
-                          "give the acceleration, or leave the scale out");
+            refuse("/fem/motion/scale_to_pga_g", "scales an acceleration; this is a velocity",
+                   "give the acceleration, or leave the scale out");
         }
         if (wanted.baseline == scene::Baseline::corrected) {
-            return refuse("/fem/motion/baseline", "is corrected in an acceleration only",
-                          "give the acceleration, or take it as recorded");
+            refuse("/fem/motion/baseline", "is corrected in an acceleration only",
+                   "give the acceleration, or take it as recorded");
         }
-        return recording.series;
+        return motion;
     }
-    motion::Series acceleration = recording.series;
     if (wanted.baseline == scene::Baseline::corrected) {
-        acceleration = motion::base_corrected(std::move(acceleration));
+        motion.series = motion::base_corrected(std::move(motion.series));
     }
     if (wanted.scale_to_pga_g) {
-        acceleration = motion::scaled_to_peak(std::move(acceleration),
-                                              *wanted.scale_to_pga_g * motion::standard_gravity);
+        motion.series = motion::scaled_to_peak(std::move(motion.series),
+                                               *wanted.scale_to_pga_g * motion::standard_gravity);
     }
+    return motion;
+}
+
+motion::Series base_velocity(const scene::BaseMotion& wanted) {
+    const motion::Recording motion = applied_motion(wanted);
+    if (motion.quantity == motion::Quantity::velocity) return motion.series;
     constexpr double much = 0.05;  // of the peak velocity
-    const motion::Baseline left = motion::baseline(acceleration);
+    const motion::Baseline left = motion::baseline(motion.series);
     if (left.velocity_share > much) {
         spdlog::warn(
             "motion: {:.2g} m/s are left at its end ({:.0f} % of its peak velocity); "
             "\"baseline\": \"corrected\" takes them off",
             left.last_velocity, 100.0 * left.velocity_share);
     }
-    return motion::integral(acceleration);
+    return motion::integral(motion.series);
 }
 
 }  // namespace breach::fem

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/motion/series.hpp"
+#include "core/motion/read_motion.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::fem {
@@ -31,8 +31,10 @@ struct AbsorbingBase {
 AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Series velocity,
                              scene::MotionAt at);
 
-/// Velocity that the scene's motion brings: read, scaled, its baseline corrected if asked for,
-/// integrated. Throws BadInput for what cannot be used as such.
-motion::Series base_velocity(const scene::BaseMotion& motion);
+/// The scene's motion as it is applied: read, scaled, its baseline corrected if asked for; an
+/// acceleration or a velocity. Throws BadInput for what cannot be used as such.
+motion::Recording applied_motion(const scene::BaseMotion& wanted);
+/// Velocity that it brings; warns of one that is left at its end.
+motion::Series base_velocity(const scene::BaseMotion& wanted);
 
 }  // namespace breach::fem

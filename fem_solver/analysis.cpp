@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "fem_solver/ground_water.hpp"
+#include "fem_solver/run.hpp"
 
 namespace breach::fem {
 
@@ -49,6 +50,7 @@ Analysis::Analysis(process::Session& session, Model model)
       trial_(motion_),
       crest_node_(nearest_node(model_.mesh, fem_.crest)),
       watch_(fem_, model_) {
+    if (session.settings().switches.contains(profile_switch)) seconds_.clock = cpu_clock;
     for (const Stage& stage : fem_.stages) span_ += stage.duration;
     prediction_ = prediction_for(model_);
     const bool resumed = session.settings().start == process::Start::resume &&
@@ -75,6 +77,7 @@ Outcome Analysis::run() {
                                                                          : dynamic_stage(stage);
         if (end == StageEnd::stopped) {
             write_checkpoint();
+            print_profile();
             return Outcome::stopped;
         }
         counts_ = newton_->counts();
@@ -87,6 +90,7 @@ Outcome Analysis::run() {
     write_last_snapshot();
     write_history();
     report_facts("all stages were run");
+    print_profile();
     session_.progress(1.0, "done");
     return Outcome::done;
 }
@@ -94,6 +98,7 @@ Outcome Analysis::run() {
 void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
     const Solved solved = stage.kind == StageKind::static_equilibrium ? Solved::displacement
                                                                       : Solved::motion_and_pressure;
+    const Stopwatch watch(seconds_, &Seconds::factor);
     newton_.emplace(model_, solved, NewtonSettings{fem_.force_tolerance, fem_.largest_iterations},
                     symmetry_for(stage, laws_for(model_, stage.laws)), seconds_);
     newton_->set_counts(counts);
@@ -205,7 +210,7 @@ Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
             continue;
         }
         if (step_is_too_coarse(stage, dt)) continue;
-        const Distortion distortion = distortion_of(model_, trial_, fem_.strain_threshold);
+        const Distortion distortion = trial_distortion();
         if (distortion.least <= fem_.least_jacobian_ratio) {
             const std::size_t e = distortion.worst_element;
             const Vec2 where = corners_of(model_.mesh, e).rowwise().mean();
@@ -219,6 +224,11 @@ Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
         if (checkpoint_is_due()) write_checkpoint();
     }
     return StageEnd::reached;
+}
+
+Distortion Analysis::trial_distortion() {
+    const Stopwatch watch(seconds_, &Seconds::assembly);
+    return distortion_of(model_, trial_, fem_.strain_threshold);
 }
 
 /// Error of the step in displacement, |beta - 1/6| dt^2 times the largest change of acceleration

@@ -34,6 +34,7 @@ class Analysis {
     void begin_laws();
     void begin_motion();
     void note_geostatic_state(const scene::Stage& stage, const NewtonOutcome& outcome);
+    Distortion trial_distortion();
     bool step_is_too_coarse(const scene::Stage& stage, double dt);
     double next_step_size(double stage_end) const;
     double next_stop(double stage_end) const;
@@ -49,6 +50,7 @@ class Analysis {
     bool checkpoint_is_due() const;
     [[noreturn]] void give_up(const std::string& cause);
     void report_facts(const std::string& end);
+    void print_profile();
     double stage_begin(std::int64_t stage) const;
 
     process::Session& session_;
@@ -63,6 +65,7 @@ class Analysis {
     std::vector<materials::Law> laws_;
     std::optional<Newton> newton_;
     NewtonCounts counts_;  ///< of the stages before this one
+    Work before_;          ///< of the run that is resumed
     Distortion distortion_;
     std::vector<Reading> history_;
     std::size_t crest_node_;
@@ -70,6 +73,7 @@ class Analysis {
     double step_error_ = 0.0;          ///< of the last step [m]
     double span_ = 0.0;                ///< all dynamic stages [s]
     double checkpoint_written_ = 0.0;  ///< wall clock [s]
+    bool checkpoint_wanted_ = false;   ///< since the last one a wanted snapshot was written
     double last_snapshot_ = -1.0;      ///< its time [s]
 };
 

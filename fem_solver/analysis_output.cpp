@@ -2,9 +2,11 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 #include "fem_solver/analysis.hpp"
+#include "fem_solver/run.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
 
@@ -17,7 +19,7 @@ constexpr double checkpoint_interval = 20.0;  // wall clock [s]
 void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
     const double slack = 1e-9 * std::max(fem_.telemetry_interval, span_);
     if (position_.time >= position_.next_telemetry - slack) {
-        const Stopwatch watch(seconds_.output);
+        const Stopwatch watch(seconds_, &Seconds::output);
         Reading reading =
             read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
         watch_.read(model_, motion_, beginning_, reading);
@@ -48,6 +50,7 @@ bool Analysis::snapshot_is_due(double dt) {
     const auto next = static_cast<std::size_t>(position_.next_snapshot);
     const bool wanted = next < times.size() && position_.time >= times[next];
     if (wanted) ++position_.next_snapshot;
+    checkpoint_wanted_ = checkpoint_wanted_ || wanted;
     const double interval = fem_.snapshot_interval;
     const auto count = [&](double time) { return std::floor(time / interval + 1e-9); };
     const bool regular = interval > 0.0 && count(position_.time) > count(position_.time - dt);
@@ -56,7 +59,7 @@ bool Analysis::snapshot_is_due(double dt) {
 }
 
 void Analysis::write_snapshot() {
-    const Stopwatch watch(seconds_.output);
+    const Stopwatch watch(seconds_, &Seconds::output);
     const auto file = session_.output(snapshot_name(position_.time));
     exchange::write_mesh_snapshot(
         file,
@@ -74,17 +77,19 @@ void Analysis::write_last_snapshot() {
 }
 
 bool Analysis::checkpoint_is_due() const {
-    return session_.wall_seconds() - checkpoint_written_ >= checkpoint_interval;
+    return checkpoint_wanted_ ||
+           session_.wall_seconds() - checkpoint_written_ >= checkpoint_interval;
 }
 
 void Analysis::write_checkpoint() {
-    const Stopwatch watch(seconds_.output);
+    const Stopwatch watch(seconds_, &Seconds::output);
     Checkpoint checkpoint{position_,         motion_,           beginning_, stage_force_,
                           newton_->memory(), newton_->counts(), history_};
     exchange::write_archive(session_.output("checkpoint.h5"),
                             checkpoint_archive(checkpoint, session_.scene()),
                             session_.provenance());
     checkpoint_written_ = session_.wall_seconds();
+    checkpoint_wanted_ = false;
 }
 
 void Analysis::resume() {
@@ -100,6 +105,7 @@ void Analysis::resume() {
     set_skeleton_modulus(beginning_, model_);
     history_ = std::move(checkpoint.history);
     session_.truncate_telemetry(position_.telemetry_lines);
+    before_ = {position_.step, checkpoint.counts.iterations};
     make_newton(fem_.stages[position_.stage], checkpoint.counts);
     newton_->restore(checkpoint.newton);
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
@@ -107,6 +113,7 @@ void Analysis::resume() {
 }
 
 void Analysis::write_history() {
+    const Stopwatch watch(seconds_, &Seconds::output);
     exchange::write_archive(session_.output("history.h5"), history_archive(history_),
                             session_.provenance());
 }
@@ -116,6 +123,7 @@ void Analysis::give_up(const std::string& cause) {
     write_last_snapshot();
     write_checkpoint();
     write_history();
+    print_profile();
     throw fault::Breakdown(cause + "; the last good state is at " + std::to_string(position_.time) +
                            " s in " + snapshot_name(position_.time));
 }
@@ -180,12 +188,26 @@ void Analysis::report_facts(const std::string& end) {
     if (!motion_.hourglass.empty()) {
         facts["hourglass"] = hourglass_facts(model_, motion_, position_.internal_work);
     }
-    spdlog::info("seconds: assembly {:.2f}, law {:.2f}, solve {:.2f}, output {:.2f}",
-                 seconds_.assembly, seconds_.law, seconds_.solve, seconds_.output);
+    spdlog::info("seconds: assembly {:.2f}, law {:.2f}, factor {:.2f}, solve {:.2f}, output {:.2f}",
+                 seconds_.assembly, seconds_.law, seconds_.factor, seconds_.solve, seconds_.output);
     facts["seconds"] = {{"assembly", seconds_.assembly},
                         {"law", seconds_.law},
+                        {"factor", seconds_.factor},
                         {"solve", seconds_.solve},
                         {"output", seconds_.output}};
+}
+
+void Analysis::print_profile() {
+    if (!session_.settings().switches.contains(profile_switch)) return;
+    const Work work{position_.step - before_.steps,
+                    (newton_ ? newton_->counts() : counts_).iterations - before_.iterations};
+    const double whole = session_.cpu_seconds();
+    const std::string text = profile_text(seconds_, whole, work);
+    if (session_.settings().progress == process::ProgressStyle::json) {
+        spdlog::info("\n{}", text);
+    } else {
+        std::cout << text << std::flush;
+    }
 }
 
 }  // namespace breach::fem

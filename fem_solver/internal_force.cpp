@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace breach::fem {
@@ -12,11 +11,6 @@ using mechanics::Matrix2;
 using mechanics::Matrix4;
 
 namespace {
-
-double now() {
-    const auto t = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(t).count();
-}
 
 Voigt rotated_strain(Voigt epsilon, double angle) {
     epsilon[3] *= 0.5;  // engineering to tensor shear and back
@@ -40,9 +34,6 @@ Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
 }
 
 }  // namespace
-
-Stopwatch::Stopwatch(double& total) : total_(total), began_(now()) {}
-Stopwatch::~Stopwatch() { total_ += now() - began_; }
 
 InternalForce::InternalForce(const Model& model, Seconds& seconds)
     : model_(model), points_(model.points_per_element), seconds_(seconds), sand_(model) {
@@ -191,7 +182,7 @@ Geometry InternalForce::integrate_zone_with_tangent(const materials::PM4Sand& la
 
 Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const Motion& old,
                                  Motion& trial, Wanted wanted) {
-    const Stopwatch watch(seconds_.law);
+    const Stopwatch watch(seconds_, &Seconds::law);
     for (std::size_t z = 0; z < model_.zones.size(); ++z) {
         const auto pass = [&](const auto& law) {
             return wanted == Wanted::stress
@@ -303,13 +294,13 @@ void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, Linea
 Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const Motion& old,
                                  Motion& trial) {
     {
-        const Stopwatch watch(seconds_.assembly);
+        const Stopwatch watch(seconds_, &Seconds::assembly);
         if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
     }
     if (law_pass(laws, old, trial, Wanted::stress) == Geometry::degenerate) {
         return Geometry::degenerate;
     }
-    const Stopwatch watch(seconds_.assembly);
+    const Stopwatch watch(seconds_, &Seconds::assembly);
     accumulate_strain(old, trial);
     hourglass_pass(old, trial);
     force_pass(trial);
@@ -319,13 +310,13 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
 Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const Motion& old,
                                  Motion& trial, LinearSystem& A) {
     {
-        const Stopwatch watch(seconds_.assembly);
+        const Stopwatch watch(seconds_, &Seconds::assembly);
         if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
     }
     if (law_pass(laws, old, trial, Wanted::stress_and_tangent) == Geometry::degenerate) {
         return Geometry::degenerate;
     }
-    const Stopwatch watch(seconds_.assembly);
+    const Stopwatch watch(seconds_, &Seconds::assembly);
     accumulate_strain(old, trial);
     hourglass_pass(old, trial);
     force_pass(trial);

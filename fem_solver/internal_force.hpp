@@ -5,30 +5,10 @@
 #include <vector>
 
 #include "fem_solver/linear_system.hpp"
+#include "fem_solver/profile.hpp"
 #include "fem_solver/sand.hpp"
 
 namespace breach::fem {
-
-/// Wall seconds spent per kind of work.
-struct Seconds {
-    double assembly = 0.0;
-    double law = 0.0;
-    double solve = 0.0;
-    double output = 0.0;
-};
-
-/// Adds the time from its construction to its end to one of the counters.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& total);
-    ~Stopwatch();
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    double& total_;
-    double began_;
-};
 
 enum class Geometry {
     sound,

@@ -14,12 +14,15 @@ int main(int argc, char** argv) {
         return breach::process::run_phase(argc - 1, argv + 1,
                                           breach::element_bench::calibrate_phase());
     }
-    return breach::process::run_phase(
-        argc, argv,
-        {.name = "fem_solver",
-         .purpose = "Dynamic finite elements: from geostatic stress to the failing slope. "
-                    "Also: fem_solver element-test, fem_solver calibrate",
-         .inputs = {0, 0, "takes no input beside the scene"},
-         .plan = breach::fem::plan,
-         .run = breach::fem::run});
+    breach::process::Phase phase{
+        .name = "fem_solver",
+        .purpose =
+            "Dynamic finite elements: from geostatic stress to the failing slope. "
+            "Also: fem_solver element-test, fem_solver calibrate",
+        .inputs = {0, 0, "takes no input beside the scene"},
+        .plan = breach::fem::plan,
+        .run = breach::fem::run};
+    phase.switches.push_back(
+        {breach::fem::profile_switch, "print CPU seconds by kind of work at the end"});
+    return breach::process::run_phase(argc, argv, phase);
 }

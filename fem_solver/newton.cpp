@@ -101,6 +101,7 @@ NewtonMemory Newton::memory() const {
 void Newton::restore(const NewtonMemory& memory) {
     memory_ = memory;
     if (!memory.has_matrix) return;
+    const Stopwatch watch(seconds_, &Seconds::factor);
     std::ranges::copy(memory.values, matrix_.values().begin());
     memory_.has_matrix = matrix_.factorise() == Factorisation::done;
     matrix_.copy_diagonal(metric_);
@@ -121,7 +122,7 @@ void Newton::add_inertia_and_water(const TimeRule& rule) {
 /// Factorises the assembled tangent; one that is not positive definite would lead uphill, then the
 /// elastic one is used.
 bool Newton::factorise(const TimeRule& rule) {
-    const Stopwatch watch(seconds_.solve);
+    const Stopwatch watch(seconds_, &Seconds::factor);
     ++counts_.factorisations;
     Factorisation result = matrix_.factorise();
     if (result != Factorisation::done) {
@@ -151,7 +152,10 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
         memory_.has_matrix = false;
         return geometry;
     }
-    add_inertia_and_water(problem.rule);
+    {
+        const Stopwatch watch(seconds_, &Seconds::assembly);
+        add_inertia_and_water(problem.rule);
+    }
     if (!factorise(problem.rule)) return Geometry::degenerate;
     return geometry;
 }
@@ -277,7 +281,7 @@ void Newton::accelerate() {
 }
 
 void Newton::correct(Motion& trial) {
-    const Stopwatch watch(seconds_.solve);
+    const Stopwatch watch(seconds_, &Seconds::solve);
     matrix_.solve(residual_, plain_);
     accelerate();
     last_correction_ = correction_;
@@ -289,6 +293,12 @@ void Newton::correct(Motion& trial) {
         const std::int32_t row = n.of_pressure[i];
         if (row >= 0) trial.p[static_cast<Eigen::Index>(i)] += correction_[row];
     }
+}
+
+double Newton::balance(const StepProblem& problem, Motion& trial) {
+    const Stopwatch watch(seconds_, &Seconds::assembly);
+    set_residual(problem, trial);
+    return residual_measure(problem, trial);
 }
 
 NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
@@ -309,8 +319,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         if (evaluate(problem, trial, matrix) == Geometry::degenerate) {
             return {End::degenerate, iteration, residual};
         }
-        set_residual(problem, trial);
-        residual = residual_measure(problem, trial);
+        residual = balance(problem, trial);
         if (residual <= settings_.tolerance) {
             memory_.last_iterations = iteration;
             return {End::converged, iteration, residual};

@@ -78,6 +78,7 @@ class Newton {
     Geometry evaluate(const StepProblem& problem, Motion& trial, Matrix matrix);
     bool factorise(const TimeRule& rule);
     void add_inertia_and_water(const TimeRule& rule);
+    double balance(const StepProblem& problem, Motion& trial);
     void set_residual(const StepProblem& problem, Motion& trial);
     void add_water(const StepProblem& problem, Motion& trial);
     void gather_residual(const StepProblem& problem);

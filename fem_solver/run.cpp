@@ -6,9 +6,24 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/exchange/publish.hpp"
+#include "core/motion/read_motion.hpp"
+#include "fem_solver/absorbing_base.hpp"
 #include "fem_solver/analysis.hpp"
 
 namespace breach::fem {
+
+namespace {
+
+/// The motion as it is applied, after scaling: whoever reads the run needs no other file.
+void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
+    std::ostringstream csv;
+    motion::write_csv(csv, applied_motion(wanted),
+                      "as applied, from " + std::filesystem::path(wanted.file).filename().string());
+    exchange::publish_text(session.output("motion.csv"), csv.str());
+}
+
+}  // namespace
 
 process::Outcome run(process::Session& session) {
     const scene::Scene& scene = session.scene();
@@ -20,6 +35,7 @@ process::Outcome run(process::Session& session) {
         mesh.quads.size(), mesh.nodes.size(), quality.shortest_edge, quality.longest_edge,
         quality.smallest_angle * 180.0 / std::numbers::pi, quality.largest_aspect,
         quality.least_jacobian);
+    if (const auto& motion = scene::fem_of(scene).motion) keep_motion(session, *motion);
     Analysis analysis(session, build_model(scene, std::move(mesh)));
     return analysis.run();
 }

@@ -59,6 +59,10 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
     app.add_option("--threads", a.settings.threads, "threads to use")->check(CLI::Range(1, 1024));
     app.add_option("--progress", progress, "auto, bar, json or none")
         ->check(CLI::IsMember({"auto", "bar", "json", "none"}));
+    for (const Switch& each : phase.switches) {
+        app.add_flag_callback(
+            each.name, [&a, &each] { a.settings.switches.insert(each.name); }, each.purpose);
+    }
     app.set_version_flag("--version", phase.name + " " BREACH_VERSION);
     try {
         app.parse(argc, argv);

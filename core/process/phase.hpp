@@ -20,6 +20,12 @@ struct InputRule {
     std::string what;  ///< "a FEM snapshot (.vtkhdf)"
 };
 
+/// A flag that only this phase knows; SessionSettings::switches has it when it was given.
+struct Switch {
+    std::string name;     ///< "--profile"
+    std::string purpose;  ///< one line for --help
+};
+
 /// How a phase ended when nothing was wrong.
 enum class Outcome {
     done,
@@ -35,6 +41,7 @@ struct Phase {
     /// Reads the document that the phase works from; not every phase works from a scene.
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
         read = scene::read_scene;
+    std::vector<Switch> switches = {};
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes

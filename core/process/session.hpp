@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct SessionSettings {
     std::filesystem::path output;
     std::vector<std::filesystem::path> inputs;
     std::vector<std::string> overrides;
+    std::set<std::string> switches;  ///< of the phase's own, those that were given: "--profile"
     Start start = Start::fresh;
     int threads = 1;
     ProgressStyle progress = ProgressStyle::none;

@@ -1,0 +1,52 @@
+// Where a run's time goes: seconds by kind of work, and what --profile prints of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace breach::fem {
+
+using Clock = double (*)();  ///< [s] since some moment
+/// 0.1 us a look: what is not asked for costs nothing.
+double wall_clock();
+/// Of this process; 2 us a look.
+double cpu_clock();
+
+/// Seconds spent per kind of work.
+struct Seconds {
+    double assembly = 0.0;  ///< strains, forces, residuals, matrices, distortion
+    double law = 0.0;
+    double factor = 0.0;  ///< pattern and factors of the matrix
+    double solve = 0.0;   ///< with the factors, and acceleration
+    double output = 0.0;  ///< monitors, snapshots, checkpoints
+    Clock clock = wall_clock;
+
+    double sum() const { return assembly + law + factor + solve + output; }
+};
+
+/// Adds the time from its construction to its end to one kind of work.
+class Stopwatch {
+  public:
+    Stopwatch(Seconds& seconds, double Seconds::*kind)
+        : clock_(seconds.clock), total_(seconds.*kind), began_(clock_()) {}
+    ~Stopwatch() { total_ += clock_() - began_; }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    Clock clock_;
+    double& total_;
+    double began_;
+};
+
+/// What was done in those seconds, by this process: a resumed run counts from its checkpoint.
+struct Work {
+    std::int64_t steps = 0;  ///< tried ones, those that were cut as well
+    std::int64_t iterations = 0;
+};
+
+/// A table: CPU seconds and share by kind, the rest as "other" (reading, meshing, prediction), and
+/// per step. whole: CPU seconds of the process.
+std::string profile_text(const Seconds& seconds, double whole, const Work& work);
+
+}  // namespace breach::fem

@@ -1,0 +1,84 @@
+"""fem_solver killed by SIGKILL in the middle of shaking wet PM4Sand, and resumed: every dataset of history and last
+snapshot, and every line of telemetry, as of a run that nobody disturbed. So with another number of threads."""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import coarse_slope
+
+SOLVER = f"{os.environ['BREACH_BIN']}/fem_solver"
+END = 2.0
+
+
+def command(scene, output, *more):
+    return [SOLVER, str(scene), "--output", str(output), "--progress", "none", *more]
+
+
+def run(scene, output, *more):
+    subprocess.run(command(scene, output, *more), stderr=subprocess.DEVNULL, check=True)
+
+
+def lines_of(output):
+    file = output / "telemetry.jsonl"
+    return file.read_bytes().count(b"\n") if file.exists() else 0
+
+
+def kill_after_checkpoint(scene, output):
+    """Some steps past it, so that work is lost. Telemetry lines at the checkpoint's appearance and at the end."""
+    process = subprocess.Popen(command(scene, output), stderr=subprocess.DEVNULL)
+    while not (output / "checkpoint.h5").exists() and process.poll() is None:
+        time.sleep(0.002)
+    at_checkpoint = lines_of(output)
+    while lines_of(output) < at_checkpoint + 10 and process.poll() is None:
+        time.sleep(0.002)
+    process.send_signal(signal.SIGKILL)
+    assert process.wait() == -signal.SIGKILL, "the run ended before it was killed"
+    return at_checkpoint, lines_of(output)
+
+
+def datasets(file):
+    found = {}
+    with h5py.File(file) as opened:
+        opened.visititems(lambda name, each: found.update({name: each[()]}) if isinstance(each, h5py.Dataset) else None)
+    return found
+
+
+def compare(what, one, two):
+    """Datasets that differ."""
+    wrong = []
+    for name in ("history.h5", f"snapshot_{END:.6f}.vtkhdf"):
+        a, b = datasets(one / name), datasets(two / name)
+        assert a.keys() == b.keys() and len(a) > 5, name
+        wrong += [f"{name}:{key}" for key in a if not numpy.array_equal(a[key], b[key])]
+        print(f"    {what}: {len(a)} datasets of {name}, {len(wrong)} differ {wrong}")
+    if (one / "telemetry.jsonl").read_bytes() != (two / "telemetry.jsonl").read_bytes():
+        wrong.append("telemetry.jsonl")
+    return wrong
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        scene = coarse_slope.write(folder, duration=END, telemetry_interval=0.0, snapshot_times=[0.8])
+        whole, killed, threads = (folder / each for each in ("whole", "killed", "threads"))
+        run(scene, whole)
+        first, last = kill_after_checkpoint(scene, killed)
+        assert not (killed / "result.json").exists()
+        run(scene, killed, "--resume")
+        print(f"    killed with {last} lines of telemetry, {first} when its checkpoint appeared, {lines_of(whole)} in all")
+        assert first < last < lines_of(whole)
+        wrong = compare("killed and resumed", whole, killed)
+        run(scene, threads, "--threads", "3")
+        wrong += compare("--threads 3", whole, threads)
+    return 1 if wrong else 0
+
+
+sys.exit(main())
