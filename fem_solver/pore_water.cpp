@@ -1,6 +1,7 @@
 #include "fem_solver/pore_water.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <numeric>
 
 #include "fem_solver/model.hpp"
@@ -8,10 +9,13 @@
 namespace breach::fem {
 namespace {
 
+/// In rock stiffer than its water (K_f / n, 5 GPa) the water's own compliance measures it: with the
+/// skeleton's a jump of pressure at soft soil would go on as a zig-zag that nothing damps.
 Vec2 stabilisation_of(const Corners& x, const Fluid& fluid, double skeleton_modulus) {
     if (fluid.alpha) return Vec2::Constant(*fluid.alpha);
     const Vec2 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
-    return fluid.stabilisation / skeleton_modulus * extent.array().square();
+    const double modulus = std::min(skeleton_modulus, fluid.bulk_modulus / fluid.porosity);
+    return fluid.stabilisation / modulus * extent.array().square();
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ struct Fluid {
     double density;       ///< rho_f [kg/m3]
     Vec2 mobility;        ///< hydraulic conductivity over rho_f g, x and y [m2/(Pa s)]
     double porosity;      ///< n [-]
-    /// Pressure-rate stabilisation alpha grad^T grad: alpha = factor h^2 / (K + 4G/3) in each
-    /// direction, h the element's extent ...
+    /// Pressure-rate stabilisation alpha grad^T grad: alpha = factor h^2 / M in each
+    /// direction, h the element's extent, M the lesser of K + 4G/3 and K_f / n ...
     double stabilisation = 0.25;
     /// ... or one alpha for all [m2/Pa].
     std::optional<double> alpha{};

@@ -1,0 +1,223 @@
+"""Extreme scenes through the door of fem_solver: the right answer, or a clear stop (exit 70 that says what, where and
+when, with the last good state saved). Usage: extreme_test.py CASE; each case is named after what is true."""
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import coarse_slope
+from opensees_models import FOUNDATION, TAILINGS, block, scene, sine, write_motion
+from runs import judge
+
+WEIGHT_OF_WATER = 9810.0
+
+
+class Run:
+    """One run in a folder: exit code, facts, fault, last snapshot."""
+
+    def __init__(self, folder):
+        out = folder / "out"
+        done = subprocess.run([f"{os.environ['BREACH_BIN']}/fem_solver", str(folder / "scene.json"), "--output", str(out),
+                               "--progress", "none"], stderr=subprocess.PIPE, text=True)
+        self.code = done.returncode
+        self.out = out
+        if self.code not in (0, 70):
+            raise SystemExit(done.stderr)
+        self.snapshots = sorted(out.glob("snapshot_*.vtkhdf"))
+        if self.code == 0:
+            self.result = json.loads((out / "result.json").read_text())
+            print(f"    done: {self.result['steps']} steps, {self.result['cut_steps']} cut, "
+                  f"{self.result['stalled_steps']} stalled, {self.result['cpu_seconds']:.1f} CPU s")
+        else:
+            self.fault = json.loads((out / "fault.json").read_text())["summary"]
+            print(f"    stopped: {self.fault}")
+
+    def point(self, name):
+        with h5py.File(self.snapshots[-1]) as opened:
+            return opened["VTKHDF/PointData"][name][:]
+
+    def place(self):
+        with h5py.File(self.snapshots[-1]) as opened:
+            return opened["breachline/position_0"][:]
+
+    def stress(self):
+        """Of the first Gauss point of each element: xx, yy, zz, xy."""
+        with h5py.File(self.snapshots[-1]) as opened:
+            return opened["breachline/gauss/stress"][:]
+
+    def ended_clearly(self):
+        """All numbers of the last state are finite; a stop says when and where, and can be resumed from."""
+        sound = all(numpy.isfinite(self.point(name)).all() for name in ("displacement", "velocity", "pore_pressure"))
+        if self.code == 0:
+            return sound
+        return sound and "the last good state is at" in self.fault and "element" in self.fault \
+            and self.snapshots[-1].name in self.fault and (self.out / "checkpoint.h5").exists()
+
+
+def elastic(E, nu=0.25, k=1e-5):
+    return {"density": 2000, "void_ratio": 0.8, "permeability": [k, k],
+            "law": {"type": "linear_elastic", "E_MPa": E / 1e6, "nu": nu}}
+
+
+def box(folder, materials, regions, W, H, stages, **fem):
+    """Regions in a smooth box 0..W x 0..H."""
+    supports = [{"name": name, "from": a, "to": b, "fixes": fixes} for name, a, b, fixes in
+                (("left", [0, 0], [0, H], "x"), ("right", [W, 0], [W, H], "x"), ("base", [0, 0], [W, 0], "xy"))]
+    result = {"format": "breachline-scene/1", "name": "extreme", "gravity": fem.pop("gravity", 9.81), "materials": materials,
+              "section": {"regions": regions},
+              "fem": {"element": "ssp", "supports": supports, "crest": [W, H], "stages": stages, "force_tolerance": 1e-10,
+                      "newmark_beta": 4 / 9, "newmark_gamma": 5 / 6, **fem}}
+    (folder / "scene.json").write_text(json.dumps(result))
+
+
+def wet_rock_a_million_times_stiffer_gives_the_exact_column(folder):
+    """5 m of soil on 5 m of rock, E 1e7 and 1e13 Pa, loaded at once: undrained first, then drained."""
+    q, M = 1e5, 1e7 * 0.75 / (1.25 * 0.5)
+    storage = 0.8 / 1.8 / 2.2e9
+    passed = True
+    for k, duration in ((1e-12, 100), (1e-3, 1000)):
+        box(folder, {"soil": elastic(1e7, k=k), "rock": elastic(1e13, k=k)},
+            [block("rock", "rock", [[0, 0], [1, 0], [1, 5], [0, 5]], [1, 10]),
+             block("soil", "soil", [[0, 5], [1, 5], [1, 10], [0, 10]], [1, 10])], 1, 10,
+            [{"type": "dynamic", "name": "load", "laws": "elastic", "duration": duration, "time_step": duration / 100}],
+            gravity=0.0, water={"line": [[0, 10]], "bulk_modulus_MPa": 2200},
+            surcharge=[{"from": 0, "to": 1, "pressure_kPa": q / 1e3}])
+        run = Run(folder)
+        passed &= run.code == 0
+        y, p = run.place()[:, 1], run.point("pore_pressure") / q
+        if k < 1e-6:
+            for what, E, there in (("soil", M, (y > 6.9) & (y < 8.1)), ("rock", 1e6 * M, y < 3.1)):
+                exact = 1 / (1 + E * storage)
+                passed &= judge(f"undrained pressure in the {what} ({exact:.2e}), over the load",
+                                numpy.abs(p[there] - exact).max(), 1e-9)
+        else:
+            top = run.point("displacement")[y > 10 - 1e-9][:, 1]
+            passed &= judge("drained settlement", abs(top[0] / (-q * 5 / M) - 1), 1e-5)
+            passed &= judge("pressure left over the load", numpy.abs(p).max(), 1e-6)
+    return passed
+
+
+def permeability_1e_12_beside_1_gives_the_exact_seepage(folder):
+    """Upward flow under a gradient of 0.2, tight and open soil side by side: p and sigma'_v are linear in both."""
+    box(folder, {"tight": elastic(1e7, k=1e-12), "open": elastic(1e7, k=1.0)},
+        [block("tight", "tight", [[0, 0], [5, 0], [5, 10], [0, 10]], [5, 10]),
+         block("open", "open", [[5, 0], [10, 0], [10, 10], [5, 10]], [5, 10])], 10, 10,
+        [{"type": "static", "name": "gravity", "permeability": "scene"},
+         {"type": "dynamic", "name": "rest", "laws": "elastic", "duration": 10, "time_step": 0.1}],
+        water={"line": [[0, 10]], "boundaries": [{"name": "below", "from": [0, 0], "to": [10, 0], "level": 12}]})
+    run = Run(folder)
+    depth = 10 - run.place()[:, 1]
+    passed = run.code == 0
+    passed &= judge("p against 1.2 rho_f g depth, over the largest",
+                    numpy.abs(run.point("pore_pressure") - 1.2 * WEIGHT_OF_WATER * depth).max() / 117720, 1e-8)
+    rows = numpy.sort(-run.stress()[:, 1])
+    exact = numpy.sort(numpy.repeat((2.0 - 1.2) * WEIGHT_OF_WATER * (numpy.arange(10) + 0.5), 10))
+    passed &= judge("sigma'_v against (rho - 1.2 rho_f) g depth, over the largest", numpy.abs(rows - exact).max() / exact[-1], 1e-7)
+    passed &= judge("displacement in 10 s of rest [m]", numpy.abs(run.point("displacement")).max(), 1e-8)
+    return passed
+
+
+def level_tailings(folder, motion, duration, time_step, stages=None, **fem):
+    """10 m of tailings on 4 m of foundation over rock, wet to the ground, between free-field columns."""
+    write_motion(folder / "motion.csv", 5e-3, motion)
+    regions = [block("foundation", "foundation", [[0, -4], [12, -4], [12, 0], [0, 0]], [4, 2]),
+               block("tailings", "tailings", [[0, 0], [12, 0], [12, 10], [0, 10]], [4, 8])]
+    result = scene("level_tailings", {"tailings": TAILINGS, "foundation": FOUNDATION}, regions,
+                   [{"name": "base", "from": [0, -4], "to": [12, -4], "fixes": "xy"}], [[0, 10], [12, 10]], "motion.csv",
+                   [6, 10], duration, time_step=time_step, free_field={"width": 3}, **fem)
+    if stages:
+        result["fem"]["stages"] = stages + result["fem"]["stages"][-1:]
+    return result
+
+
+def tailings_liquefied_from_the_start_stay_so_and_carry_no_more(folder):
+    """Quicksand: upward seepage takes the whole weight of the tailings before the shaking begins."""
+    result = level_tailings(folder, sine(2.0, 0.5, 5e-3), 2.0, 5e-3, force_tolerance=1e-5)
+    density = TAILINGS["density"] / 1000
+    result["fem"]["water"]["boundaries"] = [{"name": "spring", "from": [-9, 0], "to": [21, 0], "level": 10 * density}]
+    result["fem"]["stages"][0]["permeability"] = "scene"
+    (folder / "scene.json").write_text(json.dumps(result))
+    run = Run(folder)
+    y = run.place()[:, 1]
+    weight = 10 * density * WEIGHT_OF_WATER
+    p_0, u = run.point("pore_pressure_0"), run.point("displacement")
+    # Sand that shears may dilate and take a little stress back.
+    tailings = y > 1e-9
+    passed = run.ended_clearly()
+    passed &= judge("p_0 against the weight above, over the whole",
+                    numpy.abs(p_0 - density * WEIGHT_OF_WATER * (10 - y))[tailings].max() / weight, 1e-6)
+    passed &= judge("largest effective stress after shaking, over the weight", numpy.abs(run.stress()[8:]).max() / weight, 0.1)
+    v_0 = 0.3 * 9.81 / (4 * math.pi)
+    passed &= judge("largest displacement over the base's travel", numpy.abs(u).max() / (v_0 / (2 * math.pi)), 1.0)
+    return passed
+
+
+def sand_without_motion_does_not_drift_in_100_s(folder):
+    result = level_tailings(folder, [0.0, 0.0], 100.0, 0.1, force_tolerance=1e-8)
+    (folder / "scene.json").write_text(json.dumps(result))
+    run = Run(folder)
+    moved = numpy.abs(run.point("displacement")).max()
+    pressure = numpy.abs(run.point("pore_pressure") - run.point("pore_pressure_0")).max()
+    passed = run.code == 0
+    passed &= judge("displacement after 100 s [m]", moved, 1e-6)
+    return passed & judge("change of pressure [Pa] (largest 1.4e5)", pressure, 10.0)
+
+
+def three_g_on_liquefying_sand_end_clearly(folder):
+    coarse_slope.write(folder, duration=2.0, strength=10.0)
+    return Run(folder).ended_clearly()
+
+
+def steps_a_hundred_times_too_large_are_cut_or_end_clearly(folder):
+    """0.43 s, most of a period of the shaking, instead of 5e-3 s."""
+    file = coarse_slope.write(folder, duration=2.0)
+    result = json.loads(file.read_text())
+    result["fem"]["stages"][-1] |= {"time_step": 0.43, "least_time_step": 0.43 / 1024}
+    file.write_text(json.dumps(result))
+    run = Run(folder)
+    moved = numpy.abs(run.point("displacement")).max()
+    coarse_slope.write(folder, duration=2.0)
+    usual = numpy.abs(Run(folder).point("displacement")).max()
+    print(f"    largest displacement {moved:.3f} m, with the usual steps {usual:.3f} m")
+    return run.ended_clearly() and moved < 5.0 * usual
+
+
+def a_wet_mesh_that_entangles_stops_at_70_with_its_last_good_state(folder):
+    """A 20 m face of weak wet soil on the moving mesh: it must fail, and its end must be usable."""
+    law = {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3, "c_kPa": 1, "phi_deg": 30}
+    soil = {"density": 2000, "void_ratio": 0.8, "permeability": [1e-6, 1e-6], "law": law}
+    box(folder, {"soil": soil}, [block("soil", "soil", [[0, 0], [10, 0], [10, 20], [0, 20]], [10, 20])], 10, 20,
+        [{"type": "static", "name": "gravity"},
+         {"type": "dynamic", "name": "failure", "duration": 5.0, "time_step": 0.005}],
+        kinematics="updated_lagrangian", force_tolerance=1e-6, water={"line": [[0, 14], [10, 4]]})
+    file = folder / "scene.json"
+    result = json.loads(file.read_text())
+    del result["fem"]["supports"][1]
+    result["fem"]["snapshot_times"] = [0.2]
+    file.write_text(json.dumps(result))
+    run = Run(folder)
+    x = run.place() + run.point("displacement")[:, :2]
+    with h5py.File(run.snapshots[-1]) as opened:
+        corners = x[opened["breachline/quads"][:]]
+    edges = [numpy.roll(corners, -k, axis=1) - corners for k in (1, 3)]
+    least = (edges[0][..., 0] * edges[1][..., 1] - edges[0][..., 1] * edges[1][..., 0]).min()
+    print(f"    least corner area of the last state {least:.3g} m2 of 1")
+    lines = (run.out / "telemetry.jsonl").read_text().splitlines()
+    assert all(json.loads(line) for line in lines)
+    return run.code == 70 and run.ended_clearly() and least > 0.0 and len(run.snapshots) >= 2
+
+
+def main():
+    case = globals()[sys.argv[1]]
+    with tempfile.TemporaryDirectory() as name:
+        return 0 if case(pathlib.Path(name)) else 1
+
+
+sys.exit(main())
