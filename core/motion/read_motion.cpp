@@ -10,6 +10,7 @@
 #include <optional>
 #include <ostream>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/fault/fault.hpp"
 
@@ -244,14 +245,20 @@ Recording read_motion(const std::filesystem::path& file) {
     return read_two_columns(in, name);
 }
 
-void write_csv(std::ostream& out, const Series& acceleration, const std::string& remarks) {
+void write_csv(std::ostream& out, const Recording& motion, const std::string& remarks) {
+    if (motion.quantity == Quantity::displacement) {
+        throw std::invalid_argument("a displacement has no CSV form");
+    }
+    const bool accelerates = motion.quantity == Quantity::acceleration;
+    const double unit = accelerates ? standard_gravity : 1.0;
     std::istringstream each(remarks);
     for (std::string line; std::getline(each, line);) out << "# " << line << '\n';
-    out << "time_s,acceleration_g\n";
-    for (std::size_t i = 0; i < acceleration.values.size(); ++i) {
+    out << (accelerates ? "time_s,acceleration_g\n" : "time_s,velocity_m_s\n");
+    const Series& series = motion.series;
+    for (std::size_t i = 0; i < series.values.size(); ++i) {
         char row[64];
-        std::snprintf(row, sizeof row, "%.6g,%.8f\n", acceleration.dt * static_cast<double>(i),
-                      acceleration.values[i] / standard_gravity);
+        std::snprintf(row, sizeof row, "%.6g,%.8f\n", series.dt * static_cast<double>(i),
+                      series.values[i] / unit);
         out << row;
     }
 }

@@ -34,8 +34,9 @@ Recording read_two_columns(std::istream& in, const std::string& name);
 /// lines starting with # are skipped.
 Recording read_csv(std::istream& in, const std::string& name);
 
-/// The CSV form with acceleration in g; `remarks` become # lines. Read again, it gives the same
-/// acceleration to 1e-8 g.
-void write_csv(std::ostream& out, const Series& acceleration, const std::string& remarks);
+/// The CSV form, an acceleration in g, a velocity in m/s; `remarks` become # lines. Read again, it
+/// gives the same values to 1e-8 of these units. Displacements have no CSV form: throws
+/// std::invalid_argument.
+void write_csv(std::ostream& out, const Recording& motion, const std::string& remarks);
 
 }  // namespace breach::motion

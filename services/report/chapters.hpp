@@ -33,6 +33,9 @@ std::string of_transfer(const PhaseFolder& phase);
 /// "/energy/numerical/share".
 std::string fact(const nlohmann::json& result, const std::string& pointer, double unit = 1.0);
 
+/// The section before anything moved.
+Series section_at_rest(const nlohmann::json& scene);
+
 void add_stability(const Material& from, Document& document);
 void add_motion(const Material& from, Document& document);
 void add_shaking(const Material& from, Document& document);
@@ -40,6 +43,8 @@ void add_mesh(const Material& from, Document& document);
 void add_transfer(const Material& from, Document& document);
 void add_runout(const Material& from, Document& document);
 void add_flow(const Material& from, Document& document);
+void add_ground(const Material& from, Document& document);
+void add_variants(const Material& from, Document& document);
 void add_numbers(const Material& from, Document& document);
 
 }  // namespace breach::report

@@ -42,7 +42,7 @@ void measure_stability(const Run& run, Measures& found) {
 void measure_shaking(const Run& run, Measures& found) {
     const PhaseFolder* fem = phase_named(run, "fem_solver");
     if (!fem || !has_telemetry(*fem)) return;
-    const Telemetry telemetry(fem->files / "telemetry.jsonl");
+    const Telemetry telemetry = telemetry_of(run, *fem);
     const auto keep = [&](const std::string& key, std::optional<double> time) {
         if (time) found[key] = {*time, fem->label, cpu_of(*fem), "telemetry interval"};
     };
@@ -61,21 +61,8 @@ void measure_shaking(const Run& run, Measures& found) {
     keep("window_upper", window.upper);
 }
 
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 void measure_runout(const Run& run, const std::string& variant, Measures& found) {
     const std::string suffix = variant.empty() ? "" : ":" + variant;
-    const auto edge = [&](const char* key, double otherwise) {
-        const auto it = found.find(key);
-        return it == found.end() ? otherwise : it->second.value;
-    };
-    const double lower = edge("window_lower", 0.0), upper = edge("window_upper", 1e30);
-    std::vector<double> plateau, released;
-    double cpu = 0.0;
     bool begun = false;
     for (const PhaseFolder* each : runouts_of(run, variant)) {
         const double runout = each->result.at("runout"), t_T = each->transfer_time.value_or(0.0);
@@ -87,8 +74,13 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
             found["first_runout_time" + suffix] = {t_T, each->label, cpu_of(*each),
                                                    "spacing of t_T"};
         }
-        if (t_T < lower || t_T > upper) continue;
-        plateau.push_back(runout);
+    }
+    const auto plateau = plateau_of(run, variant);
+    if (!plateau) return;
+    std::vector<double> runouts, released;
+    double cpu = 0.0;
+    for (const PhaseFolder* each : plateau->runouts) {
+        runouts.push_back(each->result.at("runout"));
         if (const auto area = number_at(each->result, "area_beyond_toe")) released.push_back(*area);
         cpu += cpu_of(*each);
     }
@@ -99,11 +91,66 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
             median(values), "median of " + std::to_string(values.size()) + " runouts", cpu,
             "they lie between " + short_number(least) + " and " + short_number(most)};
     };
-    keep_median("plateau_runout", plateau);
+    keep_median("plateau_runout", runouts);
     keep_median("released_area", released);
+    const std::string of = "runouts of at least 75 % of the largest";
+    found["plateau_begin" + suffix] = {plateau->first, of, cpu, "spacing of t_T"};
+    found["plateau_end" + suffix] = {plateau->last, of, cpu, "spacing of t_T"};
+}
+
+/// Outermost transfer times around the largest runout that are on the plateau.
+std::optional<Plateau> edges_in(const std::vector<const PhaseFolder*>& runouts) {
+    if (runouts.empty()) return {};
+    const auto of = [](const PhaseFolder* each) { return each->result.at("runout").get<double>(); };
+    const auto top = std::ranges::max_element(runouts, {}, of);
+    if (of(*top) <= 0.0) return {};
+    const double level = plateau_share * of(*top);
+    auto first = top, last = top;
+    while (first != runouts.begin() && of(*(first - 1)) >= level) --first;
+    while (last + 1 != runouts.end() && of(*(last + 1)) >= level) ++last;
+    return Plateau{(*first)->transfer_time.value_or(0.0), (*last)->transfer_time.value_or(0.0)};
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
+                                    const std::string& variant) {
+    for (const PhaseFolder* each : phases_named(run, phase)) {
+        if (each->variant == variant || each->variant.empty()) return each;
+    }
+    return phase_named(run, phase);
+}
+
+Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {
+    const PhaseFolder* lem = phase_of_variant(run, "lem_tool", fem.variant);
+    std::map<std::string, double> beside;
+    if (const auto depth = lem ? number_at(lem->result, "critical_depth") : std::nullopt) {
+        beside["critical_depth"] = *depth;
+    }
+    return Telemetry(fem.files / "telemetry.jsonl", std::move(beside));
+}
+
+std::optional<Plateau> plateau_of(const Run& run, const std::string& variant) {
+    const PhaseFolder* fem = phase_of_variant(run, "fem_solver", variant);
+    std::optional<Plateau> plateau;
+    for (const std::string& each : variants_of(run)) {
+        if (phase_of_variant(run, "fem_solver", each) != fem) continue;
+        plateau = edges_in(runouts_of(run, each));
+        if (plateau || each == variant) break;
+    }
+    if (!plateau) return {};
+    for (const PhaseFolder* each : runouts_of(run, variant)) {
+        const double t_T = each->transfer_time.value_or(0.0);
+        if (t_T >= plateau->first && t_T <= plateau->last) plateau->runouts.push_back(each);
+    }
+    return plateau;
+}
 
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant) {
     std::vector<const PhaseFolder*> found;
@@ -118,6 +165,12 @@ std::vector<std::string> variants_of(const Run& run) {
     for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
         if (std::ranges::find(names, each->variant) == names.end()) names.push_back(each->variant);
     }
+    if (!run.study.is_object()) return names;
+    const json listed = run.study.value("variants", json::array());
+    std::ranges::stable_sort(names, {}, [&](const std::string& name) {
+        return std::ranges::find_if(listed, [&](const json& v) { return v.at("name") == name; }) -
+               listed.begin();
+    });
     return names;
 }
 
@@ -163,13 +216,15 @@ Table comparison(const Paper& paper, const Measures& ours) {
                 {"quantity", "unit", "paper", "here", "here / paper", "from", "error", "CPU s"},
                 {},
                 "Paper: " + paper.source +
-                    ". Here a plateau is the median over the transfer times inside the window, and "
-                    "over all of them while telemetry opens no window."};
+                    ". Here the plateau is the transfer times around the largest runout that give "
+                    "at least 75 % of it (the first variant's say where), and its runout their "
+                    "median; the window is what the criteria make of the FEM's telemetry."};
     for (const PaperValue& each : paper.values) {
         std::vector<std::string> row = {each.what, each.unit, short_number(each.value)};
         if (const auto it = ours.find(each.key); it != ours.end()) {
             const Measure& m = it->second;
-            row.insert(row.end(), {short_number(m.value), rounded(m.value / each.value, 3),
+            row.insert(row.end(), {short_number(m.value),
+                                   each.value == 0.0 ? "-" : rounded(m.value / each.value, 3),
                                    m.source, m.error, rounded(m.cpu_seconds, 3)});
         } else {
             row.insert(row.end(), {"-", "-", "not in this run", "", ""});

@@ -19,6 +19,13 @@ struct Measure {
 };
 using Measures = std::map<std::string, Measure>;
 
+/// The phase whose results a variant uses: its own, the one that serves all, or the first (one that
+/// serves some is called by the first of them); null when the run has none.
+const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
+                                    const std::string& variant);
+/// Telemetry of a FEM; conditions may ask for the critical depth of the run's stability analysis.
+Telemetry telemetry_of(const Run& run, const PhaseFolder& fem);
+
 /// The edges of the transfer window [s] by the study's first window trigger, or /transfer/window of
 /// the scene; an edge that telemetry never meets is missing.
 struct WindowEdges {
@@ -28,10 +35,22 @@ WindowEdges window_of(const Run& run, const Telemetry& fem);
 
 /// Runs of the MPM that ended, of one variant, ascending in t_T.
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant);
+/// In the study's order, or by name where the folder has no study.
 std::vector<std::string> variants_of(const Run& run);
 
+/// The transfer times around the largest runout whose runouts are at least this share of it.
+inline constexpr double plateau_share = 0.75;
+struct Plateau {
+    double first, last;                            ///< transfer times [s]
+    std::vector<const PhaseFolder*> runouts = {};  ///< of the variant between them
+};
+/// Variants that share a FEM share the edges, which the first of them sets; nothing when it has no
+/// runout beyond the toe.
+std::optional<Plateau> plateau_of(const Run& run, const std::string& variant);
+double median(std::vector<double> values);
+
 /// Keys are those of paper.json; a quantity that the run does not hold is missing. With a variant
-/// the key ends in ":<variant>"; a plateau is the median over the transfer times in the window.
+/// the key ends in ":<variant>"; that of a plateau is the median over its runouts.
 Measures measures_of(const Run& run);
 
 /// Paper beside ours, one row per value of the paper; "-" where the run does not hold it.

@@ -13,21 +13,31 @@ namespace {
 
 constexpr double g = motion::standard_gravity;
 
-/// Given by the reader, or where the scene says, beside the run's files; empty when it is nowhere.
-std::filesystem::path motion_file(const Material& from, const PhaseFolder& fem,
-                                  const std::string& named) {
-    if (!from.choice.motion.empty()) return from.choice.motion;
+/// A motion on the disk, and whether the FEM has already scaled and corrected it.
+struct Found {
+    std::filesystem::path file;
+    enum class As { applied, recorded } as;
+};
+
+/// What the FEM kept; of an older run what the reader gives, or what lies beside the run's files
+/// where the scene says.
+std::optional<Found> motion_file(const Material& from, const PhaseFolder& fem,
+                                 const std::string& named) {
+    const std::filesystem::path kept = fem.files / "motion.csv";
+    if (std::filesystem::is_regular_file(kept)) return Found{kept, Found::As::applied};
+    if (!from.choice.motion.empty()) return Found{from.choice.motion, Found::As::recorded};
     const std::filesystem::path file(named);
     for (const auto& each : {fem.files / file, fem.files / file.filename()}) {
-        if (std::filesystem::is_regular_file(each)) return each;
+        if (std::filesystem::is_regular_file(each)) return Found{each, Found::As::recorded};
     }
     return {};
 }
 
 /// Acceleration as the scene scales it; a recorded velocity is not differentiated.
-std::optional<motion::Series> acceleration_of(const motion::Recording& recording,
+std::optional<motion::Series> acceleration_of(const motion::Recording& recording, Found::As as,
                                               const json& wanted) {
     if (recording.quantity != motion::Quantity::acceleration) return {};
+    if (as == Found::As::applied) return recording.series;
     motion::Series a = recording.series;
     if (wanted.value("baseline", "") == "corrected") a = motion::base_corrected(std::move(a));
     if (wanted.contains("scale_to_pga_g")) {
@@ -83,24 +93,26 @@ void add_motion(const Material& from, Document& document) {
         document.left_out.push_back({what, "the scene has no motion (/fem/motion)"});
         return;
     }
-    const auto file = motion_file(from, *fem, wanted.at("file"));
-    if (file.empty()) {
-        document.left_out.push_back({what, "the run's folder does not hold " +
-                                               wanted.at("file").get<std::string>() +
-                                               "; give it with --motion"});
+    const std::string named = wanted.at("file");
+    const auto found = motion_file(from, *fem, named);
+    if (!found) {
+        document.left_out.push_back(
+            {what, "the run's folder does not hold " + named + "; give it with --motion"});
         return;
     }
-    const motion::Recording recording = motion::read_motion(file);
+    const motion::Recording recording = motion::read_motion(found->file);
+    const std::string name = std::filesystem::path(named).filename();
     Chapter chapter{"Motion"};
-    if (const auto a = acceleration_of(recording, wanted)) {
-        chapter.text = recording.title + ", as the FEM took it: " + facts_of(*a);
+    if (const auto a = acceleration_of(recording, found->as, wanted)) {
+        chapter.text = name + ", as the FEM took it: " + facts_of(*a);
         chapter.figures = figures_of(*a);
     } else {
-        chapter.text = recording.title + ", a velocity: PGV " +
+        chapter.text = name + ", a velocity: PGV " +
                        rounded(100.0 * motion::peak(recording.series), 3) + " cm/s.";
         chapter.figures = {velocity_figure(recording.series)};
-        document.left_out.push_back({"acceleration and Arias intensity of the motion",
-                                     "the scene gives its velocity (" + file.string() + ")"});
+        document.left_out.push_back(
+            {"acceleration and Arias intensity of the motion",
+             "the scene gives its velocity (" + found->file.string() + ")"});
     }
     document.chapters.push_back(std::move(chapter));
 }

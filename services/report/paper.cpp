@@ -9,7 +9,7 @@ using nlohmann::json;
 std::optional<Paper> paper_for(const std::string& scene_name) {
     const json text = json::parse(paper_text());
     if (!scene_name.starts_with(text.at("scenes_begin_with").get<std::string>())) return {};
-    Paper paper{text.at("source"), text.at("remarks"), {}, {}};
+    Paper paper{text.at("source"), text.at("remarks"), {}, {}, text.at("case_history_runout_m")};
     for (const json& each : text.at("values")) {
         paper.values.push_back(
             {each.at("key"), each.at("what"), each.at("unit"), each.at("value")});

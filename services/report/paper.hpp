@@ -28,6 +28,7 @@ struct Paper {
     std::vector<std::string> remarks;  ///< what must be said wherever a result is shown
     std::vector<PaperValue> values;
     std::vector<PaperPoints> points;
+    std::string case_history_runout;  ///< as it is told: "> 800"
 };
 
 /// The paper of a scene; nothing when its name is not one of the paper's case.

@@ -20,7 +20,7 @@ Document filled(const Run& run, const Choice& choice) {
     }
     const Material material{run, paper, measures, choice};
     for (const auto add : {add_stability, add_motion, add_shaking, add_mesh, add_transfer,
-                           add_runout, add_flow, add_numbers}) {
+                           add_runout, add_ground, add_flow, add_variants, add_numbers}) {
         add(material, document);
     }
     return document;

@@ -37,23 +37,6 @@ std::vector<const PhaseFolder*> chosen(const std::vector<const PhaseFolder*>& al
     return picked;
 }
 
-/// The section before anything moved.
-Series outlines(const json& scene) {
-    Series s{"section at rest", {}, {}, Style::segments};
-    const auto add = [&](const json& point) {
-        s.x.push_back(point.at(0));
-        s.y.push_back(point.at(1));
-    };
-    for (const json& region : scene.at("section").at("regions")) {
-        const json& polygon = region.at("polygon");
-        for (std::size_t k = 0; k < polygon.size(); ++k) {
-            add(polygon[k]);
-            add(polygon[(k + 1) % polygon.size()]);
-        }
-    }
-    return s;
-}
-
 Figure runout_against_time(const Material& from) {
     Figure figure{"runout_against_transfer_time",
                   {"Runout against transfer time", {"transfer time t_T [s]"}, {"runout [m]"}, {}},
@@ -119,6 +102,22 @@ std::string window_text(const Measures& measures) {
 
 }  // namespace
 
+Series section_at_rest(const json& scene) {
+    Series s{"section at rest", {}, {}, Style::segments};
+    const auto add = [&](const json& point) {
+        s.x.push_back(point.at(0));
+        s.y.push_back(point.at(1));
+    };
+    for (const json& region : scene.at("section").at("regions")) {
+        const json& polygon = region.at("polygon");
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            add(polygon[k]);
+            add(polygon[(k + 1) % polygon.size()]);
+        }
+    }
+    return s;
+}
+
 std::string of_transfer(const PhaseFolder& phase) {
     std::string text;
     if (phase.transfer_time) text += "t_T = " + short_number(*phase.transfer_time) + " s";
@@ -180,7 +179,7 @@ void add_runout(const Material& from, Document& document) {
             each->transfer_time ? short_number(*each->transfer_time) + "s" : "filled";
         Figure geometry = points_by_material(file.state, "final_geometry_" + of,
                                              "Final geometry, " + of_transfer(*each));
-        geometry.chart.series.push_back(outlines(each->scene));
+        geometry.chart.series.push_back(section_at_rest(each->scene));
         geometry.caption +=
             " Runout " + rounded(runout_of(each), 4) + " m; lines: the section at rest.";
         chapter.figures.push_back(std::move(geometry));

@@ -120,7 +120,7 @@ void add_shaking(const Material& from, Document& document) {
         return;
     }
     note_element_tests(fem->scene, document);
-    const Telemetry telemetry(fem->files / "telemetry.jsonl");
+    const Telemetry telemetry = telemetry_of(from.run, *fem);
     Chapter chapter{"Shaking and failure",
                     fem->fault.empty() ? "" : "The FEM ended early: " + fem->fault};
     for (const Plan& plan : plans()) {

@@ -21,7 +21,8 @@ std::optional<double> number_in(const json& line, const std::string& field) {
 
 }  // namespace
 
-Telemetry::Telemetry(const std::filesystem::path& file) {
+Telemetry::Telemetry(const std::filesystem::path& file, std::map<std::string, double> beside)
+    : beside_(std::move(beside)) {
     std::ifstream stream(file);
     if (!stream) throw fault::IoError(file.string() + ": cannot be read; export the run again");
     for (std::string line; std::getline(stream, line);) {
@@ -60,8 +61,11 @@ std::optional<double> Telemetry::first_time(const criteria::Expression& conditio
     for (const json& line : lines_) {
         values.clear();
         for (const std::string& field : condition.fields) {
+            const auto fixed = beside_.find(field);
             values.push_back(
-                number_in(line, field).value_or(std::numeric_limits<double>::quiet_NaN()));
+                fixed != beside_.end()
+                    ? fixed->second
+                    : number_in(line, field).value_or(std::numeric_limits<double>::quiet_NaN()));
         }
         const double time = line.at("time");
         if (evaluation(time, values) > 0.5) return time;

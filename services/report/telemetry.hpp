@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -14,9 +15,11 @@ namespace breach::report {
 
 class Telemetry {
   public:
-    /// A last line that is not whole (the phase still writes) is left out. Throws IoError, or
+    /// A last line that is not whole (the phase still writes) is left out. `beside`: numbers that
+    /// conditions may ask for as if every line had them (critical_depth). Throws IoError, or
     /// BadInput naming the line.
-    explicit Telemetry(const std::filesystem::path& file);
+    explicit Telemetry(const std::filesystem::path& file,
+                       std::map<std::string, double> beside = {});
 
     /// Some line has a number in this field.
     bool has(const std::string& field) const;
@@ -30,6 +33,7 @@ class Telemetry {
 
   private:
     std::vector<nlohmann::json> lines_;
+    std::map<std::string, double> beside_;
 };
 
 }  // namespace breach::report

@@ -31,6 +31,19 @@ TEST_F(StudyFile, GetsTheSceneThatItNamesRelativeToItself) {
     EXPECT_EQ(study["scene"]["fem"]["msh_file"], (folder_ / "mesh/slope.msh").string());
 }
 
+TEST_F(StudyFile, ResolvesPathsInOverridesLikeTheEntriesThatTheyReplace) {
+    write("scenes/dam.json", R"({"name": "dam"})");
+    const auto study = read_study(
+        write("study.json", R"({"scene": "scenes/dam.json", "overrides": ["/fem/msh_file=a.msh"],
+            "variants": [{"name": "b", "overrides": ["/fem/motion/file=../b.csv", "/x=../c"]}]})"),
+        {"/fem/motion/file=/d.csv"});
+    const std::string scenes = (folder_ / "scenes").string();
+    EXPECT_EQ(study["overrides"],
+              nlohmann::json({"/fem/msh_file=" + scenes + "/a.msh", "/fem/motion/file=/d.csv"}));
+    EXPECT_EQ(study["variants"][0]["overrides"],
+              nlohmann::json({"/fem/motion/file=" + (folder_ / "b.csv").string(), "/x=../c"}));
+}
+
 TEST_F(StudyFile, KeepsASceneThatIsInline) {
     const auto study = read_study(write("study.json", R"({"scene": {"name": "x"}})"), {"/a=1"});
     EXPECT_EQ(study["scene"]["name"], "x");

@@ -77,10 +77,16 @@ TEST(Csv, CarriesItsUnitInTheHeader) {
 TEST(Csv, IsReadAsItWasWritten) {
     const Series a{0.005, {0.0, 1.25, -3.5, 0.001}};
     std::stringstream file;
-    write_csv(file, a, "made up\ntwo lines");
+    write_csv(file, {Quantity::acceleration, a, ""}, "made up\ntwo lines");
     const Series b = read_csv(file, "file").series;
     EXPECT_DOUBLE_EQ(b.dt, a.dt);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(a.values[i], b.values[i], 1e-7);
+    std::stringstream velocity;
+    write_csv(velocity, {Quantity::velocity, a, ""}, "");
+    const Recording v = read_csv(velocity, "file");
+    EXPECT_EQ(v.quantity, Quantity::velocity);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(a.values[i], v.series.values[i], 1e-8);
+    EXPECT_THROW(write_csv(file, {Quantity::displacement, a, ""}, ""), std::invalid_argument);
 }
 
 TEST(Motion, ThatIsMissingIsAnIoError) {

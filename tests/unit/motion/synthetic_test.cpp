@@ -47,15 +47,31 @@ TEST(SyntheticMotion, SaysWhenTargetsContradict) {
     EXPECT_THROW(synthetic_motion(target), fault::BadInput);
 }
 
-TEST(ShippedMotion, IsTheGeneratorsOwn) {
-    const auto file = std::filesystem::path(BREACH_ROOT) / "workflows/motions/synthetic.csv";
-    const Series given = read_motion(file).series, made = synthetic_motion(shipped);
-    ASSERT_EQ(given.values.size(), made.values.size());
-    double difference = 0.0;
-    for (std::size_t i = 0; i < made.values.size(); ++i) {
-        difference = std::max(difference, std::abs(given.values[i] - made.values[i]));
+struct Shipped {
+    const char* file;
+    double strong_duration, arias_intensity, length;
+    std::uint64_t seed;
+};
+
+TEST(ShippedMotions, AreTheGeneratorsOwn) {
+    for (const Shipped& each : {Shipped{"synthetic.csv", 11.16, 1.33, 28.0, 1978},
+                                Shipped{"synthetic_1979.csv", 11.16, 1.33, 28.0, 1979},
+                                Shipped{"synthetic_short.csv", 5.0, 0.7, 16.0, 1980},
+                                Shipped{"synthetic_long.csv", 20.0, 2.0, 45.0, 1981}}) {
+        Target target = shipped;
+        target.strong_duration = each.strong_duration;
+        target.arias_intensity = each.arias_intensity;
+        target.length = each.length;
+        target.seed = each.seed;
+        const auto file = std::filesystem::path(BREACH_ROOT) / "workflows/motions" / each.file;
+        const Series given = read_motion(file).series, made = synthetic_motion(target);
+        ASSERT_EQ(given.values.size(), made.values.size()) << each.file;
+        double difference = 0.0;
+        for (std::size_t i = 0; i < made.values.size(); ++i) {
+            difference = std::max(difference, std::abs(given.values[i] - made.values[i]));
+        }
+        EXPECT_LT(difference, 1e-6) << each.file;  // eight decimals of g in the file
     }
-    EXPECT_LT(difference, 1e-6);  // eight decimals of g in the file
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ TEST_F(WetRun, IsMeasuredWhereItsTelemetryCrosses) {
     EXPECT_EQ(m.at("time_entangled").value, 21);
     EXPECT_EQ(m.at("window_lower").value, 15);
     EXPECT_EQ(m.at("window_upper").value, 20);
-    EXPECT_EQ(m.at("plateau_runout:softened").value, 210) << "13 s lies before the window";
+    EXPECT_EQ(m.at("plateau_runout:softened").value, 210) << "13 s has less than 75 % of it";
+    EXPECT_EQ(m.at("plateau_begin:softened").value, 16);
     EXPECT_EQ(m.at("plateau_ratio").value, 7);
 }
 
@@ -89,6 +90,62 @@ TEST_F(WetRun, ShowsThePapersNumbersBesideItsOwn) {
     EXPECT_NE(remarks.find("calibrated"), std::string::npos);
     EXPECT_NE(remarks.find("stand-in"), std::string::npos);
     EXPECT_EQ(figure(d, "runout_against_transfer_time").chart.series.size(), 4u);
+}
+
+TEST_F(WetRun, KnowsTheCriticalDepthThatItsTriggersAskFor) {
+    std::ofstream(folder_ / "study.json") << R"({"triggers": [{"kind": "window",
+        "lower": "liquefaction_depth >= critical_depth", "upper": "time >= 18"}]})";
+    EXPECT_EQ(measures_of(read_run(folder_)).count("window_lower"), 0u) << "no stability analysis";
+    fs::create_directories(folder_ / "tasks/lem");
+    fs::copy(folder_ / "tasks/fem/scene.completed.json",
+             folder_ / "tasks/lem/scene.completed.json");
+    std::ofstream(folder_ / "tasks/lem/result.json") << R"({"critical_depth": 12.25})";
+    const Measures m = measures_of(read_run(folder_));
+    EXPECT_EQ(m.at("window_lower").value, 11);
+    EXPECT_EQ(m.at("window_upper").value, 18);
+}
+
+TEST_F(WetRun, TellsWhatEachVariantChanges) {
+    const Document d = document();
+    const auto chapter = std::ranges::find(d.chapters, "Variants", &Chapter::title);
+    ASSERT_NE(chapter, d.chapters.end());
+    const auto& rows = chapter->tables.front().rows;
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0][1], "nothing");
+    EXPECT_EQ(rows[1][1],
+              "/materials/*/viscosity=0 (2 materials); /mpm/terrain=[[0,0],[2,0],[102,-20]]");
+    EXPECT_EQ(rows[0][4], "210");
+    EXPECT_EQ(rows[1][4], "30") << "on the first one's plateau, 16 s";
+    EXPECT_EQ(rows[1][5], "-85.7");
+    EXPECT_EQ(rows[1][8], "15") << "the window of the FEM that they share";
+}
+
+TEST_F(WetRun, ShowsDifferentGroundsOnOneScale) {
+    const Document d = document();
+    const auto chapter = std::ranges::find(d.chapters, "The ground below the dam", &Chapter::title);
+    ASSERT_NE(chapter, d.chapters.end());
+    ASSERT_EQ(chapter->figures.size(), 2u);
+    const auto lines = [&](std::size_t k) {
+        std::vector<Series> found;
+        for (const Series& s : chapter->figures[k].chart.series) {
+            if (s.name.starts_with("ground, ")) found.push_back(s);
+        }
+        return found;
+    };
+    for (const std::size_t k : {0u, 1u}) {
+        ASSERT_EQ(lines(k).size(), 2u) << "both grounds in both";
+        EXPECT_EQ(lines(k)[0].y, (std::vector<double>{-30, -30})) << "a floor is level";
+        const double end = 2 + 1.15 * 210;
+        EXPECT_EQ(lines(k)[1].x, (std::vector<double>{-1, 0, 2, 102, end}));
+        EXPECT_NEAR(lines(k)[1].y.back(), -20 - 0.2 * (end - 102), 1e-12) << "straight beyond";
+    }
+    EXPECT_EQ(chapter->tables.front().rows.back()[2], "> 800") << "the case history";
+}
+
+TEST_F(WetRun, TakesTheMotionThatTheFemKept) {
+    std::ofstream(folder_ / "tasks/fem/motion.csv") << "time_s,acceleration_g\n0,0\n1,0.25\n2,0\n";
+    const Series a = figure(document(), "motion_acceleration").chart.series.front();
+    EXPECT_NEAR(a.y[1], 0.25, 1e-12) << "as applied: not scaled again";
 }
 
 TEST_F(WetRun, OfAnotherNameHasNoPaper) {

@@ -35,6 +35,8 @@ json scene_named(const std::string& name) {
                 {"layers", {{{"sigma_v0_kPa", {0, 50}}, {"material", "liquefied_1"}}}}}}}},
             {"mpm",
              {{"cell_size", 1.0},
+              {"domain_x", {-1, 300}},
+              {"floor", {{"level", -30}}},
               {"runout", {{"toe", {2, 0}}}},
               {"gauges", {{{"name", "toe"}, {"x", 2.0}}}}}}};
 }
@@ -119,6 +121,7 @@ void write_runout(const fs::path& tasks, const json& scene, double t_T, const st
     write(folder / "result.json",
           json{{"phase", "mpm_solver"},
                {"runout", runout},
+               {"runout_largest", runout},
                {"cpu_seconds", 2.5},
                {"energy", {{"numerical", {{"share", 0.02}}}}},
                {"gauges", {{"toe", {{"x", 2.0}, {"arrival_time", 0.5}, {"largest_depth", 0.75}}}}},
@@ -146,7 +149,13 @@ void write_wet_run(const fs::path& folder, const std::string& scene_name) {
     const fs::path tasks = folder / "tasks";
     write(folder / "run.json", json{{"id", "01"}, {"name", "wet"}, {"title", "A wet run"}}.dump());
     write(folder / "study.json",
-          json{{"triggers",
+          json{{"variants",
+                {{{"name", "softened"}, {"overrides", json::array()}},
+                 {{"name", "not_softened"},
+                  {"overrides",
+                   {"/materials/a/viscosity=0", "/materials/b/viscosity=0",
+                    "/mpm/terrain=[[0,0],[2,0],[102,-20]]"}}}}},
+               {"triggers",
                 {{{"kind", "window"},
                   {"lower", "liquefaction_depth >= 18.5 and failure_surfaces >= 2"},
                   {"upper", "jacobian_least_avg < 0.97"}}}}}
@@ -162,7 +171,9 @@ void write_wet_run(const fs::path& folder, const std::string& scene_name) {
                                    {});
     write_runout(tasks, scene, 13, "softened", 90);
     write_runout(tasks, scene, 16, "softened", 210);
-    write_runout(tasks, scene, 16, "not_softened", 30);
+    json sloping = scene;
+    sloping["mpm"]["terrain"] = {{0, 0}, {2, 0}, {102, -20}};
+    write_runout(tasks, sloping, 16, "not_softened", 30);
 }
 
 }  // namespace breach::report
