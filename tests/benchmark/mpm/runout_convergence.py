@@ -4,7 +4,7 @@ Courant number, softening and overlap correction, and writes one row per run wit
 
     runout_convergence.py --solver build/bin/mpm_solver --output folder [--quick] [--only NAME,...] [--figure FILE.svg]
 
---quick: four runs on 2.5 m cells. Runs that the folder holds already are not repeated, so a study can be
+--quick: the five runs on cells of 5 m and 2.5 m with the usual settings. Runs that the folder holds already are not repeated, so a study can be
 stopped and taken up again. E is scaled by 0.03 (one run with the full E checks that)."""
 import argparse, csv, json, os, resource, subprocess, sys, time
 
@@ -16,12 +16,17 @@ POND = "/section/regions/3/polygon=[[-40,23.52],[119.71,23.52],[109,29.4],[110,3
 MATERIALS = ["embankment_saturated", "embankment"] + [f"liquefied_{k}" for k in range(1, 6)]
 
 
-def case(h=2.5, points=3, order="usl", cfl=0.8, scale=0.03, overlap=5.0, softens=True, length=2.5, eta=1000.0, shift=0.0):
+def case(h=2.5, points=3, order="usl", cfl=0.4, scale=0.03, overlap=5.0, tolerance=0.1, softens=True, length=2.5, eta=1000.0, shift=0.0,
+         kernel="gimp", half_size=0.25, beta=1.0):
     """Overrides of one run. length None: softening strains as they stand; softens False: residual strengths from the start."""
     left = -40 - shift  # moves every point against the lattice: a jitter that keeps all areas
     sets = [f"/mpm/cell_size={h}", f"/mpm/fill_points={points}", f"/mpm/order={order}", f"/mpm/cfl={cfl}",
             f"/mpm/stiffness_scale={scale}", f"/mpm/overlap_correction/rate={overlap}", f"/mpm/duration={END}",
             f"/mpm/rest_earliest={2 * END}", f"/mpm/snapshot_interval={END}", f"/mpm/telemetry_interval=1", POND]
+    for key, value, usual in (("kernel", kernel, "gimp"), ("gimp_half_size", half_size, 0.25), ("blending_rate", beta, 1.0),
+                              ("overlap_correction/tolerance", tolerance, 0.1)):
+        if value != usual:
+            sets.append(f"/mpm/{key}={value}")
     if left != -40:
         sets.append(f"/mpm/domain_x=[{left},{left + 660}]")
         sets.append("/mpm/floor/friction=" + json.dumps([{"from": left, "to": 220, "coefficient": 0.7},
@@ -55,25 +60,31 @@ def pond_to(left):
     return rings
 
 
+SHIFTS = {"_shift1": 0.31, "_shift2": 0.77, "_shift3": 1.27}
 QUICK = {
-    "h2.5_9": case(), "h2.5_4": case(points=2), "h2.5_16": case(points=4), "h2.5_9_musl": case(order="musl"),
+    "h5_9": case(h=5.0), "h2.5_4": case(points=2), "h2.5_9": case(), "h2.5_16": case(points=4), "h2.5_9_musl": case(order="musl"),
 }
 FULL = dict(QUICK, **{
+    **{f"h2.5_9{name}": case(shift=shift) for name, shift in SHIFTS.items()},
+    **{f"h2.5_16{name}": case(points=4, shift=shift) for name, shift in SHIFTS.items()},
+    "h2.5_9_overlap_off": case(overlap=0.0), "h2.5_16_overlap_off": case(points=4, overlap=0.0),
+    "h2.5_9_b_spline": case(kernel="b_spline"), "h2.5_16_b_spline": case(points=4, kernel="b_spline"),
+    "h2.5_9_half": case(half_size=0.5), "h2.5_16_half": case(points=4, half_size=0.5),
+    "h2.5_9_eta3000": case(eta=3000.0), "h2.5_16_eta3000": case(points=4, eta=3000.0),
+    "h2.5_9_soft_off": case(softens=False), "h2.5_16_soft_off": case(softens=False, points=4),
+    "h2.5_9_soft_off_musl": case(softens=False, order="musl"),
+    "h2.5_9_cfl0.2": case(cfl=0.2), "h2.5_9_cfl0.8": case(cfl=0.8),
+    "h2.5_4_cfl0.8": case(points=2, cfl=0.8), "h2.5_16_cfl0.8": case(points=4, cfl=0.8), "h2.5_9_musl_cfl0.8": case(order="musl", cfl=0.8),
+    "h2.5_9_eta0": case(eta=0.0), "h2.5_16_eta0": case(points=4, eta=0.0),
+    "h2.5_9_full_E": case(scale=1.0),
     "h2.5_16_musl": case(points=4, order="musl"),
-    "h2.5_9_cfl0.2": case(cfl=0.2), "h2.5_9_cfl0.4": case(cfl=0.4),
-    "h5_9": case(h=5.0),
-    "h2.5_9_shift1": case(shift=0.31), "h2.5_9_shift2": case(shift=0.77),
-    "h2.5_9_soft_off": case(softens=False), "h2.5_9_soft_off_musl": case(softens=False, order="musl"),
-    "h2.5_16_soft_off": case(softens=False, points=4),
-    "h2.5_9_eta0": case(eta=0.0),
-    "h2.5_9_overlap_off": case(overlap=0.0),
-    "h1.25_9": case(h=1.25), "h1.25_9_musl": case(h=1.25, order="musl"), "h1.25_4": case(h=1.25, points=2),
+    "h1.25_9_cfl0.8": case(h=1.25, cfl=0.8), "h1.25_16_cfl0.8": case(h=1.25, points=4, cfl=0.8),
+    "h1.25_9": case(h=1.25), "h1.25_4": case(h=1.25, points=2),
+    "h1.25_9_musl": case(h=1.25, order="musl"),
     "h1.25_9_unscaled": case(h=1.25, length=None),
     "h1.25_9_soft_off": case(h=1.25, softens=False),
     "h1.25_9_overlap_off": case(h=1.25, overlap=0.0),
     "h1.25_9_eta0": case(h=1.25, eta=0.0),
-    "h1.25_16": case(h=1.25, points=4),
-    "h2.5_9_full_E": case(scale=1.0),
 })
 COLUMNS = ["run", "R_m", "Rd_m", "Rd95_m", "Rd50_m", "front_1m_m", "A0_m2", "overlap", "volume_ratio", "numerical_share", "overlap_energy_share",
            "residual_kinetic_share", "viscous_share", "particles", "steps", "cpu_s", "exit"]
