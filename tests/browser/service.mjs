@@ -12,8 +12,8 @@ export function program(name) {
 }
 
 /// Starts the service on a free port, its data in `folder`; its first line says where it listens. {url, stop()}.
-export async function start_service(folder) {
-    const service = spawn(program("breachline"), ["serve", "--data", folder, "--port", "0"],
+export async function start_service(folder, ...options) {
+    const service = spawn(program("breachline"), ["serve", "--data", folder, "--port", "0", ...options],
                           { stdio: ["ignore", "pipe", "inherit"] });
     const lines = createInterface({ input: service.stdout });
     const first = await Promise.race([

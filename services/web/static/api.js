@@ -13,15 +13,32 @@ export class Problem extends Error {
 /// The server did not answer at all.
 export class Unreachable extends Error {}
 
+let token = null;
+let ask_for_token = null;
+
+/// The bearer token that every request carries (null: none), and who is asked for another when the server refuses:
+/// ask(refused token or null) resolves to it.
+export function authorise(known, ask) {
+    token = known;
+    ask_for_token = ask;
+}
+
 async function request(path, options = {}) {
+    const sent = token;
+    const headers = sent ? { ...options.headers, Authorization: `Bearer ${sent}` } : options.headers;
     let response;
     try {
-        response = await fetch(path, { cache: "no-cache", ...options });
+        response = await fetch(path, { cache: "no-cache", ...options, headers });
     } catch (fault) {
         if (fault.name === "AbortError") throw fault;
         throw new Unreachable("the server does not answer");
     }
     if (response.ok) return response;
+    if (response.status === 401 && ask_for_token) {
+        // Another request may have been answered with a new one meanwhile.
+        if (token === sent) token = await ask_for_token(sent);
+        return request(path, options);
+    }
     const body = await response.json().catch(() => ({}));
     throw new Problem(response.status, body);
 }
@@ -63,6 +80,8 @@ export const read_triggers = async (run) => (await get_json(path_of("runs", run,
 export const read_json_artifact = (sha256) => get_json(artifact_path(sha256), { cache: "default" });
 export const read_results = (run) => get_json(path_of("runs", run, "results"));
 export const results_csv = (run) => path_of("runs", run, "results") + "?format=csv";
+/// A file of the server as a Blob.
+export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 

@@ -11,11 +11,13 @@ import { draw_list, run_address, RunHead } from "./runs.js";
 import { SubmitDialog } from "./submit.js";
 import { Tasks } from "./tasks.js";
 import { Telemetry } from "./telemetry.js";
+import { TokenDialog } from "./token.js";
 
 const settle = 250;        // [ms] events that arrive together cause one look
 const look_again = 1500;   // [ms] between looks while something runs: progress is no event
 const most_share = 0.5;    // of the time that looking may take: a large sweep is looked at less often
 
+new TokenDialog();
 const particles = new Particles();
 function look_at(row) {
     particles.show_point(row);
