@@ -25,34 +25,22 @@ void sync_folder(const fs::path& folder) {
 }  // namespace
 
 Cache::Cache(Store& store, const DataFolder& data, std::function<void(const std::string&)> examined)
-    : store_(store), data_(data), examined_(std::move(examined)) {
-    thread_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
-}
+    : store_(store), data_(data), examined_(std::move(examined)), queue_([this](const Task& task) {
+          serve(task);
+          return Handled::done;
+      }) {}
 
 bool Cache::may_answer(const Task& task) const { return task.recipe && store_.has_candidate(task); }
 
-void Cache::examine(Task task) {
-    {
-        const std::lock_guard lock(mutex_);
-        waiting_.push_back(std::move(task));
-    }
-    arrived_.notify_one();
-}
+void Cache::examine(Task task) { queue_.add(std::move(task)); }
 
-void Cache::serve(std::stop_token stop) {
-    while (true) {
-        std::unique_lock lock(mutex_);
-        if (!arrived_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
-        const Task task = std::move(waiting_.front());
-        waiting_.pop_front();
-        lock.unlock();
-        try {
-            look_up(task);
-        } catch (const std::exception& error) {
-            spdlog::error("cache: {}: {}", task.id, error.what());  // the task simply runs
-        }
-        examined_(task.id);
+void Cache::serve(const Task& task) {
+    try {
+        look_up(task);
+    } catch (const std::exception& error) {
+        spdlog::error("cache: {}: {}", task.id, error.what());  // the task simply runs
     }
+    examined_(task.id);
 }
 
 void Cache::look_up(const Task& task) {

@@ -5,14 +5,11 @@
 // own.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
-#include <thread>
 
 #include "services/orchestrator/data_folder.hpp"
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/task_queue.hpp"
 
 namespace breach::orchestrator {
 
@@ -28,7 +25,7 @@ class Cache {
     void examine(Task task);
 
   private:
-    void serve(std::stop_token stop);
+    void serve(const Task& task);
     void look_up(const Task& task);
     /// Why the outputs of `earlier` cannot be used; nothing when they can.
     std::optional<std::string> damage_of(const Task& earlier) const;
@@ -37,10 +34,7 @@ class Cache {
     Store& store_;
     const DataFolder& data_;
     std::function<void(const std::string&)> examined_;
-    std::mutex mutex_;
-    std::condition_variable_any arrived_;
-    std::deque<Task> waiting_;
-    std::jthread thread_;  // last: stops before what it uses goes
+    TaskQueue queue_;  // last: its thread stops before what it uses goes
 };
 
 }  // namespace breach::orchestrator

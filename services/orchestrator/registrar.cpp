@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 
 #include "core/exchange/provenance.hpp"
@@ -15,8 +14,6 @@ namespace breach::orchestrator {
 using nlohmann::json;
 
 namespace {
-
-constexpr auto pause_after_trouble = std::chrono::seconds(1);
 
 /// Everything below the output folder, in order of name.
 std::vector<Artifact> hashed_outputs(const Task& task, const std::filesystem::path& output) {
@@ -46,36 +43,22 @@ json facts_of(const std::filesystem::path& file) {
 
 Registrar::Registrar(Store& store, const DataFolder& data,
                      std::function<void(const std::string&)> done)
-    : store_(store), data_(data), done_(std::move(done)) {
-    thread_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
-}
+    : store_(store),
+      data_(data),
+      done_(std::move(done)),
+      queue_([this](const Task& task) { return serve(task); }) {}
 
-void Registrar::add(Task task) {
-    {
-        const std::lock_guard lock(mutex_);
-        waiting_.push_back(std::move(task));
-    }
-    arrived_.notify_one();
-}
+void Registrar::add(Task task) { queue_.add(std::move(task)); }
 
-void Registrar::serve(std::stop_token stop) {
-    while (true) {
-        std::unique_lock lock(mutex_);
-        if (!arrived_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
-        const Task task = std::move(waiting_.front());
-        waiting_.pop_front();
-        lock.unlock();
-        try {
-            finalize(task);
-        } catch (const StoreError& error) {
-            spdlog::error("{}: {}; trying again", task.id, error.what());
-            std::this_thread::sleep_for(pause_after_trouble);
-            lock.lock();
-            waiting_.push_back(task);
-            continue;
-        }
-        done_(task.id);
+Handled Registrar::serve(const Task& task) {
+    try {
+        finalize(task);
+    } catch (const StoreError& error) {
+        spdlog::error("{}: {}; trying again", task.id, error.what());
+        return Handled::again_later;
     }
+    done_(task.id);
+    return Handled::done;
 }
 
 /// What the task read; the key of the cache needs it. Empty: it reads no file.

@@ -2,14 +2,11 @@
 // own: hashing a large output must not hold up the dispatcher.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
-#include <thread>
 
 #include "services/orchestrator/data_folder.hpp"
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/task_queue.hpp"
 
 namespace breach::orchestrator {
 
@@ -21,7 +18,7 @@ class Registrar {
     void add(Task task);
 
   private:
-    void serve(std::stop_token stop);
+    Handled serve(const Task& task);
     void finalize(const Task& task);
     void keep_remains(const Task& task);
     std::string input_sha256(const Task& task) const;
@@ -29,10 +26,7 @@ class Registrar {
     Store& store_;
     const DataFolder& data_;
     std::function<void(const std::string&)> done_;
-    std::mutex mutex_;
-    std::condition_variable_any arrived_;
-    std::deque<Task> waiting_;
-    std::jthread thread_;  // last: stops before what it uses goes
+    TaskQueue queue_;  // last: its thread stops before what it uses goes
 };
 
 }  // namespace breach::orchestrator

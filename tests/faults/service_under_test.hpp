@@ -79,7 +79,7 @@ class Service {
 };
 
 /// Polls until it is true; false when the time is over.
-bool eventually(const std::function<bool()>& condition, double seconds = 20);
+bool eventually(const std::function<bool()>& condition, double seconds = 60);
 
 /// The slope scene with this title (the fake phases' orders), transferred at these times.
 nlohmann::json study(const std::string& title, const std::vector<double>& times);

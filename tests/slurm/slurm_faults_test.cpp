@@ -30,7 +30,7 @@ class SlurmFaults : public ::testing::Test {
 
     std::unique_ptr<Service> service(std::vector<std::string> more = {}) const {
         std::vector<std::string> arguments{"--executor",    "slurm", "--slurm-poll",          "0.2",
-                                           "--slurm-grace", "1",     "--slurm-command-limit", "1"};
+                                           "--slurm-grace", "1",     "--slurm-command-limit", "5"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const std::string path = std::getenv("PATH");
         return std::make_unique<Service>(
