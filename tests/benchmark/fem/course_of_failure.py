@@ -6,7 +6,7 @@
 Runs the shipped scene (synthetic motion, 1 m elements, ssp) into FOLDER/shipped_1 unless it is there; the stand-in on 1.2 m
 is taken from does_it_fail.py with the same FOLDER. Writes FOLDER/course_of_failure.md and the figure. "Critical depth" is
 18.5 m; J are averages of |J_t|/|J_0| over elements with epsilon_q > 3 %, octahedral strain is sqrt(2) epsilon_q and its
-averages come from snapshots 0.1 s apart.
+averages come from the snapshots.
 """
 import argparse
 import pathlib
@@ -35,7 +35,7 @@ def events_of(folder):
         if dam_runs.Snapshot(file).average_octahedral() > 0.2:
             octahedral = time
             break
-    done = dam_runs.run_dam(None, folder, {}, 0.0)
+    done = dam_runs.record_of(folder)
     first = dam_runs.first_time
     return {"liquefied to 12 m": first(t, t["liquefaction_depth"] >= 12.0),
             "first failure surface": first(t, t["failure_surfaces"] >= 1),
@@ -116,7 +116,7 @@ def draw(folder, title, figure):
             plot.colorbar(colours, ax=axis, shrink=0.75, label="epsilon_q [%]" if paint is draw_epsilon_q else "r_u [-]")
         row[0].set_title(f"{', '.join(names)}: {time:.2f} s (shown at {taken:.2f} s)", fontsize=9, loc="left")
     plot.suptitle(title, fontsize=10)
-    plot.savefig(figure, dpi=100)
+    plot.savefig(figure, dpi=75, pil_kwargs={"optimize": True})
 
 
 def main():

@@ -15,7 +15,8 @@ SCENE = ROOT / "workflows/scenes/mochikoshi.json"
 SHARED = pathlib.Path(os.environ.get("BREACH_SHARED", ROOT.parent / "shared"))
 STAND_IN = SHARED / "motions/SFERN1971_LA_Hollywood_Stor_180_P695-121512.txt"
 MOTIONS = {"synthetic": ROOT / "workflows/motions/synthetic.csv", "stand-in": STAND_IN}
-ENTANGLED, CPU_LIMIT, DURATION, NO_CONVERGENCE = "entangled", "CPU limit", "whole duration", "no convergence"
+ENTANGLED, STOPPED, DURATION, NO_CONVERGENCE = "entangled", "stopped", "whole duration", "no convergence"
+INTERRUPTED = (130, 143)  # the solver has heard SIGINT, SIGTERM and left a checkpoint
 
 
 def overrides_of(settings):
@@ -47,22 +48,27 @@ def wait_within(child, limit):
         time.sleep(0.2)
 
 
-def run_dam(program, folder, settings, limit=2400.0):
-    """The facts of the run in `folder`; starts it, or goes on with one that met a smaller limit."""
+def record_of(folder):
+    """CPU seconds so far and how the run ended; None when it has not been run to an end."""
     record = folder / "run.json"
-    done = json.loads(record.read_text()) if record.exists() else {"cpu_seconds": 0.0, "ended": None}
-    if done["ended"] not in (None, CPU_LIMIT) or done["cpu_seconds"] >= limit:
+    return json.loads(record.read_text()) if record.exists() else {"cpu_seconds": 0.0, "ended": None}
+
+
+def run_dam(program, folder, settings, limit=2400.0):
+    """The facts of the run in `folder`; starts it, or goes on with one that was stopped or met a smaller limit."""
+    done = record_of(folder)
+    if done["ended"] not in (None, STOPPED) or done["cpu_seconds"] >= limit:
         return done
     folder.mkdir(parents=True, exist_ok=True)
     command = [str(program), str(SCENE), "--output", str(folder), "--progress", "none"] + overrides_of(settings)
-    if done["ended"] == CPU_LIMIT:
+    if done["ended"] == STOPPED:
         command.append("--resume")
     with open(folder / "log.txt", "a") as log:
         child = subprocess.Popen(command, stdout=log, stderr=log, preexec_fn=lambda: os.nice(5))
         code, usage = wait_within(child, limit - done["cpu_seconds"])
     last = (folder / "log.txt").read_text().strip().splitlines()[-1]
-    if code is None:
-        ended = CPU_LIMIT
+    if code is None or code in INTERRUPTED:
+        ended = STOPPED
     elif code == 0:
         ended = DURATION
     elif code == 70:
@@ -72,7 +78,7 @@ def run_dam(program, folder, settings, limit=2400.0):
     done = {"ended": ended, "message": last if code else "", "settings": settings,
             "cpu_seconds": done["cpu_seconds"] + usage.ru_utime + usage.ru_stime,
             "memory_MB": usage.ru_maxrss / 1024}
-    record.write_text(json.dumps(done, indent=1))
+    (folder / "run.json").write_text(json.dumps(done, indent=1))
     return done
 
 
