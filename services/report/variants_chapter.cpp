@@ -107,7 +107,7 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
         window = window_of(run, telemetry_of(run, *fem));
         fem_end = fem->fault.empty() ? "at " + fact(fem->result, "/end_time") + " s" : fem->fault;
     }
-    const bool comparable = runout && reference && *reference != 0.0;
+    const bool comparable = runout && reference && *runout > 0.0 && *reference > 0.0;
     return {variant,
             changes_of(run, variant),
             std::to_string(count.ended) + " of " + std::to_string(count.all),

@@ -1,4 +1,5 @@
 """The real service for a test, on a free port, with its data in a folder."""
+import ctypes
 import json
 import pathlib
 import signal
@@ -9,11 +10,18 @@ import urllib.request
 from phases import programs
 
 
+def end_with_parent():
+    """A test that is killed leaves no service behind: TERM, so running phases save their checkpoints."""
+    set_parent_death_signal = 1
+    ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGTERM)
+
+
 class Service:
     def __init__(self, data, *options):
         self.data = data
         self.process = subprocess.Popen([str(programs / "breachline"), "serve", "--data", str(data), "--port", "0", *options],
-                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                        preexec_fn=end_with_parent)
         self.url = json.loads(self.process.stdout.readline())["url"]
 
     def call(self, path, body=None):
