@@ -74,42 +74,42 @@ Range shown_by(const std::vector<const PhaseFolder*>& runouts) {
     return range;
 }
 
-std::string at_gauge(const PhaseFolder& mpm, const std::string& name, const char* what) {
-    return fact(mpm.result, "/gauges/" + name + "/" + what);
+/// What a row of the table is, and where it stands in a result.
+struct Row {
+    std::string what;
+    std::string pointer;
+};
+
+std::vector<Row> rows_of(const json& scene) {
+    std::vector<Row> rows = {{"runout [m]", "/runout"},
+                             {"beyond the toe, 99 % [m]", "/runout_beyond_toe"},
+                             {"beyond the toe, 95 % [m]", "/runout_beyond_toe_95"},
+                             {"farthest point [m]", "/runout_largest"},
+                             {"at rest", "/at_rest"},
+                             {"end [s]", "/end_time"}};
+    for (const json& each : scene.at("mpm").value("gauges", json::array())) {
+        const std::string name = each.at("name"), at = "/gauges/" + name;
+        const std::string place = name + " (x = " + short_number(each.at("x")) + " m)";
+        rows.push_back({"arrival at " + place + " [s]", at + "/arrival_time"});
+        rows.push_back({"largest depth at " + place + " [m]", at + "/largest_depth"});
+    }
+    return rows;
 }
 
 Table beside_each_other(const std::vector<const PhaseFolder*>& runouts,
                         const std::optional<Paper>& paper) {
     Table table{"ground",
                 "Runout by ground",
-                {"ground", "t_T [s]", "runout [m]", "beyond toe, 99 % [m]", "beyond toe, 95 % [m]",
-                 "farthest point [m]", "at rest", "end [s]"},
+                {"quantity"},
                 {},
                 "Arrival: seconds since the transfer; - when the flow never gets there."};
-    std::vector<std::string> gauges;
-    for (const json& each : runouts.front()->scene.at("mpm").value("gauges", json::array())) {
-        gauges.push_back(each.at("name"));
-        table.columns.push_back("arrival at " + gauges.back() + " [s]");
-        table.columns.push_back("largest depth there [m]");
-    }
-    for (const PhaseFolder* each : runouts) {
-        std::vector<std::string> row = {each->variant,
-                                        short_number(each->transfer_time.value_or(0))};
-        for (const char* what : {"/runout", "/runout_beyond_toe", "/runout_beyond_toe_95",
-                                 "/runout_largest", "/at_rest", "/end_time"}) {
-            row.push_back(fact(each->result, what));
-        }
-        for (const std::string& gauge : gauges) {
-            row.push_back(at_gauge(*each, gauge, "arrival_time"));
-            row.push_back(at_gauge(*each, gauge, "largest_depth"));
-        }
-        table.rows.push_back(std::move(row));
-    }
-    if (paper) {
-        std::vector<std::string> row(table.columns.size(), "-");
-        row[0] = "case history (valley of about 20 %)";
-        row[2] = paper->case_history_runout;
-        table.rows.push_back(std::move(row));
+    for (const PhaseFolder* each : runouts) table.columns.push_back(of_transfer(*each));
+    if (paper) table.columns.push_back("case history, valley of about 20 %");
+    for (const Row& row : rows_of(runouts.front()->scene)) {
+        std::vector<std::string> cells = {row.what};
+        for (const PhaseFolder* each : runouts) cells.push_back(fact(each->result, row.pointer));
+        if (paper) cells.push_back(row.pointer == "/runout" ? paper->case_history_runout : "");
+        table.rows.push_back(std::move(cells));
     }
     return table;
 }

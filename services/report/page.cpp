@@ -18,7 +18,7 @@ constexpr const char* style =
     "color:#444}.remark{background:#fff6dd;border-left:4px solid #e69f00;padding:.4em 1em}"
     ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px}caption{text-align:left;"
     "font-weight:bold;padding:.4em 0}th,td{border-bottom:1px solid #ddd;padding:.2em .7em;"
-    "text-align:left;vertical-align:top}td{max-width:20em;overflow-wrap:anywhere}td.n{text-align:"
+    "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
     "right;font-variant-numeric:tabular-nums;"
     "white-space:nowrap}nav li{display:inline;margin-right:1.2em}nav ul{padding:0}a{color:#0059a0}"
     "@media print{body{max-width:none}figure{break-inside:avoid}}";

@@ -18,33 +18,47 @@ std::string without_its_material(const std::string& change) {
     return text;
 }
 
+/// One entry of the scene and the values that it gets.
 struct Change {
-    std::string text;
-    int times;
+    std::string entry;
+    std::vector<std::string> values;  ///< one per material
 };
 
 std::vector<Change> changes_in(const json& overrides) {
     std::vector<Change> changes;
     for (const json& each : overrides) {
-        std::string text = without_its_material(each);
-        const auto same = std::ranges::find(changes, text, &Change::text);
+        const std::string text = without_its_material(each);
+        const std::size_t equals = text.find('=');
+        const std::string entry = text.substr(0, equals), value = text.substr(equals + 1);
+        const auto same = std::ranges::find(changes, entry, &Change::entry);
         if (same == changes.end()) {
-            changes.push_back({std::move(text), 1});
+            changes.push_back({entry, {value}});
         } else {
-            ++same->times;
+            same->values.push_back(value);
         }
     }
     return changes;
+}
+
+/// "a=1 (7 materials)", "a=1, 2, 3".
+std::string text_of(const Change& change) {
+    const auto& values = change.values;
+    std::string text = change.entry + "=" + values.front();
+    if (values.size() == 1) return text;
+    if (std::ranges::all_of(values, [&](const auto& each) { return each == values.front(); })) {
+        return text.append(" (" + std::to_string(values.size()) + " materials)");
+    }
+    for (std::size_t k = 1; k < values.size(); ++k) text.append(", ").append(values[k]);
+    return text;
 }
 
 std::string changes_of(const Run& run, const std::string& variant) {
     std::string all;
     for (const json& each : run.study.at("variants")) {
         if (each.at("name") != variant) continue;
-        for (const auto& [text, times] : changes_in(each.value("overrides", json::array()))) {
+        for (const Change& change : changes_in(each.value("overrides", json::array()))) {
             if (!all.empty()) all.append("; ");
-            all.append(text);
-            if (times > 1) all.append(" (" + std::to_string(times) + " materials)");
+            all.append(text_of(change));
         }
     }
     return all.empty() ? "nothing" : all;
