@@ -87,3 +87,24 @@ test("liquefied soil is seen in the picture", async () => {
     await until("soil", async () => (await canvas_facts(page)).share > 0.02);
     await screenshot(page, "mochikoshi_runout");
 });
+
+test("its report is read without a network: every figure, the motion that was applied, the paper's numbers", async () => {
+    const folder = path.join(data, "exported");
+    const report = path.join(data, "report.html");
+    breach("export", run, folder);
+    execFileSync(program("report"), [folder, "--output", report]);
+    await page.context().setOffline(true);
+    await page.goto(`file://${report}`);
+    const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
+        const { width, height } = figure.querySelector("svg").getBoundingClientRect();
+        return { name: figure.id, seen: width > 300 && height > 100, marks: figure.querySelectorAll("svg path, svg circle, svg polyline").length };
+    }));
+    assert.ok(figures.length > 30, `${figures.length} figures`);
+    assert.deepEqual(figures.filter(({ seen, marks }) => !seen || marks === 0), []);
+    for (const name of ["motion_acceleration", "safety_against_depth", "liquefaction_depth", "runout_against_transfer_time"]) {
+        assert.ok(figures.some((figure) => figure.name === name), name);
+    }
+    assert.match(await page.textContent("#comparison"), /critical depth/);
+    assert.deepEqual(browser.foreign, []);
+    await screenshot(page, "mochikoshi_report");
+});
