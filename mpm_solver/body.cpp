@@ -44,6 +44,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .gimp_half_size = mpm.gimp_half_size,
               .blending_rate = mpm.blending_rate,
               .overlap_rate = mpm.overlap_correction.rate,
+              .widest = 4.0 * mpm.cell_size * mpm.cell_size * scene.thickness,
               .kernel = kernel_of(mpm.kernel),
               .order = order_of(mpm),
               .averages = {},
@@ -62,6 +63,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
         if (choice.averages == Averages::per_cell) body.averages[z].resize(body.grid.nodes());
     }
     const std::size_t n = body.points.size();
+    if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
     body.team = std::make_shared<Team>(useful_threads(computing.threads, n));
     if (body.order == Order::musl) body.drift_x.resize(n), body.drift_y.resize(n);

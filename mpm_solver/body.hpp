@@ -47,6 +47,9 @@ struct Body {
     double gimp_half_size;  ///< [cells]
     double blending_rate;   ///< beta [1/s]
     double overlap_rate;    ///< of the overlap correction [1/s]
+    /// Volume of the four cells about a point [m3]: what has opened that far has no neighbours
+    /// left, and its gradient, which nothing then contradicts, would open it without end.
+    double widest;
     KernelKind kernel;
     Order order;
     /// Anti-locking (A3 of mpm.md): the points of a zone in a cell share their volumetric strain

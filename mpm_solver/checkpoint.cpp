@@ -9,7 +9,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 4;
+constexpr int version = 5;
 constexpr const char* records_prefix = "records.";
 
 /// The numbers of the run that are not per point. Calls visit(name, value).
@@ -45,6 +45,9 @@ void refuse_if_different(const Archive& archive, const std::string& name, const 
 
 Points load_points(const Archive& archive) {
     Points points;
+    if (const auto excess = archive.reals.find("excess"); excess != archive.reals.end()) {
+        points.excess = excess->second;
+    }
     for_each_real(points, [&](const char* name, std::vector<double>& values) {
         values = archive.reals.at(name);
     });
@@ -52,6 +55,16 @@ Points load_points(const Archive& archive) {
         const auto& stored = archive.integers.at(name);
         values.assign(stored.begin(), stored.end());
     });
+    Carried& carried = points.carried;
+    if (const auto r_u = archive.reals.find("r_u"); r_u != archive.reals.end()) {
+        carried.r_u = r_u->second;
+    }
+    if (const auto measures = archive.integers.find("stress_of_soils");
+        measures != archive.integers.end()) {
+        for (const std::int64_t measure : measures->second) {
+            carried.stress_of_soils.push_back(static_cast<exchange::StressMeasure>(measure));
+        }
+    }
     return points;
 }
 
@@ -68,6 +81,11 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
     for_each_integer(body.points, [&](const char* name, const std::vector<std::int32_t>& values) {
         archive.integers[name].assign(values.begin(), values.end());
     });
+    const Carried& carried = body.points.carried;
+    if (!carried.r_u.empty()) archive.reals["r_u"] = carried.r_u;
+    for (const exchange::StressMeasure measure : carried.stress_of_soils) {
+        archive.integers["stress_of_soils"].push_back(static_cast<std::int64_t>(measure));
+    }
     for_each_number(simulation.clock(), simulation.start(), body.tally,
                     [&](const char* name, double value) {
                         archive.reals[std::string("run.") + name] = {value};

@@ -56,6 +56,7 @@ struct ZoneWork {
     double dt;
     double blend;         ///< beta dt, at most 1 [-]
     double overlap_rate;  ///< [1/s]
+    double widest;        ///< volume beyond which a point opens no further [m3]
 };
 
 /// What a loop adds up over its points.

@@ -59,30 +59,31 @@ void for_each_weight(const Body& body, Visit&& visit) {
 OverlapMeter::OverlapMeter(const Body& body, double thickness)
     : capacity_x_(capacities(body, body.grid.walls_x, body.grid.columns)),
       capacity_y_(capacities(body, body.grid.walls_y, body.grid.rows)),
-      thickness_(thickness),
-      filled_(body.grid.nodes(), 0.0) {}
+      thickness_(thickness) {}
 
-void OverlapMeter::fill_nodes(const Body& body) {
-    std::fill(filled_.begin(), filled_.end(), 0.0);
+void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& filled) {
+    filled.assign(body.grid.nodes(), 0.0);
     const Points& points = body.points;
     const std::int32_t rows = body.grid.rows;
     for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        filled_[i * rows + j] += points.V[p] * N;
+        filled[i * rows + j] += points.V[p] * N;
     });
 }
 
-double OverlapMeter::fill_at(std::int32_t i, std::int32_t j) const {
+double OverlapMeter::fill_at(const std::vector<double>& filled, std::int32_t i,
+                             std::int32_t j) const {
     const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
     const auto rows = static_cast<std::int32_t>(capacity_y_.size());
-    return capacity > 0.0 ? filled_[i * rows + j] / capacity : 0.0;
+    return capacity > 0.0 ? filled[i * rows + j] / capacity : 0.0;
 }
 
-double OverlapMeter::measure(const Body& body) {
-    fill_nodes(body);
+double OverlapMeter::measure(const Body& body) const {
+    std::vector<double> filled;
+    fill_nodes(body, filled);
     const Points& points = body.points;
     double excess = 0.0;
     for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(i, j) - 1.0, 0.0);
+        if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(filled, i, j) - 1.0, 0.0);
     });
     double volume = 0.0;
     for (const double V : points.V) volume += V;
@@ -90,10 +91,11 @@ double OverlapMeter::measure(const Body& body) {
 }
 
 void OverlapMeter::mark(Body& body, double tolerance) {
-    fill_nodes(body);
+    fill_nodes(body, filled_);
     std::fill(body.points.excess.begin(), body.points.excess.end(), 0.0);
     for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        if (N > 0.0) body.points.excess[p] += N * std::max(fill_at(i, j) - 1.0 - tolerance, 0.0);
+        if (N > 0.0)
+            body.points.excess[p] += N * std::max(fill_at(filled_, i, j) - 1.0 - tolerance, 0.0);
     });
 }
 

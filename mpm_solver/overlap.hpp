@@ -17,20 +17,21 @@ class OverlapMeter {
 
     /// Volume-weighted mean over the points' cells of max(0, fill - 1), fill_i = sum_p V_p N_i /
     /// capacity_i [-].
-    double measure(const Body& body);
+    double measure(const Body& body) const;
 
     /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
     void mark(Body& body, double tolerance);
 
   private:
-    void fill_nodes(const Body& body);
-    double fill_at(std::int32_t i, std::int32_t j) const;
+    /// Volume at each node [m3].
+    static void fill_nodes(const Body& body, std::vector<double>& filled);
+    double fill_at(const std::vector<double>& filled, std::int32_t i, std::int32_t j) const;
 
     std::vector<double>
         capacity_x_;  ///< integral of the nodal weight over the domain, per column [m]
     std::vector<double> capacity_y_;
     double thickness_;
-    std::vector<double> filled_;  ///< volume at each node [m3]
+    std::vector<double> filled_;  ///< of the marks; empty in runs that never mark [m3]
 };
 
 }  // namespace breach::mpm

@@ -192,6 +192,13 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
         copy_point(points, p, state, order[p]);
         points.region[p] = match[state.region[order[p]]];
     }
+    points.carried.r_u = state.r_u;
+    if (!state.stress_of_regions.empty()) {
+        points.carried.stress_of_soils.assign(soils.size(), exchange::StressMeasure::effective);
+        for (std::size_t r = 0; r < match.size(); ++r) {
+            points.carried.stress_of_soils[match[r]] = state.stress_of_regions[r];
+        }
+    }
     result.zones = zones_of(scene, points);
     for (Zone& zone : result.zones) {
         settle_volumes(points, zone, scene::mpm_of(scene).stiffness_scale);
@@ -203,6 +210,8 @@ exchange::ParticleState particle_state(const scene::Scene& scene, const Points& 
     const std::size_t n = points.size();
     exchange::ParticleState state;
     state.thickness = scene.thickness;
+    state.stress_of_regions = points.carried.stress_of_soils;
+    state.r_u = points.carried.r_u;
     for (const scene::Soil& soil : scene::soils_of(scene)) {
         state.regions.push_back(scene.section.regions[soil.region].name);
         state.materials_of_regions.push_back(scene.materials[soil.material].name);

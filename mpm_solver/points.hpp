@@ -14,6 +14,12 @@
 
 namespace breach::mpm {
 
+/// What no step reads and the outputs carry on.
+struct Carried {
+    std::vector<exchange::StressMeasure> stress_of_soils;  ///< by soils_of(scene); empty: effective
+    std::vector<double> r_u;  ///< at the transfer, in the order of the input; empty without water
+};
+
 struct Points {
     std::vector<double> x, y;                ///< [m]
     std::vector<double> vx, vy;              ///< [m/s]
@@ -26,11 +32,14 @@ struct Points {
     std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
     std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
     std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
-    std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-]
+    std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-];
+                                       ///< empty unless the body corrects it
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
     std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
     std::vector<std::int32_t> home;    ///< cell when the points were last sorted
     std::vector<std::int32_t> cell;    ///< cell at the start of the step; anti-locking only
+
+    Carried carried;
 
     std::size_t size() const { return x.size(); }
     void resize(std::size_t n);
@@ -48,7 +57,8 @@ void for_each_real(AnyPoints& points, Visit&& visit) {
     visit("sxx", points.sxx), visit("syy", points.syy);
     visit("szz", points.szz), visit("sxy", points.sxy);
     visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
-    visit("gap", points.gap), visit("excess", points.excess);
+    visit("gap", points.gap);
+    if (!points.excess.empty()) visit("excess", points.excess);
 }
 
 template <class AnyPoints, class Visit>

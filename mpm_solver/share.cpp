@@ -29,7 +29,7 @@ PointArrays arrays_of(Body& body) {
             .epsilon_q = p.epsilon_q.data(),
             .epsilon_q_plastic = p.epsilon_q_plastic.data(),
             .gap = p.gap.data(),
-            .excess = p.excess.data(),
+            .excess = p.excess.empty() ? nullptr : p.excess.data(),
             .drift_x = body.drift_x.empty() ? nullptr : body.drift_x.data(),
             .drift_y = body.drift_y.empty() ? nullptr : body.drift_y.data(),
             .cell = p.cell.data()};
@@ -61,7 +61,8 @@ ZoneWork work_of(Body& body, std::size_t z, double dt) {
             .gimp_half_size = body.gimp_half_size,
             .dt = dt,
             .blend = std::min(body.blending_rate * dt, 1.0),
-            .overlap_rate = body.overlap_rate};
+            .overlap_rate = body.overlap_rate,
+            .widest = body.widest};
 }
 
 void add(Totals& whole, const Totals& part) {

@@ -25,9 +25,7 @@ Simulation::Simulation(const scene::Scene& scene, Body body, Clock clock, Start 
       view_(flow_view(scene, body_.grid)),
       overlap_(body_, scene.thickness),
       limits_(limits_of(body_, mpm_, start_.energy)),
-      last_good_(body_.points),
-      last_good_time_(clock.time),
-      last_good_step_(clock.step) {}
+      last_good_(body_.points, clock.time, clock.step) {}
 
 double Simulation::next_step() const {
     const double dt = mpm_.time_step ? *mpm_.time_step : courant_step(body_, mpm_.cfl);
@@ -105,9 +103,7 @@ const Row& Simulation::look() {
     const double interval = mpm_.telemetry_interval;
     clock_.looks =
         interval > 0.0 ? static_cast<std::int64_t>(std::floor(clock_.time / interval)) + 1 : 0;
-    last_good_ = body_.points;
-    last_good_time_ = clock_.time;
-    last_good_step_ = clock_.step;
+    last_good_.keep(body_.points, clock_.time, clock_.step);
     return row;
 }
 
@@ -130,7 +126,7 @@ exchange::ParticleState Simulation::state() const {
 }
 
 exchange::ParticleState Simulation::last_good_state() const {
-    return stamped(last_good_, last_good_time_, last_good_step_);
+    return stamped(last_good_.restored(body_.points), last_good_.time(), last_good_.step());
 }
 
 void Simulation::break_down(const std::string& complaint) const {

@@ -8,6 +8,7 @@
 #include "mpm_solver/gauges.hpp"
 #include "mpm_solver/guard.hpp"
 #include "mpm_solver/history.hpp"
+#include "mpm_solver/last_good.hpp"
 #include "mpm_solver/overlap.hpp"
 #include "mpm_solver/runout.hpp"
 
@@ -84,9 +85,7 @@ class Simulation {
     FlowView view_;
     OverlapMeter overlap_;
     Limits limits_;
-    Points last_good_;
-    double last_good_time_;
-    std::int64_t last_good_step_;
+    LastGood last_good_;
 };
 
 }  // namespace breach::mpm

@@ -107,11 +107,17 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
                 d_epsilon_v = d_epsilon_v - hidden;
                 pushed_in = pushed_in - V * ((sxx + syy + szz) * third) * hidden;
             }
-            store(a.volume + p, load<Real>(a.volume + p) * (Real(1.0) + d_epsilon_v));
+            const Real volume = load<Real>(a.volume + p);
+            const Real grown = volume * (Real(1.0) + d_epsilon_v);
             // Volume strain that the soil opened in tension closes first; the law gets what is
             // left.
             Real gap = none;
-            if constexpr (volume_rule == VolumeRule::from_stress) {
+            [[maybe_unused]] auto opens = own;
+            if constexpr (volume_rule == VolumeRule::tracked) {
+                store(a.volume + p, grown);
+            } else {
+                opens = volume < Real(work.widest);
+                store(a.volume + p, select(opens, grown, smaller(grown, volume)));
                 gap = load<Real>(a.gap + p);
                 const Real closing = smaller(positive(-d_epsilon_v), gap);
                 gap = gap - closing;
@@ -146,7 +152,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
                 store(a.szz + p, update.sigma.zz), store(a.sxy + p, update.sigma.xy);
                 plastic = plastic + V * update.plastic_work;
                 if constexpr (volume_rule == VolumeRule::from_stress) {
-                    store(a.gap + p, gap + update.opened);
+                    store(a.gap + p, gap + select(opens, update.opened, none));
                 }
                 if constexpr (softens != materials::Softens::never) {
                     const Real drives = softens == materials::Softens::with_total_strain

@@ -68,6 +68,8 @@ FULL = dict(QUICK, **{
     **{f"h2.5_9{name}": case(shift=shift) for name, shift in SHIFTS.items()},
     **{f"h2.5_16{name}": case(points=4, shift=shift) for name, shift in SHIFTS.items()},
     "h2.5_9_overlap_off": case(overlap=0.0), "h2.5_16_overlap_off": case(points=4, overlap=0.0),
+    "h2.5_25": case(points=5), "h2.5_25_overlap_off": case(points=5, overlap=0.0),
+    "h2.5_9_beta0.1": case(beta=0.1), "h2.5_16_beta0.1": case(points=4, beta=0.1),
     "h2.5_9_b_spline": case(kernel="b_spline"), "h2.5_16_b_spline": case(points=4, kernel="b_spline"),
     "h2.5_9_half": case(half_size=0.5), "h2.5_16_half": case(points=4, half_size=0.5),
     "h2.5_9_eta3000": case(eta=3000.0), "h2.5_16_eta3000": case(points=4, eta=3000.0),

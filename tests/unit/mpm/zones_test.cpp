@@ -45,5 +45,22 @@ TEST(Zones, ViscosityIsTheMaterialsAndShortensTheStep) {
                 1e-6);
 }
 
+TEST(Zones, OutputsCarryWhatTheTransferKnewOfTheWater) {
+    const scene::Scene scene = softening_soil();
+    exchange::ParticleState state = fill_section(scene).state;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        state.r_u.push_back(1.0 / static_cast<double>(p + 1));
+    }
+    state.stress_of_regions = {exchange::StressMeasure::total};
+    Body body = make_body(scene, zoned_points(scene, state, "test"), "test");
+    std::swap(body.points.number[0], body.points.number[1]);  // as sorting does, with the rest
+    const exchange::ParticleState out = particle_state(scene, body.points);
+    EXPECT_EQ(out.r_u, state.r_u);
+    EXPECT_EQ(out.stress_of_regions, state.stress_of_regions);
+    const Body dry = filled_body(scene);
+    EXPECT_TRUE(particle_state(scene, dry.points).r_u.empty());
+    EXPECT_TRUE(particle_state(scene, dry.points).stress_of_regions.empty());
+}
+
 }  // namespace
 }  // namespace breach::mpm::test

@@ -139,5 +139,38 @@ TEST(Extremes, HeapOnAValleyOfSixtyDegreesStaysWhole) {
     }
 }
 
+/// In free flight nothing contradicts a lone point's gradient: unchecked, it would grow 3,000-fold
+/// in two seconds, count as so much soil, and carry nothing when it lands until all of that had
+/// closed.
+TEST(Extremes, ATornOffPointOpensNoFurtherThanTheCellsAboutIt) {
+    scene::Scene scene =
+        one_soil(sand(5e6, 0.3, 1.0, 0.0), 1800.0, rectangle(4.0, 4.0, 4.25, 4.25), 0.5, 8.0, 8.0);
+    scene.mpm->blending_rate = 0.0;
+    Body body = filled_body(scene, [](const mechanics::Vec2& x) {
+        return mechanics::Vec2{4.0 * (x.x() - 4.125), 0.0};
+    });
+    ASSERT_EQ(body.points.size(), 1u);
+    const double cells = 4.0 * 0.5 * 0.5;
+    const double V = body.points.V[0];
+    advance(body, scene, 2.0);
+    expect_error_within("a torn-off point's volume / the four cells about it",
+                        body.points.volume[0] / cells, 1.05);
+    EXPECT_GT(body.points.volume[0], 0.9 * cells);
+    expect_error_within("gap against the volume's own strain",
+                        body.points.gap[0] / std::log(body.points.volume[0] / V) - 1.0, 0.01);
+    // Pressed together again it closes as far as it opened, then bears, and rebounds.
+    body.points.Lxx[0] = body.points.Lyy[0] = -1.5;
+    double volume_when_closed = 0.0;
+    double lowest_stress = 0.0;
+    advance(body, scene, 2.0, [&](double) {
+        const Points& now = body.points;
+        if (now.gap[0] == 0.0 && volume_when_closed == 0.0) volume_when_closed = now.volume[0];
+        lowest_stress = std::min(lowest_stress, now.sxx[0]);
+    });
+    expect_error_within("volume when all is closed, against what it was",
+                        volume_when_closed / V - 1.0, 0.05);
+    EXPECT_LT(lowest_stress, -1e3);
+}
+
 }  // namespace
 }  // namespace breach::mpm::test
