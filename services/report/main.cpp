@@ -63,6 +63,9 @@ int main(int argc, char** argv) {
     app.add_option("--transfers", choice.transfer_times, "transfer times of the geometries [s]")
         ->delimiter(',');
     app.add_option("--motion", choice.motion, "the scene's motion, when the run does not hold it");
+    app.add_option("--companions", choice.companions,
+                   "other runs, whose variants are shown behind those of this one")
+        ->delimiter(',');
     app.footer("One phase alone: figures and data only.");
     app.require_subcommand(0, 1);
     const OnePhase single[] = {

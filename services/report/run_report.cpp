@@ -9,6 +9,28 @@ namespace breach::report {
 
 namespace {
 
+/// Grounds and variants of another run, told apart by its name.
+void add_companion(const std::filesystem::path& folder, const std::optional<Paper>& paper,
+                   Document& document) {
+    const Run run = read_run(folder);
+    const Measures measures = measures_of(run);
+    const Choice choice;
+    const Material material{run, paper, measures, choice};
+    Document other{run.title, {}, {}, {}};
+    add_ground(material, other);
+    add_variants(material, other);
+    if (other.chapters.empty()) {
+        document.left_out.push_back({"variants of " + folder.string(), "its study has none"});
+    }
+    for (Chapter& chapter : other.chapters) {
+        chapter.text = run.title + ". " + chapter.text;
+        chapter.title += ": " + run.name;
+        for (Figure& each : chapter.figures) each.name += "_" + run.name;
+        for (Table& each : chapter.tables) each.name += "_" + run.name;
+        document.chapters.push_back(std::move(chapter));
+    }
+}
+
 Document filled(const Run& run, const Choice& choice) {
     const std::optional<Paper> paper = paper_for(run.scene.at("name"));
     const Measures measures = measures_of(run);
@@ -23,6 +45,7 @@ Document filled(const Run& run, const Choice& choice) {
                            add_runout, add_ground, add_flow, add_variants, add_numbers}) {
         add(material, document);
     }
+    for (const auto& each : choice.companions) add_companion(each, paper, document);
     return document;
 }
 

@@ -143,6 +143,17 @@ TEST_F(WetRun, ShowsDifferentGroundsOnOneScale) {
               (std::vector<std::string>{"runout [m]", "210", "30", "> 800"}));
 }
 
+TEST_F(WetRun, CarriesTheVariantsOfACompanion) {
+    Choice choice;
+    choice.companions = {folder_};
+    const Document d = document_of(read_run(folder_), choice);
+    ASSERT_GE(d.chapters.size(), 2u);
+    const Chapter& last = d.chapters.back();
+    EXPECT_EQ(last.title, "Variants: wet");
+    EXPECT_EQ(last.tables.front().name, "variants_wet");
+    EXPECT_EQ((d.chapters.end() - 2)->figures.front().name, "ground_softened_wet");
+}
+
 TEST_F(WetRun, TakesTheMotionThatTheFemKept) {
     std::ofstream(folder_ / "tasks/fem/motion.csv") << "time_s,acceleration_g\n0,0\n1,0.25\n2,0\n";
     const Series a = figure(document(), "motion_acceleration").chart.series.front();
