@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "services/cli/table.hpp"
 
@@ -177,6 +178,10 @@ std::string as_telemetry_table(const json& lines) {
 std::string as_progress_line(const json& run) {
     std::string text =
         bar(run.value("progress", 0.0)) + "  " + cell(run, "state") + "  " + tasks_of(run);
+    if (const json left = run.value("seconds_left", json()); left.is_number()) {
+        const auto minutes = static_cast<long>(std::ceil(left.get<double>() / 60.0));
+        text += "  about " + std::to_string(minutes) + " min left";
+    }
     if (!run.value("message", "").empty()) text += "  " + cell(run, "message");
     return text;
 }

@@ -27,7 +27,7 @@ std::string as_result_table(const nlohmann::json& rows);
 /// Lines of telemetry; the columns are the numbers and words of the first line.
 std::string as_telemetry_table(const nlohmann::json& lines);
 
-/// "[#####...............]  25 %  running  3 of 13 tasks"
+/// "[#####...............]  25 %  running  3 of 13 tasks  about 4 min left"
 std::string as_progress_line(const nlohmann::json& run);
 /// "mpm_solver  t_T 1.5 s": the task in a few words
 std::string name_of_task(const nlohmann::json& task);

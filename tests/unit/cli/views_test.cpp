@@ -57,6 +57,19 @@ TEST(TaskPage, ListsAttempts) {
     EXPECT_NE(page.find("      2  exited"), std::string::npos) << page;
 }
 
+TEST(ProgressLine, SaysWhenTheRunWillBeReady) {
+    const json run = {{"progress", 0.25},
+                      {"state", "running"},
+                      {"tasks_done", 3},
+                      {"tasks_total", 13},
+                      {"seconds_left", 185.0}};
+    const std::string line = as_progress_line(run);
+    EXPECT_NE(line.find("3 of 13 tasks"), std::string::npos) << line;
+    EXPECT_NE(line.find("about 4 min left"), std::string::npos) << line;
+    EXPECT_EQ(as_progress_line({{"progress", 1.0}, {"seconds_left", nullptr}}).find("left"),
+              std::string::npos);
+}
+
 TEST(ResultTable, ShowsADashWhereThereIsNoRunoutAndTheReason) {
     const std::string table = as_result_table(json::parse(R"([
         {"transfer_time": 0.5, "state": "succeeded", "runout": 12.345678, "runout_beyond_toe": 1, "runout_largest": 2,
