@@ -7,7 +7,7 @@ Runs the shipped scene (synthetic motion, 1 m elements, ssp) into FOLDER/shipped
 is taken from does_it_fail.py with the same FOLDER. Writes FOLDER/course_of_failure.md and the figure. "Critical depth" is
 18.5 m. A whole element is liquefied when the mean r_u of its nodes, in which alternating pressures cancel, is above 0.7. J
 are averages of |J_t|/|J_0| over elements with epsilon_q > 3 %; octahedral strain is sqrt(2) epsilon_q and its averages come
-from the snapshots.
+from the snapshots. With bbar_1.2 in FOLDER both elements are drawn side by side.
 """
 import argparse
 import pathlib
@@ -96,7 +96,6 @@ def table_of(runs):
 def draw_epsilon_q(axis, shot, position):
     patches = matplotlib.collections.PolyCollection(position[shot.quads], array=100 * shot.epsilon_q, cmap="inferno_r",
                                                     edgecolors="face", linewidths=0.1)
-    patches.set_clim(0, 40)
     return axis.add_collection(patches)
 
 
@@ -114,25 +113,41 @@ def outline_of(shot):
     return [edge for edge, regions in seen.items() if len(regions) == 1 or regions[0] != regions[1]]
 
 
-def draw(folder, title, figure):
-    events = events_of(folder)
-    shown = {}
-    for name in SHOWN:
-        if events[name] is not None:
-            shown.setdefault(events[name], []).append(name)
-    plot, axes = plt.subplots(len(shown), 2, figsize=(15, 2.0 * len(shown) + 0.3), constrained_layout=True, squeeze=False)
-    for row, (time, names) in zip(axes, sorted(shown.items())):
-        taken, file = dam_runs.snapshot_at(folder, time)
-        shot = dam_runs.Snapshot(file)
+def draw(rows, largest_strain, title, figure):
+    """rows: (label, Snapshot), epsilon_q on the left up to `largest_strain` [%] and r_u on the right."""
+    plot, axes = plt.subplots(len(rows), 2, figsize=(15, 2.0 * len(rows) + 0.3), constrained_layout=True, squeeze=False)
+    for pair, (label, shot) in zip(axes, rows):
         position = shot.position_0 + shot.displacement
-        for axis, paint in zip(row, (draw_epsilon_q, draw_r_u)):
+        for axis, paint in zip(pair, (draw_epsilon_q, draw_r_u)):
             colours = paint(axis, shot, position)
+            if paint is draw_epsilon_q:
+                colours.set_clim(0, largest_strain)
             axis.add_collection(matplotlib.collections.LineCollection(position[outline_of(shot)], colors="0.35", linewidths=0.5))
             axis.set(xlim=(50, 225), ylim=(-5, 33), aspect="equal")
             plot.colorbar(colours, ax=axis, shrink=0.75, label="epsilon_q [%]" if paint is draw_epsilon_q else "r_u [-]")
-        row[0].set_title(f"{', '.join(names)}: {time:.2f} s (shown at {taken:.2f} s)", fontsize=9, loc="left")
+        pair[0].set_title(label, fontsize=9, loc="left")
     plot.suptitle(title, fontsize=10)
     plot.savefig(figure, dpi=75, pil_kwargs={"optimize": True})
+
+
+def rows_of_events(folder):
+    """Events that come at one time share a row."""
+    events, shown = events_of(folder), {}
+    for name in SHOWN:
+        if events[name] is not None:
+            shown.setdefault(events[name], []).append(name)
+    rows = []
+    for time, names in sorted(shown.items()):
+        taken, file = dam_runs.snapshot_at(folder, time)
+        rows.append((f"{', '.join(names)}: {time:.2f} s (shown at {taken:.2f} s)", dam_runs.Snapshot(file)))
+    return rows
+
+
+def rows_of_elements(folders):
+    """Every element of the same mesh at the last time that all of them have."""
+    last = min(dam_runs.snapshots_of(folder)[-1][0] for folder in folders)
+    return [(f"{folder.name}, {time:.2f} s", dam_runs.Snapshot(file)) for folder in folders
+            for time, file in [dam_runs.snapshot_at(folder, last)]]
 
 
 def main():
@@ -151,7 +166,12 @@ def main():
     table = table_of(runs)
     (options.output / "course_of_failure.md").write_text(table)
     print(table)
-    draw(shipped, "Mochikoshi section (calibrated, no survey), synthetic motion, ssp, 1 m; deformed to scale", options.figure)
+    section = "Mochikoshi section (calibrated, no survey)"
+    draw(rows_of_events(shipped), 40, f"{section}, synthetic motion, ssp, 1 m; deformed to scale", options.figure)
+    pair = [options.output / "stand-in" / row for row in ("ssp_1.2", "bbar_1.2")]
+    if all((folder / "run.json").exists() for folder in pair):
+        figure = options.figure.with_name(options.figure.stem + "_elements.png")
+        draw(rows_of_elements(pair), 20, f"{section}, stand-in motion, both elements on 1.2 m; deformed to scale", figure)
 
 
 if __name__ == "__main__":

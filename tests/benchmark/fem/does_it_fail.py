@@ -31,7 +31,7 @@ ROWS |= {f"ssp_2.4_{change}": ROWS["ssp_2.4"] | settings for change, settings in
     "alpha_1": {"fem__water__pressure_stabilisation": 1.0},
 }.items()}
 END = 15.0  # s; strong shaking of the stand-in is over at 13.0 s
-LOOKED_AT = (8.0, 10.0, 13.0)  # s
+LOOKED_AT = (6.0, 7.0, 8.0, 10.0, 13.0)  # s
 FAST, AT_REST = 0.1, 0.01  # m/s
 
 
