@@ -55,7 +55,7 @@ def main():
         row = json.load(open(os.path.join(folder, "row.json")))
         draw(above, x, volume, None, facecolors=[COLOURS[r % len(COLOURS)] for r in region])
         strain = draw(below, x, volume, numpy.minimum(epsilon_q, 20.0), cmap="magma_r", clim=(0, 20))
-        above.set_title(f"{name}: {len(x):,} points, Rd {row['Rd_m']:.0f} m, Rd95 {row['Rd95_m']:.0f} m, {row['cpu_s']:.0f} CPU s", fontsize=11)
+        above.set_title(f"cells of {name.split('_')[0][1:]} m: {len(x):,} points, Rd {row['Rd_m']:.0f} m, Rd95 {row['Rd95_m']:.0f} m, {row['cpu_s']:.0f} CPU s", fontsize=11)
         for axes in (above, below):
             axes.axvline(TOE, color="k", lw=0.6, ls=":")
             axes.set(xlim=(-45, TOE + 150), ylim=(-2, 36))
