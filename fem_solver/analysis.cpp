@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "fem_solver/ground_water.hpp"
+#include "fem_solver/plastic_gravity.hpp"
 #include "fem_solver/run.hpp"
 
 namespace breach::fem {
@@ -113,10 +114,11 @@ void Analysis::begin_stage(const Stage& stage) {
     if (position_.stage_begun) return;
     position_.stage_begun = true;
     spdlog::info("stage {}", stage.name);
-    if (stage.laws == scene::StageLaws::scene) begin_laws();
-    if (stage.kind == StageKind::static_equilibrium) {
+    const bool is_static = stage.kind == StageKind::static_equilibrium;
+    if (is_static && model_.water.any()) motion_.p = steady_pressure(model_);
+    if (stage.laws == scene::StageLaws::scene) begin_laws(stage);
+    if (is_static) {
         position_.load_step = 1.0 / stage.load_steps;
-        if (model_.water.any()) motion_.p = steady_pressure(model_);
         stage_force_ = motion_.force;
         return;
     }
@@ -145,11 +147,23 @@ void Analysis::begin_motion() {
     evaluate_pore_water(model_, motion_.u, model_.water);
 }
 
-/// The switch from elastic stages to the scene's laws.
-void Analysis::begin_laws() {
-    const bool first = motion_.sand.empty();
+/// The switch from elastic stages to the scene's laws. A static stage after another one brings the
+/// stresses inside PM4Sand's surfaces first.
+void Analysis::begin_laws(const Stage& stage) {
+    if (!motion_.sand.empty() || !has_sand(model_)) return;
+    if (stage.kind == StageKind::static_equilibrium && position_.stage > 0) {
+        Newton newton(model_, Solved::displacement, {fem_.force_tolerance, fem_.largest_iterations},
+                      Symmetry::general, seconds_);
+        const FrictionalRest rest =
+            rest_with_friction(newton, model_, motion_, prediction_, trial_);
+        spdlog::info(
+            "  friction alone rests with {:.3g} kPa in {} iterations, out of balance {:.2e}",
+            rest.cohesion / 1e3, rest.iterations, rest.residual);
+        session_.result()["plastic_gravity"] = {{"cohesion", rest.cohesion},
+                                                {"iterations", rest.iterations},
+                                                {"out_of_balance", rest.residual}};
+    }
     const StressBias bias = begin_sand(model_, motion_);
-    if (!first || motion_.sand.empty()) return;
     spdlog::info(
         "  PM4Sand begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} "
         "kPa",

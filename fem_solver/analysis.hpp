@@ -31,7 +31,7 @@ class Analysis {
     StageEnd dynamic_stage(const scene::Stage& stage);
     void make_newton(const scene::Stage& stage, const NewtonCounts& counts);
     void begin_stage(const scene::Stage& stage);
-    void begin_laws();
+    void begin_laws(const scene::Stage& stage);
     void begin_motion();
     void note_geostatic_state(const scene::Stage& stage, const NewtonOutcome& outcome);
     Distortion trial_distortion();

@@ -53,6 +53,7 @@ void add_column(const scene::FreeField& field, const Body& body, Side side, doub
         columns.ties.push_back({node, inner});
         columns.ties.push_back({node, inner + 1});
         columns.pressure_ties.push_back({inner, inner + 1});
+        columns.inner.push_back(inner);
     }
     for (std::size_t j = 0; j + 1 < edge.size(); ++j) {
         const auto region =

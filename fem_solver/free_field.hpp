@@ -13,9 +13,10 @@ struct Body {
 };
 
 struct FreeFieldColumns {
-    std::vector<Tie> ties;           ///< u: edge of the mesh, inner and outer side of the column
-    std::vector<Tie> pressure_ties;  ///< p: inner and outer side; never the mesh, which the thick
-                                     ///< column would keep at its own pressure
+    std::vector<Tie> ties;            ///< u: edge of the mesh, inner and outer side of the column
+    std::vector<Tie> pressure_ties;   ///< p: inner and outer side; never the mesh, which the thick
+                                      ///< column would keep at its own pressure
+    std::vector<std::int32_t> inner;  ///< nodes that stand on the edge of the mesh
 };
 
 /// Appends one-element-wide columns behind the last node and element of the mesh, with the edge's

@@ -80,6 +80,11 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
         model.mass.segment<2>(d).setConstant(model.nodal_mass[i]);
         model.external_force[d + 1] = -model.nodal_mass[i] * scene.gravity;
     }
+    if (!columns.inner.empty()) model.row_weight = Eigen::VectorXd::Ones(dofs);
+    for (const std::int32_t node : columns.inner) {
+        model.row_weight.segment<2>(2 * static_cast<Eigen::Index>(node)).array() +=
+            1.0 / model.column_thickness;
+    }
     model.mesh = std::move(mesh);
     add_ground_loads(scene, model);
     if (fem.water) model.water = ground_water(scene, model);

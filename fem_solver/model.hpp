@@ -48,6 +48,11 @@ struct Model {
     std::vector<double> nodal_mass;  ///< lumped by row sums [kg]
     Eigen::VectorXd mass;            ///< the same, one entry per dof [kg]
     Eigen::VectorXd external_force;  ///< weight and any other constant load, per dof [N]
+    /// What a dof's force and mass count in the sum over its tie; empty: all as they are. A column
+    /// of the body's own thickness would press on the edge as the ground beyond does: that is one
+    /// part in `column_thickness` of what the thick column's inner nodes carry. With it, level
+    /// ground moves alike everywhere whatever the thickness.
+    Eigen::VectorXd row_weight;
     std::size_t points_per_element = gauss_points;
     std::vector<Quadrature> reference;   ///< of the undeformed elements
     std::vector<SspGeometry> hourglass;  ///< the same of single-point quads; otherwise empty

@@ -212,6 +212,7 @@ void Newton::add_water(const StepProblem& problem, Motion& trial) {
 /// Sums over ties; held dofs drop out. The balance of mass is divided by -c_v, as its rows are.
 void Newton::gather_residual(const StepProblem& problem) {
     residual_.setZero();
+    if (model_.row_weight.size() > 0) R_u_.array() *= model_.row_weight.array();
     const Unknowns& n = unknowns();
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
         if (n.of_dof[d] >= 0) residual_[n.of_dof[d]] += R_u_[static_cast<Eigen::Index>(d)];

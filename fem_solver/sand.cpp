@@ -31,6 +31,12 @@ void check_sand(const scene::Scene& scene) {
     if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
 }
 
+bool has_sand(const Model& model) {
+    return std::ranges::any_of(model.zones, [](const Zone& zone) {
+        return std::holds_alternative<materials::PM4Sand>(zone.law);
+    });
+}
+
 StressBias stress_bias(const Motion& motion) {
     StressBias bias;
     for (const pm4sand::State& each : motion.sand) {

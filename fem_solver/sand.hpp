@@ -13,6 +13,8 @@ namespace breach::fem {
 /// component do not turn), or an elastic stage after the switch.
 void check_sand(const scene::Scene& scene);
 
+bool has_sand(const Model& model);
+
 /// What the switch left as a constant stress because it lay below p_min or outside the surfaces.
 struct StressBias {
     std::size_t points = 0;

@@ -68,8 +68,10 @@ void set_acceleration(const Newton& newton, const Model& model, const Beginning&
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n.displacements), mass = force;
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
         if (n.of_dof[d] < 0) continue;
-        force[n.of_dof[d]] += R[static_cast<Eigen::Index>(d)];
-        mass[n.of_dof[d]] += model.mass[static_cast<Eigen::Index>(d)];
+        const auto i = static_cast<Eigen::Index>(d);
+        const double weight = model.row_weight.size() > 0 ? model.row_weight[i] : 1.0;
+        force[n.of_dof[d]] += weight * R[i];
+        mass[n.of_dof[d]] += weight * model.mass[i];
     }
     motion.a.setZero();
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
