@@ -15,7 +15,8 @@ struct Choice {
     std::vector<double> transfer_times;  ///< of geometries [s]; empty: half and full runout
     std::filesystem::path motion;        ///< file; empty: where the scene says
     std::vector<std::filesystem::path>
-        companions;  ///< other runs whose variants belong to this one
+        companions;                       ///< other runs whose variants belong to this one
+    std::filesystem::path element_tests;  ///< folder of fem_solver element-test; empty: none
 };
 
 /// All that chapters read.
@@ -39,6 +40,7 @@ std::string fact(const nlohmann::json& result, const std::string& pointer, doubl
 Series section_at_rest(const nlohmann::json& scene);
 
 void add_stability(const Material& from, Document& document);
+void add_element_tests(const Material& from, Document& document);
 void add_motion(const Material& from, Document& document);
 void add_shaking(const Material& from, Document& document);
 void add_mesh(const Material& from, Document& document);

@@ -63,6 +63,8 @@ int main(int argc, char** argv) {
     app.add_option("--transfers", choice.transfer_times, "transfer times of the geometries [s]")
         ->delimiter(',');
     app.add_option("--motion", choice.motion, "the scene's motion, when the run does not hold it");
+    app.add_option("--element-tests", choice.element_tests,
+                   "folder of fem_solver element-test: strength of the scene's soils");
     app.add_option("--companions", choice.companions,
                    "other runs, whose variants are shown behind those of this one")
         ->delimiter(',');

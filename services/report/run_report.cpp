@@ -41,8 +41,9 @@ Document filled(const Run& run, const Choice& choice) {
                                 paper->remarks.end());
     }
     const Material material{run, paper, measures, choice};
-    for (const auto add : {add_stability, add_motion, add_shaking, add_mesh, add_transfer,
-                           add_runout, add_ground, add_flow, add_variants, add_numbers}) {
+    for (const auto add :
+         {add_stability, add_element_tests, add_motion, add_shaking, add_mesh, add_transfer,
+          add_runout, add_ground, add_flow, add_variants, add_numbers}) {
         add(material, document);
     }
     for (const auto& each : choice.companions) add_companion(each, paper, document);

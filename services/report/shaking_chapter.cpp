@@ -97,17 +97,6 @@ std::vector<Plan> plans() {
     };
 }
 
-/// Cyclic resistance belongs to a material and not to a run: where to find it.
-void note_element_tests(const nlohmann::json& scene, Document& document) {
-    const nlohmann::json materials = scene.value("materials", nlohmann::json::object());
-    for (const auto& [name, material] : materials.items()) {
-        if (material.value("/law/type"_json_pointer, "") != "pm4sand") continue;
-        document.left_out.push_back({"cyclic resistance and undrained strength of " + name,
-                                     "fem_solver element-test computes them, report element-test "
-                                     "draws them"});
-    }
-}
-
 }  // namespace
 
 void add_shaking(const Material& from, Document& document) {
@@ -119,7 +108,6 @@ void add_shaking(const Material& from, Document& document) {
                  : "the run has no FEM: its points fill the section"});
         return;
     }
-    note_element_tests(fem->scene, document);
     const Telemetry telemetry = telemetry_of(from.run, *fem);
     Chapter chapter{"Shaking and failure",
                     fem->fault.empty() ? "" : "The FEM ended early: " + fem->fault};

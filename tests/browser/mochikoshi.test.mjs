@@ -92,7 +92,10 @@ test("its report is read without a network: every figure, the motion that was ap
     const folder = path.join(data, "exported");
     const report = path.join(data, "report.html");
     breach("export", run, folder);
-    execFileSync(program("report"), [folder, "--output", report]);
+    const tests = path.join(data, "element_tests");
+    const soil = path.join(process.env.BREACH_ROOT, "workflows/element_tests/tailings.json");
+    execFileSync(program("fem_solver"), ["element-test", soil, "--output", tests, "--progress", "none"]);
+    execFileSync(program("report"), [folder, "--output", report, "--element-tests", tests]);
     await page.context().setOffline(true);
     await page.goto(`file://${report}`);
     const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
@@ -101,7 +104,7 @@ test("its report is read without a network: every figure, the motion that was ap
     }));
     assert.ok(figures.length > 30, `${figures.length} figures`);
     assert.deepEqual(figures.filter(({ seen, marks }) => !seen || marks === 0), []);
-    for (const name of ["motion_acceleration", "safety_against_depth", "liquefaction_depth", "runout_against_transfer_time"]) {
+    for (const name of ["safety_against_depth", "cyclic_strength_CRR", "undrained_stress_strain", "motion_acceleration", "liquefaction_depth", "runout_against_transfer_time"]) {
         assert.ok(figures.some((figure) => figure.name === name), name);
     }
     assert.match(await page.textContent("#comparison"), /critical depth/);
