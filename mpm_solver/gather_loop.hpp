@@ -14,23 +14,24 @@ struct Gathered {
 
 template <int N>
 [[gnu::always_inline]] inline Gathered<N> gathered(const GridArrays& grid, const Weights<N>& w) {
-    Quad values[N];
-    Quad gradients[N];
+    using Four = Quad<N>;
+    Four values[N];
+    Four gradients[N];
     for (int k = 0; k < N; ++k) {
         const double* motion = grid.motion + 4 * static_cast<std::int64_t>(w.node[k]);
-        Quad value(0.0);
-        Quad d_x(0.0);
-        Quad d_y(0.0);
+        Four value(0.0);
+        Four d_x(0.0);
+        Four d_y(0.0);
         for (int i = 0; i < 3; ++i) {
-            const Quad node[3] = {load<Quad>(motion), load<Quad>(motion + 4),
-                                  load<Quad>(motion + 8)};
-            const Quad column = node[0] * Quad(w.Ny[0][k]) + node[1] * Quad(w.Ny[1][k]) +
-                                node[2] * Quad(w.Ny[2][k]);
-            const Quad d_column = node[0] * Quad(w.dNy[0][k]) + node[1] * Quad(w.dNy[1][k]) +
-                                  node[2] * Quad(w.dNy[2][k]);
-            value = value + column * Quad(w.Nx[i][k]);
-            d_x = d_x + column * Quad(w.dNx[i][k]);
-            d_y = d_y + d_column * Quad(w.Nx[i][k]);
+            const Four node[3] = {load<Four>(motion), load<Four>(motion + 4),
+                                  load<Four>(motion + 8)};
+            const Four column = node[0] * Four(w.Ny[0][k]) + node[1] * Four(w.Ny[1][k]) +
+                                node[2] * Four(w.Ny[2][k]);
+            const Four d_column = node[0] * Four(w.dNy[0][k]) + node[1] * Four(w.dNy[1][k]) +
+                                  node[2] * Four(w.dNy[2][k]);
+            value = value + column * Four(w.Nx[i][k]);
+            d_x = d_x + column * Four(w.dNx[i][k]);
+            d_y = d_y + d_column * Four(w.Nx[i][k]);
             motion += 4 * grid.rows;
         }
         values[k] = value;

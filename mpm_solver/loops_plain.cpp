@@ -5,7 +5,7 @@ namespace breach::mpm {
 
 namespace {
 struct Plain {
-    static constexpr int lanes = 4;
+    static constexpr int lanes = 2;  // SSE2, NEON
 };
 }  // namespace
 

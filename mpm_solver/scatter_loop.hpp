@@ -14,9 +14,9 @@ enum class Scattered { momentum_and_force, momentum, momentum_alone, force };
 ///     Q_i = Nx_i C,         C = (m h L_y, f_y.),         M_j = (j Ny_j, j Ny_j, dNy_j, dNy_j)
 template <int N>
 struct Gifts {
-    Quad A[N];
-    Quad B[N];
-    Quad C[N];
+    Quad<N> A[N];
+    Quad<N> B[N];
+    Quad<N> C[N];
     double m[N];
 };
 
@@ -70,25 +70,26 @@ template <int N, Scattered what>
 [[gnu::always_inline]] inline void give(const GridArrays& grid, const Weights<N>& w,
                                         const Gifts<N>& gifts, int k) {
     constexpr bool masses = what == Scattered::momentum_and_force || what == Scattered::momentum;
-    const Quad Ny[3] = {Quad(w.Ny[0][k]), Quad(w.Ny[1][k]), Quad(w.Ny[2][k])};
-    const Quad M[3] = {halves(Quad(0.0), Quad(w.dNy[0][k])), halves(Ny[1], Quad(w.dNy[1][k])),
-                       halves(Ny[2] + Ny[2], Quad(w.dNy[2][k]))};
-    const Quad row_of_N = first_of(Ny[0], Ny[1], Ny[2]);
-    Quad A = gifts.A[k];
-    const Quad B = gifts.B[k];
-    const Quad C = gifts.C[k];
+    using Four = Quad<N>;
+    const Four Ny[3] = {Four(w.Ny[0][k]), Four(w.Ny[1][k]), Four(w.Ny[2][k])};
+    const Four M[3] = {halves(Four(0.0), Four(w.dNy[0][k])), halves(Ny[1], Four(w.dNy[1][k])),
+                       halves(Ny[2] + Ny[2], Four(w.dNy[2][k]))};
+    const Four row_of_N = first_of(Ny[0], Ny[1], Ny[2]);
+    Four A = gifts.A[k];
+    const Four B = gifts.B[k];
+    const Four C = gifts.C[k];
     const std::int64_t node = w.node[k];
     double* motion = grid.motion + 4 * node;
     double* mass = grid.mass + node;
-    const Quad m(gifts.m[k]);
+    const Four m(gifts.m[k]);
     for (int i = 0; i < 3; ++i) {
-        const Quad Nx(w.Nx[i][k]);
-        const Quad P = halves(Nx, Quad(w.dNx[i][k])) * A;
-        const Quad Q = Nx * C;
+        const Four Nx(w.Nx[i][k]);
+        const Four P = halves(Nx, Four(w.dNx[i][k])) * A;
+        const Four Q = Nx * C;
         for (int j = 0; j < 3; ++j) {
-            store(motion + 4 * j, load<Quad>(motion + 4 * j) + P * Ny[j] + Q * M[j]);
+            store(motion + 4 * j, load<Four>(motion + 4 * j) + P * Ny[j] + Q * M[j]);
         }
-        if constexpr (masses) store(mass, load<Quad>(mass) + (m * Nx) * row_of_N);
+        if constexpr (masses) store(mass, load<Four>(mass) + (m * Nx) * row_of_N);
         A = A + B;
         motion += 4 * grid.rows;
         mass += grid.rows;

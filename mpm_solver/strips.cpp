@@ -15,28 +15,33 @@ void permute(std::vector<Value>& values, const std::vector<std::int32_t>& order,
     values.swap(scratch);
 }
 
-}  // namespace
-
-/// Counting sort by home; stable, so the order depends on the points alone.
-void Strips::order_zone(const Grid& grid, const Points& points, const Zone& zone) {
-    starts_.assign(static_cast<std::size_t>(grid.nodes()) + 1, 0);
-    for (std::size_t p = zone.begin; p < zone.end; ++p) ++starts_[points.home[p] + 1];
-    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+/// Counting sort by home; stable, so the order depends on the points alone. `starts`: scratch.
+void order_zone(const Grid& grid, const Points& points, const Zone& zone,
+                std::vector<std::int32_t>& starts, std::vector<std::int32_t>& order) {
+    starts.assign(static_cast<std::size_t>(grid.nodes()) + 1, 0);
+    for (std::size_t p = zone.begin; p < zone.end; ++p) ++starts[points.home[p] + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
     for (std::size_t p = zone.begin; p < zone.end; ++p) {
-        order_[zone.begin + starts_[points.home[p]]++] = static_cast<std::int32_t>(p);
+        order[zone.begin + starts[points.home[p]]++] = static_cast<std::int32_t>(p);
     }
 }
+
+}  // namespace
 
 void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
     for (std::size_t p = 0; p < points.size(); ++p) {
         points.home[p] = grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]));
     }
-    order_.resize(points.size());
-    for (const Zone& zone : zones) order_zone(grid, points, zone);
-    if (!std::is_sorted(order_.begin(), order_.end())) {
-        for_each_real(points, [&](const char*, auto& values) { permute(values, order_, reals_); });
+    // Scratch of its own: a sort is due once in some hundred steps.
+    std::vector<std::int32_t> starts;
+    std::vector<std::int32_t> order(points.size());
+    for (const Zone& zone : zones) order_zone(grid, points, zone, starts, order);
+    if (!std::is_sorted(order.begin(), order.end())) {
+        std::vector<double> reals;
+        for_each_real(points, [&](const char*, auto& values) { permute(values, order, reals); });
+        std::vector<std::int32_t> integers;
         for_each_integer(points,
-                         [&](const char*, auto& values) { permute(values, order_, integers_); });
+                         [&](const char*, auto& values) { permute(values, order, integers); });
     }
     cut(grid, points, zones);
 }
@@ -71,7 +76,7 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
 /// The 4 x 4 nodes about every home: what a point can reach from at most half a cell away.
 void Strips::find_active_nodes(Grid& grid, const Points& points) {
     clear(grid);
-    is_active_.assign(static_cast<std::size_t>(grid.nodes()), 0);
+    std::vector<std::uint8_t> is_active(static_cast<std::size_t>(grid.nodes()), 0);
     std::int32_t last = -1;
     for (const std::int32_t home : points.home) {
         if (home == last) continue;
@@ -79,13 +84,13 @@ void Strips::find_active_nodes(Grid& grid, const Points& points) {
         const std::int32_t i = home / grid.rows;
         const std::int32_t j = home % grid.rows;
         for (std::int32_t k = i - 1; k <= std::min(i + 2, grid.columns - 1); ++k) {
-            const auto column = is_active_.begin() + k * grid.rows;
+            const auto column = is_active.begin() + k * grid.rows;
             std::fill(column + (j - 1), column + std::min(j + 3, grid.rows), std::uint8_t{1});
         }
     }
     grid.active.clear();
     for (std::int32_t node = 0; node < grid.nodes(); ++node) {
-        if (is_active_[node]) grid.active.push_back(node);
+        if (is_active[node]) grid.active.push_back(node);
     }
 }
 

@@ -34,7 +34,6 @@ class Strips {
     const std::vector<std::size_t>& all() const { return all_; }
 
   private:
-    void order_zone(const Grid& grid, const Points& points, const Zone& zone);
     void find_active_nodes(Grid& grid, const Points& points);
 
     std::size_t count_ = 0;
@@ -42,11 +41,6 @@ class Strips {
     std::vector<Span> spans_;
     std::array<std::vector<std::size_t>, 2> apart_;
     std::vector<std::size_t> all_;
-    std::vector<std::int32_t> starts_;
-    std::vector<std::int32_t> order_;
-    std::vector<double> reals_;
-    std::vector<std::int32_t> integers_;
-    std::vector<std::uint8_t> is_active_;
 };
 
 }  // namespace breach::mpm
