@@ -308,8 +308,11 @@ void Analysis::cut_step(const Stage& stage, const NewtonOutcome& outcome) {
     position_.dt *= cut;
     newton_->forget_matrix();
     if (position_.dt >= stage.least_time_step) return;
+    // On the undeformed mesh nothing turns inside out: there it is a point that refused.
+    const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
     const std::string why = outcome.end == End::degenerate
-                                ? "an element turned inside out"
+                                ? (moves ? "an element turned inside out"
+                                         : "a point of PM4Sand refused its strain increment")
                                 : "out of balance " + text_of(outcome.residual) + " after " +
                                       std::to_string(outcome.iterations) + " iterations";
     give_up("no convergence at " + text_of(position_.time) + " s with the least time step " +
