@@ -85,6 +85,10 @@ process::Plan plan(const scene::Scene& scene) {
         scene, [](const auto& region) { return region.mesh == scene::RegionMesh::unstructured; });
     const bool moves = std::ranges::any_of(
         fem.stages, [](const auto& s) { return s.kind == scene::StageKind::dynamic; });
+    const auto begins = std::ranges::find(fem.stages, scene::StageLaws::scene, &scene::Stage::laws);
+    const bool rests = !sand.empty() && begins != fem.stages.begin() &&
+                       begins != fem.stages.end() &&
+                       begins->kind == scene::StageKind::static_equilibrium;
     const bool large = fem.kinematics == scene::Kinematics::updated_lagrangian;
     const bool damped = fem.rayleigh_mass > 0.0 || fem.rayleigh_stiffness > 0.0;
     const bool meshes = !fem.mesh.msh_file && !unstructured.empty();
@@ -94,6 +98,13 @@ process::Plan plan(const scene::Scene& scene) {
         on_if(!sand.empty(), "PM4Sand",
               "in " + sand + "; elastic until the first stage with its laws", "no material has it",
               "/materials"),
+        on_if(rests, "friction before PM4Sand",
+              "a static stage begins it: gravity's stresses are brought inside its surfaces first",
+              sand.empty()
+                  ? "no material has PM4Sand"
+                  : "no static stage of the scene's laws follows elastic gravity; what lies "
+                    "outside the surfaces stays as a constant stress",
+              "/fem/stages"),
         on_if(!plastic.empty(), "plasticity", "Mohr-Coulomb in " + plastic, "no Mohr-Coulomb soil",
               "/materials"),
         on_if(!softening.empty(), "softening",
