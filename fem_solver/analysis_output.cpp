@@ -14,7 +14,9 @@ namespace breach::fem {
 
 namespace {
 constexpr double checkpoint_interval = 20.0;  // wall clock [s]
-}
+constexpr const char* geostatic =
+    "geostatic";  // facts of stages that a resumed run does not repeat
+}  // namespace
 
 void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
     const double slack = 1e-9 * std::max(fem_.telemetry_interval, span_);
@@ -85,18 +87,22 @@ void Analysis::write_checkpoint() {
     const Stopwatch watch(seconds_, &Seconds::output);
     Checkpoint checkpoint{position_,         motion_,           beginning_, stage_force_,
                           newton_->memory(), newton_->counts(), history_};
-    exchange::write_archive(session_.output("checkpoint.h5"),
-                            checkpoint_archive(checkpoint, session_.scene()),
-                            session_.provenance());
+    exchange::Archive archive = checkpoint_archive(checkpoint, session_.scene());
+    const nlohmann::json& facts = session_.result();
+    if (facts.contains(geostatic)) archive.texts[geostatic] = facts.at(geostatic).dump();
+    exchange::write_archive(session_.output("checkpoint.h5"), archive, session_.provenance());
     checkpoint_written_ = session_.wall_seconds();
     checkpoint_wanted_ = false;
 }
 
 void Analysis::resume() {
     const auto file = session_.output("checkpoint.h5");
-    Checkpoint checkpoint =
-        checkpoint_from(exchange::read_archive(file, checkpoint_kind, checkpoint_version),
-                        session_.scene(), model_, file.string());
+    const exchange::Archive archive =
+        exchange::read_archive(file, checkpoint_kind, checkpoint_version);
+    Checkpoint checkpoint = checkpoint_from(archive, session_.scene(), model_, file.string());
+    if (const auto kept = archive.texts.find(geostatic); kept != archive.texts.end()) {
+        session_.result()[geostatic] = nlohmann::json::parse(kept->second);
+    }
     position_ = checkpoint.position;
     motion_ = std::move(checkpoint.motion);
     trial_ = motion_;
