@@ -159,9 +159,10 @@ void Analysis::begin_laws(const Stage& stage) {
         spdlog::info(
             "  friction alone rests with {:.3g} kPa in {} iterations, out of balance {:.2e}",
             rest.cohesion / 1e3, rest.iterations, rest.residual);
-        session_.result()["plastic_gravity"] = {{"cohesion", rest.cohesion},
-                                                {"iterations", rest.iterations},
-                                                {"out_of_balance", rest.residual}};
+        session_.result()["geostatic"][stage.name]["friction"] = {
+            {"cohesion", rest.cohesion},
+            {"iterations", rest.iterations},
+            {"out_of_balance", rest.residual}};
     }
     const StressBias bias = begin_sand(model_, motion_);
     spdlog::info(
@@ -201,10 +202,10 @@ void Analysis::note_geostatic_state(const Stage& stage, const NewtonOutcome& out
     const LateralStress K = lateral_stress(model_, motion_);
     spdlog::info("  sigma'_xx / sigma'_yy {:.3f} on average, {:.3f} to {:.3f}", K.average, K.least,
                  K.largest);
-    session_.result()["geostatic"][stage.name] = {{"out_of_balance", outcome.residual},
-                                                  {"K_average", K.average},
-                                                  {"K_least", K.least},
-                                                  {"K_largest", K.largest}};
+    session_.result()["geostatic"][stage.name].update({{"out_of_balance", outcome.residual},
+                                                       {"K_average", K.average},
+                                                       {"K_least", K.least},
+                                                       {"K_largest", K.largest}});
 }
 
 Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {

@@ -23,7 +23,8 @@ def main():
         scene["fem"]["stages"].insert(1, PLASTIC)
         file.write_text(json.dumps(scene))
         plastic, after = run(solver, file, folder / "plastic")
-    rest, balance = plastic["plastic_gravity"], plastic["geostatic"]["plastic gravity"]["out_of_balance"]
+    facts = plastic["geostatic"]["plastic gravity"]
+    rest, balance = facts["friction"], facts["out_of_balance"]
     print(f"    friction alone: cohesion down to {rest['cohesion'] / 1e3} kPa in {rest['iterations']} iterations")
     print(f"    stress outside the surfaces: {elastic['stress_bias']} after elastic gravity, {plastic['stress_bias']} after plastic")
     print(f"    crest after 1 s: {before[-1]['crest_dx']:.4f} m, {after[-1]['crest_dx']:.4f} m")
