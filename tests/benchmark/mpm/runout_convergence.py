@@ -72,7 +72,7 @@ FULL = dict(QUICK, **{
     "h2.5_9_overlap_off_shift1": case(overlap=0.0, shift=0.31), "h2.5_16_overlap_off_shift1": case(points=4, overlap=0.0, shift=0.31),
     "h2.5_9_beta0.1": case(beta=0.1), "h2.5_16_beta0.1": case(points=4, beta=0.1),
     "h2.5_9_beta0.1_shift1": case(beta=0.1, shift=0.31), "h2.5_16_beta0.1_shift1": case(points=4, beta=0.1, shift=0.31),
-    "h2.5_9_beta0.1_musl": case(beta=0.1, order="musl"), "h1.25_9_beta0.1_cfl0.8": case(h=1.25, beta=0.1, cfl=0.8),
+    "h2.5_9_beta0.1_shift2": case(beta=0.1, shift=0.77), "h2.5_9_beta0.1_musl": case(beta=0.1, order="musl"), "h1.25_9_beta0.1_cfl0.8": case(h=1.25, beta=0.1, cfl=0.8),
     "h1.25_16_beta0.1_cfl0.8": case(h=1.25, points=4, beta=0.1, cfl=0.8),
     "h2.5_9_b_spline": case(kernel="b_spline"), "h2.5_16_b_spline": case(points=4, kernel="b_spline"),
     "h2.5_9_half": case(half_size=0.5), "h2.5_16_half": case(points=4, half_size=0.5),
