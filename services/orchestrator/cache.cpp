@@ -52,7 +52,7 @@ void Cache::look_up(const Task& task) {
     for (const Task& earlier : store_.answers_to(*task.recipe, input_sha256, most_candidates)) {
         refusal = damage_of(earlier);
         if (refusal) continue;
-        link_outputs(earlier, task);
+        place_outputs(earlier, task);
         store_.write([&](Transaction& transaction) { transaction.reuse_task(task.id, earlier); });
         spdlog::info("{} ({}): the same as {}", task.id, task.label, earlier.id);
         return;
@@ -76,8 +76,10 @@ std::optional<std::string> Cache::damage_of(const Task& earlier) const {
     return std::nullopt;
 }
 
-void Cache::link_outputs(const Task& earlier, const Task& task) const {
+void Cache::place_outputs(const Task& earlier, const Task& task) const {
     const fs::path folder = data_.output(task);
+    // A task that broke down can be tried again, which writes into its files.
+    const bool may_be_written_to = earlier.state == TaskState::failed;
     fs::create_directories(folder);
     for (const Artifact& each : store_.artifacts_of(earlier.id)) {
         const fs::path from = data_.output(earlier) / each.name;
@@ -85,8 +87,8 @@ void Cache::link_outputs(const Task& earlier, const Task& task) const {
         fs::create_directories(to.parent_path());
         fs::remove(to);
         std::error_code error;
-        fs::create_hard_link(from, to, error);
-        if (error) fs::copy_file(from, to);  // a file system without links
+        if (!may_be_written_to) fs::create_hard_link(from, to, error);
+        if (may_be_written_to || error) fs::copy_file(from, to);  // error: no links there
         sync_folder(to.parent_path());
     }
 }

@@ -1,8 +1,8 @@
 // The cache: a ready task whose question was answered before takes that answer instead of running.
 // The question is the task's recipe and the SHA-256 of its input file; the answer is the output of
-// a task that succeeded. Every file of the answer is hashed again before it is served: one that is
-// missing or altered is refused, and the task runs. The looking and hashing has a thread of its
-// own.
+// a task that succeeded, or that broke down (exit code 70) as this one would. Every file of the
+// answer is hashed again before it is served: one that is missing or altered is refused, and the
+// task runs. The looking and hashing has a thread of its own.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ class Cache {
     void look_up(const Task& task);
     /// Why the outputs of `earlier` cannot be used; nothing when they can.
     std::optional<std::string> damage_of(const Task& earlier) const;
-    void link_outputs(const Task& earlier, const Task& task) const;
+    void place_outputs(const Task& earlier, const Task& task) const;
 
     Store& store_;
     const DataFolder& data_;

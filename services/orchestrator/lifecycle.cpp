@@ -20,6 +20,7 @@ constexpr std::array task_table{
     TaskRule{T::blocked, E::cancel, T::cancelled},
 
     TaskRule{T::ready, E::reuse, T::cached},
+    TaskRule{T::ready, E::reuse_breakdown, T::failed},
     TaskRule{T::ready, E::claim, T::starting},
     TaskRule{T::ready, E::cancel, T::cancelled},
 
@@ -77,13 +78,15 @@ constexpr std::array<std::string_view, 13> task_state_names{
     "failed",  "lost",  "retry_wait", "cancelling", "cancelled", "skipped"};
 
 constexpr std::array task_events{
-    E::release,    E::skip,           E::reuse,          E::claim,  E::start,   E::exit_well,
-    E::exit_badly, E::exit_retryable, E::interrupt,      E::vanish, E::retry,   E::give_up,
-    E::wait_over,  E::keep_outputs,   E::refuse_outputs, E::cancel, E::stopped, E::redo};
-constexpr std::array<std::string_view, 18> task_event_names{
-    "release",    "skip",           "reuse",          "claim",  "start",   "exit_well",
-    "exit_badly", "exit_retryable", "interrupt",      "vanish", "retry",   "give_up",
-    "wait_over",  "keep_outputs",   "refuse_outputs", "cancel", "stopped", "redo"};
+    E::release,   E::skip,       E::reuse,          E::reuse_breakdown, E::claim,  E::start,
+    E::exit_well, E::exit_badly, E::exit_retryable, E::interrupt,       E::vanish, E::retry,
+    E::give_up,   E::wait_over,  E::keep_outputs,   E::refuse_outputs,  E::cancel, E::stopped,
+    E::redo};
+constexpr std::array<std::string_view, 19> task_event_names{
+    "release",   "skip",       "reuse",          "reuse_breakdown", "claim",  "start",
+    "exit_well", "exit_badly", "exit_retryable", "interrupt",       "vanish", "retry",
+    "give_up",   "wait_over",  "keep_outputs",   "refuse_outputs",  "cancel", "stopped",
+    "redo"};
 
 constexpr std::array attempt_states{A::submitting, A::submitted, A::running,
                                     A::exited,     A::lost,      A::fenced};

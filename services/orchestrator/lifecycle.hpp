@@ -41,24 +41,25 @@ enum class TaskState {
 };
 
 enum class TaskEvent {
-    release,         ///< the input exists
-    skip,            ///< the input will never exist
-    reuse,           ///< the result is in the cache
-    claim,           ///< a slot was given; stored before anything is started
-    start,           ///< the process was started
-    exit_well,       ///< exit code 0
-    exit_badly,      ///< an exit code that no retry can mend
-    exit_retryable,  ///< an exit code or signal that a retry may mend
-    interrupt,       ///< stopped because the service stops; not the task's fault
-    vanish,          ///< no process and no exit record
-    retry,           ///< lost, and tried again
-    give_up,         ///< lost, and tried often enough
-    wait_over,       ///< the retry time has come
-    keep_outputs,    ///< outputs hashed and stored
-    refuse_outputs,  ///< the outputs promised are not there
-    cancel,          ///< asked for by a user
-    stopped,         ///< the process asked to stop is gone
-    redo,            ///< asked for by a user: what ended badly is tried again
+    release,          ///< the input exists
+    skip,             ///< the input will never exist
+    reuse,            ///< the result is in the cache
+    reuse_breakdown,  ///< an equal task broke down (exit code 70) and this one would, too
+    claim,            ///< a slot was given; stored before anything is started
+    start,            ///< the process was started
+    exit_well,        ///< exit code 0
+    exit_badly,       ///< an exit code that no retry can mend
+    exit_retryable,   ///< an exit code or signal that a retry may mend
+    interrupt,        ///< stopped because the service stops; not the task's fault
+    vanish,           ///< no process and no exit record
+    retry,            ///< lost, and tried again
+    give_up,          ///< lost, and tried often enough
+    wait_over,        ///< the retry time has come
+    keep_outputs,     ///< outputs hashed and stored
+    refuse_outputs,   ///< the outputs promised are not there
+    cancel,           ///< asked for by a user
+    stopped,          ///< the process asked to stop is gone
+    redo,             ///< asked for by a user: what ended badly is tried again
 };
 
 enum class AttemptState { submitting, submitted, running, exited, lost, fenced };

@@ -27,7 +27,7 @@ struct Reading {
 
 const std::map<std::string, Reading> readings{
     {"lem_tool", {1, {"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
-    {"fem_solver", {2, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    {"fem_solver", {3, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
     {"transfer_tool",
      {2,
       {"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
@@ -35,7 +35,7 @@ const std::map<std::string, Reading> readings{
       Materials::all,
       Regions::names_and_materials}},
     {"mpm_solver",
-     {2, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
+     {3, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
 };
 
 json materials_part(const json& scene, Materials wanted) {
@@ -60,7 +60,7 @@ json content_of(const std::string& file) {
     try {
         return {{"sha256", exchange::sha256_of_file(file)}};
     } catch (const fault::IoError&) {
-        return file;  // the phase will say what is wrong with it; a failure is never reused
+        return file;  // the phase will say what is wrong with it; such a failure is never reused
     }
 }
 

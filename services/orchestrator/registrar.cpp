@@ -67,16 +67,19 @@ std::string Registrar::input_sha256(const Task& task) const {
     return exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
 }
 
-/// The outputs of a task that failed or was stopped can be looked at, too. Never reused.
+/// The outputs of a task that failed or was stopped can be looked at, too.
 void Registrar::keep_remains(const Task& task) {
     std::vector<Artifact> artifacts;
+    std::string input;
     try {
+        input = input_sha256(task);
         artifacts = hashed_outputs(task, data_.output(task));
     } catch (const std::exception& error) {
         spdlog::warn("{}: its outputs cannot be read: {}", task.id, error.what());
         return;
     }
-    store_.write([&](Transaction& transaction) { transaction.keep_artifacts(artifacts); });
+    store_.write(
+        [&](Transaction& transaction) { transaction.keep_remains(task.id, artifacts, input); });
 }
 
 void Registrar::finalize(const Task& task) {

@@ -19,8 +19,8 @@ bool Store::has_candidate(const Task& task) const {
     read([&](Connection& database) {
         // Another snapshot of the same FEM is not worth hashing this one for.
         database.query(
-            "SELECT 1 FROM tasks WHERE recipe=?1 AND state='succeeded' AND (parent IS NULL OR "
-            "parent<>?2 OR input=?3) LIMIT 1",
+            "SELECT 1 FROM tasks WHERE recipe=?1 AND (state='succeeded' OR (state='failed' AND "
+            "fault_exit=70)) AND (parent IS NULL OR parent<>?2 OR input=?3) LIMIT 1",
             {*task.recipe, task.parent.value_or(""), task.input},
             [&](const Row&) { found = true; });
     });
@@ -32,8 +32,8 @@ std::vector<Task> Store::answers_to(const std::string& recipe, const std::string
     std::vector<std::string> ids;
     read([&](Connection& database) {
         database.query(
-            "SELECT id FROM tasks WHERE recipe=? AND input_sha256=? AND state='succeeded' ORDER BY "
-            "id DESC LIMIT ?",
+            "SELECT id FROM tasks WHERE recipe=? AND input_sha256=? AND (state='succeeded' OR "
+            "(state='failed' AND fault_exit=70)) ORDER BY id DESC LIMIT ?",
             {recipe, input_sha256, static_cast<std::int64_t>(most)},
             [&](const Row& row) { ids.push_back(row.text(0)); });
     });

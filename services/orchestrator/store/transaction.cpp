@@ -170,6 +170,12 @@ void Transaction::finish_task(const std::string& task, const json& result,
     move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
 }
 
+void Transaction::keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
+                               const std::string& input_sha256) {
+    keep_artifacts(artifacts);
+    database_.change("UPDATE tasks SET input_sha256=? WHERE id=?", {input_sha256, task});
+}
+
 void Transaction::keep_artifacts(const std::vector<Artifact>& artifacts) {
     for (const Artifact& each : artifacts) {
         database_.change(
@@ -179,24 +185,22 @@ void Transaction::keep_artifacts(const std::vector<Artifact>& artifacts) {
 }
 
 void Transaction::reuse_task(const std::string& task, const Task& earlier) {
-    if (!try_move_task(task, TaskEvent::reuse, {{"same_as", earlier.id}})) return;
+    const TaskEvent event =
+        earlier.state == TaskState::failed ? TaskEvent::reuse_breakdown : TaskEvent::reuse;
+    if (!try_move_task(task, event, {{"same_as", earlier.id}})) return;
     database_.change(
         "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) SELECT ?, name, sha256, "
         "bytes "
         "FROM artifacts WHERE task=?",
         {task, earlier.id});
     database_.change(
-        "UPDATE tasks SET same_as=?1, (result, input_sha256)=(SELECT result, input_sha256 FROM "
-        "tasks WHERE id=?1) WHERE id=?2",
+        "UPDATE tasks SET same_as=?1, (result, input_sha256, fault_exit, fault_summary)=(SELECT "
+        "result, input_sha256, fault_exit, fault_summary FROM tasks WHERE id=?1) WHERE id=?2",
         {earlier.id, task});
 }
 
 void Transaction::note_cache_refusal(const std::string& task, const std::string& why) {
     database_.change("UPDATE tasks SET cache_refusal=? WHERE id=?", {why, task});
-}
-
-void Transaction::forget_recipe(const std::string& task) {
-    database_.change("UPDATE tasks SET recipe=NULL WHERE id=?", {task});
 }
 
 std::int64_t Transaction::add_attempt(const std::string& task) {
@@ -292,8 +296,11 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
     if (!tasks.empty())
         add_event(run, std::nullopt, "run", {{"event", "retry"}, {"tasks", tasks.size()}});
     for (const auto& [task, release] : tasks) {
-        database_.change("UPDATE tasks SET tries=0, fault_exit=NULL, fault_summary=NULL WHERE id=?",
-                         {task});
+        // What broke down is wanted again, not answered by its like: it loses its recipe.
+        database_.change(
+            "UPDATE tasks SET tries=0, same_as=NULL, fault_exit=NULL, fault_summary=NULL, "
+            "recipe=iif(fault_exit=70, NULL, recipe) WHERE id=?",
+            {task});
         database_.change("DELETE FROM artifacts WHERE task=?", {task});
         move_task(task, TaskEvent::redo);
         if (release == name_of(Release::at_once)) move_task(task, TaskEvent::release);

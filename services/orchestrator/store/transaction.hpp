@@ -41,13 +41,13 @@ class Transaction {
     /// `input_sha256`: of the file that the task read; empty: it reads none.
     void finish_task(const std::string& task, const nlohmann::json& result,
                      const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
-    /// The task takes the result of `earlier`, whose files are linked into its folder already.
-    /// Nothing happens when it is not ready any more.
+    /// The task takes the result of `earlier`, or its breakdown; the files are in its folder
+    /// already. Nothing happens when it is not ready any more.
     void reuse_task(const std::string& task, const Task& earlier);
     void note_cache_refusal(const std::string& task, const std::string& why);
-    /// What this task gives does not follow from its recipe alone: it must never be reused.
-    void forget_recipe(const std::string& task);
-    void keep_artifacts(const std::vector<Artifact>& artifacts);
+    /// What a task that ended badly has left.
+    void keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
+                      const std::string& input_sha256);
 
     /// The attempt's row, number one higher than the last; the task must have been claimed in this
     /// transaction.
@@ -95,6 +95,7 @@ class Transaction {
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);
+    void keep_artifacts(const std::vector<Artifact>& artifacts);
     void add_event(const std::string& run, const std::optional<std::string>& task,
                    const std::string& kind, const nlohmann::json& detail);
 

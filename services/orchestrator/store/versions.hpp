@@ -8,5 +8,6 @@ extern const char* const version_1;  ///< runs, tasks, attempts, events, artifac
 extern const char* const version_2;  ///< variants, cache, queues, idempotency, counts per run
 extern const char* const version_3;  ///< triggers, firings
 extern const char* const version_4;  ///< indices for thousands of tasks
+extern const char* const version_5;  ///< breakdowns answer equal tasks
 
 }  // namespace breach::orchestrator

@@ -102,6 +102,30 @@ TEST(Cache, ResultsOfFailedTasksAreNotReused) {
     EXPECT_EQ(why(service, second, "mpm_0.250000").at("reason"), "earlier task did not succeed");
 }
 
+TEST(Cache, AnEntangledMeshIsEntangledAgainWithoutRunningAndARetryRunsIt) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json wanted = study("entangle_at=1", {0.25, 0.5, 2.0});
+    const json first = service.wait_for_end(service.submit(wanted));
+    ASSERT_EQ(task_labelled(first, "fem").at("state"), "failed");
+    const json second = service.wait_for_end(service.submit(wanted));
+    const json fem = task_labelled(second, "fem");
+    EXPECT_EQ(fem.at("state"), "failed");
+    EXPECT_EQ(fem.at("attempts").size(), 0u);
+    EXPECT_EQ(fem.at("same_as"), task_labelled(first, "fem").at("id"));
+    EXPECT_EQ(second.at("message"), first.at("message"));
+    EXPECT_EQ(why(service, second, "fem").at("reason"), "taken from an earlier task");
+    EXPECT_EQ(task_labelled(second, "mpm_0.500000").at("state"), "cached");
+    EXPECT_EQ(task_labelled(second, "transfer_2.000000").at("state"), "skipped");
+    EXPECT_EQ(service.table(second.at("id")), service.table(first.at("id")));
+
+    const std::string id = second.at("id");
+    EXPECT_EQ(service.post("/v1/runs/" + id + "/retry", "").status, 202);
+    const json third = service.wait_for_end(id);
+    EXPECT_EQ(task_labelled(third, "fem").at("state"), "failed");
+    EXPECT_EQ(task_labelled(third, "fem").at("attempts").size(), 1u);
+}
+
 TEST(Cache, IsNotAskedWhenTheStudySaysSo) {
     const Sandbox sandbox;
     Service service(sandbox);

@@ -14,6 +14,7 @@ const std::set<std::string> task_moves{
     "blocked skip skipped",
     "blocked cancel cancelled",
     "ready reuse cached",
+    "ready reuse_breakdown failed",
     "ready claim starting",
     "ready cancel cancelled",
     "starting start running",
