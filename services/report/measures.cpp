@@ -98,16 +98,21 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
     found["plateau_end" + suffix] = {plateau->last, of, cpu, "spacing of t_T"};
 }
 
+double runout_of(const PhaseFolder* runout) { return runout->result.at("runout"); }
+
+double largest_runout(const std::vector<const PhaseFolder*>& runouts) {
+    double largest = 0.0;
+    for (const PhaseFolder* each : runouts) largest = std::max(largest, runout_of(each));
+    return largest;
+}
+
 /// Outermost transfer times around the largest runout that are on the plateau.
-std::optional<Plateau> edges_in(const std::vector<const PhaseFolder*>& runouts) {
-    if (runouts.empty()) return {};
-    const auto of = [](const PhaseFolder* each) { return each->result.at("runout").get<double>(); };
-    const auto top = std::ranges::max_element(runouts, {}, of);
-    if (of(*top) <= 0.0) return {};
-    const double level = plateau_share * of(*top);
+Plateau edges_in(const std::vector<const PhaseFolder*>& runouts) {
+    const auto top = std::ranges::max_element(runouts, {}, runout_of);
+    const double level = plateau_share * runout_of(*top);
     auto first = top, last = top;
-    while (first != runouts.begin() && of(*(first - 1)) >= level) --first;
-    while (last + 1 != runouts.end() && of(*(last + 1)) >= level) ++last;
+    while (first != runouts.begin() && runout_of(*(first - 1)) >= level) --first;
+    while (last + 1 != runouts.end() && runout_of(*(last + 1)) >= level) ++last;
     return Plateau{(*first)->transfer_time.value_or(0.0), (*last)->transfer_time.value_or(0.0)};
 }
 
@@ -139,10 +144,14 @@ Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {
 std::optional<Plateau> plateau_of(const Run& run, const std::string& variant) {
     const PhaseFolder* fem = phase_of_variant(run, "fem_solver", variant);
     std::optional<Plateau> plateau;
+    double farthest = 0.0;
     for (const std::string& each : variants_of(run)) {
         if (phase_of_variant(run, "fem_solver", each) != fem) continue;
-        plateau = edges_in(runouts_of(run, each));
-        if (plateau || each == variant) break;
+        const auto runouts = runouts_of(run, each);
+        const double largest = largest_runout(runouts);
+        if (largest <= farthest) continue;
+        farthest = largest;
+        plateau = edges_in(runouts);
     }
     if (!plateau) return {};
     for (const PhaseFolder* each : runouts_of(run, variant)) {
