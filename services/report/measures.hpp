@@ -44,8 +44,8 @@ struct Plateau {
     double first, last;                            ///< transfer times [s]
     std::vector<const PhaseFolder*> runouts = {};  ///< of the variant between them
 };
-/// Variants that share a FEM share the edges, which the first of them sets; nothing when it has no
-/// runout beyond the toe.
+/// Variants that share a FEM share the edges, which the one that runs farthest sets; nothing when
+/// none has a runout beyond the toe.
 std::optional<Plateau> plateau_of(const Run& run, const std::string& variant);
 double median(std::vector<double> values);
 
