@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/fault/fault.hpp"
+#include "core/scene/file_paths.hpp"
 #include "core/scene/schema.hpp"
 
 namespace breach::cli {
@@ -20,37 +21,12 @@ json read_json(const std::filesystem::path& file) {
     return scene::parse_json(text.str(), file.string());
 }
 
-void make_absolute(json& object, const char* key, const std::filesystem::path& folder) {
-    if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return;
-    object[key] =
-        std::filesystem::absolute(folder / object[key].get<std::string>()).lexically_normal();
-}
-
-/// A path in an override is relative to the scene, like the entry that it replaces.
-void make_overrides_absolute(json& overrides, const std::filesystem::path& folder) {
-    if (!overrides.is_array()) return;
-    for (json& each : overrides) {
-        if (!each.is_string()) continue;
-        for (const std::string key : {"/fem/msh_file=", "/fem/motion/file="}) {
-            const std::string text = each;
-            if (!text.starts_with(key)) continue;
-            each = key + std::filesystem::absolute(folder / text.substr(key.size()))
-                             .lexically_normal()
-                             .string();
-        }
-    }
-}
-
 }  // namespace
 
 json read_scene_document(const std::filesystem::path& file) {
-    json scene = read_json(file);
-    if (scene.is_object() && scene.contains("fem") && scene["fem"].is_object()) {
-        make_absolute(scene["fem"], "msh_file", file.parent_path());
-        if (scene["fem"].contains("motion"))
-            make_absolute(scene["fem"]["motion"], "file", file.parent_path());
-    }
-    return scene;
+    json document = read_json(file);
+    scene::make_files_absolute(document, file.parent_path());
+    return document;
 }
 
 json read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -67,13 +43,7 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
         if (!study["overrides"].is_array()) return study;  // the server says what is wrong with it
         for (const std::string& each : overrides) study["overrides"].push_back(each);
     }
-    if (study.contains("overrides")) make_overrides_absolute(study["overrides"], scene_folder);
-    if (study.contains("variants") && study["variants"].is_array()) {
-        for (json& each : study["variants"]) {
-            if (each.is_object() && each.contains("overrides"))
-                make_overrides_absolute(each["overrides"], scene_folder);
-        }
-    }
+    scene::make_override_files_absolute(study, scene_folder);
     return study;
 }
 

@@ -2,12 +2,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/scene/file_paths.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
-using namespace nlohmann::literals;
 
 namespace {
 
@@ -18,23 +18,16 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// A scene that is sent has no folder to which its files could be relative.
-void make_files_absolute(json& scene, const std::filesystem::path& folder) {
-    for (const auto& key : {"/fem/msh_file"_json_pointer, "/fem/motion/file"_json_pointer}) {
-        if (!scene.is_object() || !scene.contains(key) || !scene[key].is_string()) continue;
-        const auto file = folder / scene[key].get<std::string>();
-        scene[key] = std::filesystem::absolute(file).lexically_normal().string();
-    }
-}
-
 /// The study with its scene inside, as POST /v1/runs takes it; nothing when a file does not fit.
 std::optional<json> example_in(const std::filesystem::path& file) {
     json study = json::parse(text_of(file), nullptr, false);
     if (!study.is_object() || !study.contains("name")) return std::nullopt;
     if (study.contains("scene") && study["scene"].is_string()) {
-        const auto scene = file.parent_path() / study["scene"].get<std::string>();
-        study["scene"] = json::parse(text_of(scene), nullptr, false);
-        make_files_absolute(study["scene"], scene.parent_path());
+        const auto scene_file = file.parent_path() / study["scene"].get<std::string>();
+        const auto folder = scene_file.parent_path();
+        study["scene"] = json::parse(text_of(scene_file), nullptr, false);
+        scene::make_files_absolute(study["scene"], folder);
+        scene::make_override_files_absolute(study, folder);
     }
     const bool whole = study.contains("scene") && study["scene"].is_object();
     return whole ? std::optional(std::move(study)) : std::nullopt;

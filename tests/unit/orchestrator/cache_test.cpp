@@ -117,7 +117,10 @@ TEST(Cache, AnEntangledMeshIsEntangledAgainWithoutRunningAndARetryRunsIt) {
     EXPECT_EQ(why(service, second, "fem").at("reason"), "taken from an earlier task");
     EXPECT_EQ(task_labelled(second, "mpm_0.500000").at("state"), "cached");
     EXPECT_EQ(task_labelled(second, "transfer_2.000000").at("state"), "skipped");
-    EXPECT_EQ(service.table(second.at("id")), service.table(first.at("id")));
+    const json rows = service.table(second.at("id")), earlier = service.table(first.at("id"));
+    ASSERT_EQ(rows.size(), earlier.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(rows[i].at("runout"), earlier[i].at("runout"));
 
     const std::string id = second.at("id");
     EXPECT_EQ(service.post("/v1/runs/" + id + "/retry", "").status, 202);

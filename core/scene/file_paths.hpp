@@ -1,0 +1,15 @@
+// Paths of files that a scene or its overrides name are relative to the scene's folder. A document
+// that is sent somewhere else has none: its paths are made absolute first.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+namespace breach::scene {
+
+/// Of the scene itself; what is not there, or is no text, is left for the scene's reader to judge.
+void make_files_absolute(nlohmann::json& scene, const std::filesystem::path& folder);
+/// Of a study's overrides ("/pointer=value") and of those of its variants; its scene is left alone.
+void make_override_files_absolute(nlohmann::json& study, const std::filesystem::path& folder);
+
+}  // namespace breach::scene
