@@ -294,13 +294,13 @@ test("an example is loaded, planned, submitted, and fills in live", async () => 
     await until("a plan", async () => /softening/.test(await text_of("#plan")));
     assert.deepEqual(await page.locator("#plan tr:last-child > *").allTextContents(),
                      ["⊘ left out", "gmsh", "regions are blocks", "/section"]);
-    api.pace = 12; // slow enough to be caught half-way on a busy machine
+    api.pace = 24; // slow enough to be caught half-way on a busy machine
     await page.click("#submit");
     await until("the new run is open", () => page.url().endsWith(`#/runs/${api.runs.at(-1).id}`));
     await until("it runs", async () => /running/.test(await text_of("#run-state")));
     const early = await markers();
-    await until("some markers, not all", async () => (await markers()) > early && (await markers()) < 7);
-    await until("the end", async () => /partial/.test(await text_of("#run-state")), 30000);
+    await until("some markers, not all", async () => (await markers()) > early && (await markers()) < 7, 40000);
+    await until("the end", async () => /partial/.test(await text_of("#run-state")), 60000);
     api.pace = 6;
     await until("all markers", async () => (await markers()) === 7);
     assert.ok(await page.isHidden("#cancel"), "nothing is left to cancel");
