@@ -151,7 +151,7 @@ void Analysis::begin_motion() {
 /// stresses inside PM4Sand's surfaces first.
 void Analysis::begin_laws(const Stage& stage) {
     if (!motion_.sand.empty() || !has_sand(model_)) return;
-    if (stage.kind == StageKind::static_equilibrium && position_.stage > 0) {
+    if (rests_first(stage, position_.stage)) {
         Newton newton(model_, Solved::displacement, {fem_.force_tolerance, fem_.largest_iterations},
                       Symmetry::general, seconds_);
         const FrictionalRest rest =

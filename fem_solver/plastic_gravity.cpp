@@ -53,6 +53,10 @@ void set_cohesion(const Model& model, double c, std::vector<materials::Law>& law
 
 }  // namespace
 
+bool rests_first(const scene::Stage& stage, std::int64_t place) {
+    return stage.kind == scene::StageKind::static_equilibrium && place > 0;
+}
+
 FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& motion,
                                   Prediction& prediction, Motion& trial) {
     FrictionalRest rest;

@@ -7,6 +7,10 @@
 
 namespace breach::fem {
 
+/// Whether a stage that begins PM4Sand's law looks for that field first: a static one after
+/// another.
+bool rests_first(const scene::Stage& stage, std::int64_t place);
+
 /// What the search came to.
 struct FrictionalRest {
     double cohesion = 0.0;  ///< least one that stood in equilibrium [Pa]

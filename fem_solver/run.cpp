@@ -10,6 +10,7 @@
 #include "core/motion/read_motion.hpp"
 #include "fem_solver/absorbing_base.hpp"
 #include "fem_solver/analysis.hpp"
+#include "fem_solver/plastic_gravity.hpp"
 
 namespace breach::fem {
 
@@ -86,9 +87,8 @@ process::Plan plan(const scene::Scene& scene) {
     const bool moves = std::ranges::any_of(
         fem.stages, [](const auto& s) { return s.kind == scene::StageKind::dynamic; });
     const auto begins = std::ranges::find(fem.stages, scene::StageLaws::scene, &scene::Stage::laws);
-    const bool rests = !sand.empty() && begins != fem.stages.begin() &&
-                       begins != fem.stages.end() &&
-                       begins->kind == scene::StageKind::static_equilibrium;
+    const bool rests = !sand.empty() && begins != fem.stages.end() &&
+                       rests_first(*begins, begins - fem.stages.begin());
     const bool large = fem.kinematics == scene::Kinematics::updated_lagrangian;
     const bool damped = fem.rayleigh_mass > 0.0 || fem.rayleigh_stiffness > 0.0;
     const bool meshes = !fem.mesh.msh_file && !unstructured.empty();

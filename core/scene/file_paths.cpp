@@ -1,15 +1,14 @@
 #include "core/scene/file_paths.hpp"
 
-#include <array>
 #include <nlohmann/json.hpp>
 
 namespace breach::scene {
 
 using nlohmann::json;
 
-namespace {
-
 const std::array<std::string, 2> file_entries{"/fem/msh_file", "/fem/motion/file"};
+
+namespace {
 
 std::string absolute_in(const std::filesystem::path& folder, const std::string& file) {
     return std::filesystem::absolute(folder / file).lexically_normal().string();

@@ -2,10 +2,15 @@
 // that is sent somewhere else has none: its paths are made absolute first.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 namespace breach::scene {
+
+/// The entries of a scene that name a file, as JSON pointers.
+extern const std::array<std::string, 2> file_entries;
 
 /// Of the scene itself; what is not there, or is no text, is left for the scene's reader to judge.
 void make_files_absolute(nlohmann::json& scene, const std::filesystem::path& folder);

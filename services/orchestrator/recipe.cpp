@@ -5,6 +5,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/fault/fault.hpp"
+#include "core/scene/file_paths.hpp"
 
 namespace breach::orchestrator {
 
@@ -109,7 +110,7 @@ Recipe recipe_of(const std::string& phase, const json& scene) {
         const json::json_pointer at(each);
         if (scene.contains(at)) part[at] = scene.at(at);
     }
-    for (const char* key : {"/fem/msh_file", "/fem/motion/file"}) {
+    for (const std::string& key : scene::file_entries) {
         const json::json_pointer at(key);
         if (part.contains(at) && part[at].is_string())
             part[at] = content_of(part[at].get<std::string>());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/scene/file_paths.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
 
@@ -94,7 +95,7 @@ std::optional<scene::Scene> checked_scene(const json& document, const std::strin
                                           const std::vector<std::string>& overrides,
                                           std::vector<Fault>& faults) {
     try {
-        for (const char* key : {"/fem/msh_file", "/fem/motion/file"}) {
+        for (const std::string& key : scene::file_entries) {
             const json::json_pointer at(key);
             if (!document.contains(at) || !document[at].is_string() ||
                 document[at].get_ref<const std::string&>().starts_with('/'))

@@ -22,8 +22,7 @@ std::vector<const PhaseFolder*> one_per_ground(const Run& run) {
     for (const std::string& variant : variants_of(run)) {
         const auto runouts = runouts_of(run, variant);
         if (runouts.empty()) continue;
-        const PhaseFolder* longest = *std::ranges::max_element(
-            runouts, {}, [](const PhaseFolder* each) { return each->result.at("runout"); });
+        const PhaseFolder* longest = *std::ranges::max_element(runouts, {}, runout_of);
         const json* terrain = terrain_of(*longest);
         const bool known = std::ranges::any_of(found, [&](const PhaseFolder* each) {
             const json* other = terrain_of(*each);

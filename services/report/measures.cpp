@@ -65,7 +65,7 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
     const std::string suffix = variant.empty() ? "" : ":" + variant;
     bool begun = false;
     for (const PhaseFolder* each : runouts_of(run, variant)) {
-        const double runout = each->result.at("runout"), t_T = each->transfer_time.value_or(0.0);
+        const double runout = runout_of(each), t_T = each->transfer_time.value_or(0.0);
         const Measure here{runout, each->label, cpu_of(*each), "see the table of runouts"};
         if (std::abs(t_T - 13.0) < same_time) found["runout_at_13" + suffix] = here;
         if (std::abs(t_T - 16.0) < same_time) found["runout_at_16" + suffix] = here;
@@ -80,7 +80,7 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
     std::vector<double> runouts, released;
     double cpu = 0.0;
     for (const PhaseFolder* each : plateau->runouts) {
-        runouts.push_back(each->result.at("runout"));
+        runouts.push_back(runout_of(each));
         if (const auto area = number_at(each->result, "area_beyond_toe")) released.push_back(*area);
         cpu += cpu_of(*each);
     }
@@ -97,8 +97,6 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
     found["plateau_begin" + suffix] = {plateau->first, of, cpu, "spacing of t_T"};
     found["plateau_end" + suffix] = {plateau->last, of, cpu, "spacing of t_T"};
 }
-
-double runout_of(const PhaseFolder* runout) { return runout->result.at("runout"); }
 
 double largest_runout(const std::vector<const PhaseFolder*>& runouts) {
     double largest = 0.0;
@@ -117,6 +115,8 @@ Plateau edges_in(const std::vector<const PhaseFolder*>& runouts) {
 }
 
 }  // namespace
+
+double runout_of(const PhaseFolder* mpm) { return mpm->result.at("runout"); }
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);
@@ -226,7 +226,8 @@ Table comparison(const Paper& paper, const Measures& ours) {
                 {},
                 "Paper: " + paper.source +
                     ". Here the plateau is the transfer times around the largest runout that give "
-                    "at least 75 % of it (the first variant's say where), and its runout their "
+                    "at least 75 % of it (those of the variant that runs farthest say where), and "
+                    "its runout their "
                     "median; the window is what the criteria make of the FEM's telemetry."};
     for (const PaperValue& each : paper.values) {
         std::vector<std::string> row = {each.what, each.unit, short_number(each.value)};

@@ -35,6 +35,7 @@ WindowEdges window_of(const Run& run, const Telemetry& fem);
 
 /// Runs of the MPM that ended, of one variant, ascending in t_T.
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant);
+double runout_of(const PhaseFolder* mpm);  ///< of one of them [m]
 /// In the study's order, or by name where the folder has no study.
 std::vector<std::string> variants_of(const Run& run);
 

@@ -12,7 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-double runout_of(const PhaseFolder* phase) { return phase->result.at("runout"); }
 double time_of(const PhaseFolder* phase) { return phase->transfer_time.value_or(0.0); }
 
 const PhaseFolder* nearest_in_time(const std::vector<const PhaseFolder*>& all, double t_T) {

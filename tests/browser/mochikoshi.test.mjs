@@ -2,11 +2,11 @@
 // shaking and liquefaction, transfers, runout, report.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import path from "node:path";
-import { after, before, test } from "node:test";
-import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
-import { program, start_service } from "./service.mjs";
+import { before, test } from "node:test";
+import { canvas_facts, screenshot, until } from "./browser.mjs";
+import { live_page, program } from "./service.mjs";
 
 const study_file = path.join(process.env.BREACH_ROOT, "workflows/studies/mochikoshi_quarter.json");
 const study = JSON.parse(readFileSync(study_file, "utf8"));
@@ -14,22 +14,11 @@ const patience = 900000; // [ms] for the FEM on a busy machine
 
 let service;
 let data;
-let browser;
 let page;
 let run;
 
-before(async () => {
-    data = mkdtempSync(path.join(build_folder, "data-"));
-    service = await start_service(data);
-    browser = await open_browser();
-    page = browser.page;
-});
-
-after(async () => {
-    await browser?.close();
-    await service?.stop();
-    rmSync(data, { recursive: true, force: true });
-});
+const live = live_page("data-");
+before(() => ({ service, page, folder: data } = live));
 
 const breach = (...words) => execFileSync(program("breach"), ["--server", service.url, ...words], { encoding: "utf8" });
 const answer_of = async (address) => (await fetch(service.url + address)).json();
@@ -49,7 +38,7 @@ test("the page sees it to its end", async () => {
     await until("one marker per transfer time", async () =>
         (await page.locator("#runout-plot svg.plot > .marker.series-0").count()) >= study.transfer_times.length);
     await screenshot(page, "mochikoshi");
-    assert.deepEqual(browser.complaints, []);
+    assert.deepEqual(live.browser.complaints, []);
 });
 
 test("stability has the published factors of safety", async () => {
@@ -108,6 +97,6 @@ test("its report is read without a network: every figure, the motion that was ap
         assert.ok(figures.some((figure) => figure.name === name), name);
     }
     assert.match(await page.textContent("#comparison"), /critical depth/);
-    assert.deepEqual(browser.foreign, []);
+    assert.deepEqual(live.browser.foreign, []);
     await screenshot(page, "mochikoshi_report");
 });

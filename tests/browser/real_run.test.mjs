@@ -1,33 +1,21 @@
 // A person's way through the page with nothing made up: the real orchestrator, the real phases, a small column. The
 // job is submitted in the browser, seen finishing, and its curve and particles are looked at.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import path from "node:path";
-import { after, before, test } from "node:test";
-import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
-import { start_service } from "./service.mjs";
+import { readFileSync } from "node:fs";
+import { before, test } from "node:test";
+import { canvas_facts, screenshot, until } from "./browser.mjs";
+import { live_page } from "./service.mjs";
 
 const study_file = new URL("small_study.json", import.meta.url);
 const study = JSON.parse(readFileSync(study_file, "utf8"));
 
-let service;
 let url;
-let data;
-let browser;
 let page;
 
-before(async () => {
-    data = mkdtempSync(path.join(build_folder, "data-"));
-    service = await start_service(data);
-    url = service.url;
-    browser = await open_browser();
-    page = browser.page;
-});
-
-after(async () => {
-    await browser?.close();
-    await service?.stop();
-    rmSync(data, { recursive: true, force: true });
+const live = live_page("data-");
+before(() => {
+    page = live.page;
+    url = live.service.url;
 });
 
 const text_of = (selector) => page.textContent(selector);
@@ -199,12 +187,12 @@ test("the finished run is photographed, light and dark", async () => {
         await page.waitForTimeout(300); // transitions
         await screenshot(page, `real_${theme}`);
     }
-    assert.deepEqual(browser.complaints, []);
-    assert.deepEqual(browser.foreign, []);
+    assert.deepEqual(live.browser.complaints, []);
+    assert.deepEqual(live.browser.foreign, []);
 });
 
 test("a service that ends is noticed, and what was seen stays", async () => {
-    await service?.stop();
+    await live.service.stop();
     await until("the notice", async () => /Connection lost/.test(await text_of("#connection")), 30000);
     assert.equal(await markers(), study.transfer_times.length);
 });

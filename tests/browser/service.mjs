@@ -1,9 +1,11 @@
-// The real orchestrator for a test. Environment: BREACH_BIN (the built programs).
+// The real orchestrator for a test, with a page of it in a real browser. Environment: BREACH_BIN (the built programs).
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { existsSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import path from "node:path";
+import { after, before } from "node:test";
 import { createInterface } from "node:readline";
+import { build_folder, open_browser } from "./browser.mjs";
 
 export function program(name) {
     const file = path.join(process.env.BREACH_BIN, name);
@@ -27,4 +29,22 @@ export async function start_service(folder, ...options) {
         return ended;
     };
     return { url: JSON.parse(first).url.replace(/\/$/, ""), stop };
+}
+
+/// For all tests of a file: a service with a folder of its own below the build's and a page, opened before the first test and
+/// cleared away after the last. `options(folder)`: further options of the service. {folder, service, browser, page}, filled by then.
+export function live_page(prefix, options = () => []) {
+    const live = {};
+    before(async () => {
+        live.folder = mkdtempSync(path.join(build_folder, prefix));
+        live.service = await start_service(path.join(live.folder, "data"), ...options(live.folder));
+        live.browser = await open_browser();
+        live.page = live.browser.page;
+    });
+    after(async () => {
+        await live.browser?.close();
+        await live.service?.stop();
+        rmSync(live.folder, { recursive: true, force: true });
+    });
+    return live;
 }

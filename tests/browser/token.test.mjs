@@ -2,34 +2,27 @@
 // hands over files that a link alone could not fetch.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { build_folder, open_browser, screenshot, until } from "./browser.mjs";
-import { program, start_service } from "./service.mjs";
+import { screenshot, until } from "./browser.mjs";
+import { live_page, program } from "./service.mjs";
 
 const token = "an-unlikely-token-of-the-test";
 const study = fileURLToPath(new URL("small_study.json", import.meta.url));
-let folder;
+let token_file;
 let service;
-let browser;
 let page;
 
-before(async () => {
-    folder = mkdtempSync(path.join(build_folder, "token-"));
-    const file = path.join(folder, "token");
-    writeFileSync(file, `${token}\n`);
-    service = await start_service(path.join(folder, "data"), "--token-file", file);
-    execFileSync(program("breach"), ["--server", service.url, "--token-file", file, "submit", study]);
-    browser = await open_browser();
-    page = browser.page;
+const live = live_page("token-", (folder) => {
+    token_file = path.join(folder, "token");
+    writeFileSync(token_file, `${token}\n`);
+    return ["--token-file", token_file];
 });
-
-after(async () => {
-    await browser?.close();
-    await service?.stop();
-    rmSync(folder, { recursive: true, force: true });
+before(() => {
+    ({ service, page } = live);
+    execFileSync(program("breach"), ["--server", service.url, "--token-file", token_file, "submit", study]);
 });
 
 const runs = () => page.locator("#run-list li").count();
@@ -65,5 +58,5 @@ test("a file that a link alone could not fetch is handed over", async () => {
     await until("the end of the run", async () => /succeeded|partial|failed/.test(await page.textContent("#run-state")), 120000);
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#runout-csv")]);
     assert.match(readFileSync(await download.path(), "utf8"), /^transfer_time,state,runout/);
-    assert.deepEqual(browser.complaints, []);
+    assert.deepEqual(live.browser.complaints, []);
 });

@@ -5,6 +5,9 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// As the index tasks_by_recipe has it: written otherwise, the index would not serve.
+const std::string is_an_answer = "(state='succeeded' OR (state='failed' AND fault_exit=70))";
+
 Recipe recipe_from(const Row& row, int first) {
     return {.hash = row.text(first),
             .phase = row.text(first + 1),
@@ -18,11 +21,10 @@ bool Store::has_candidate(const Task& task) const {
     bool found = false;
     read([&](Connection& database) {
         // Another snapshot of the same FEM is not worth hashing this one for.
-        database.query(
-            "SELECT 1 FROM tasks WHERE recipe=?1 AND (state='succeeded' OR (state='failed' AND "
-            "fault_exit=70)) AND (parent IS NULL OR parent<>?2 OR input=?3) LIMIT 1",
-            {*task.recipe, task.parent.value_or(""), task.input},
-            [&](const Row&) { found = true; });
+        database.query("SELECT 1 FROM tasks WHERE recipe=?1 AND " + is_an_answer +
+                           " AND (parent IS NULL OR parent<>?2 OR input=?3) LIMIT 1",
+                       {*task.recipe, task.parent.value_or(""), task.input},
+                       [&](const Row&) { found = true; });
     });
     return found;
 }
@@ -31,11 +33,10 @@ std::vector<Task> Store::answers_to(const std::string& recipe, const std::string
                                     std::size_t most) const {
     std::vector<std::string> ids;
     read([&](Connection& database) {
-        database.query(
-            "SELECT id FROM tasks WHERE recipe=? AND input_sha256=? AND (state='succeeded' OR "
-            "(state='failed' AND fault_exit=70)) ORDER BY id DESC LIMIT ?",
-            {recipe, input_sha256, static_cast<std::int64_t>(most)},
-            [&](const Row& row) { ids.push_back(row.text(0)); });
+        database.query("SELECT id FROM tasks WHERE recipe=? AND input_sha256=? AND " +
+                           is_an_answer + " ORDER BY id DESC LIMIT ?",
+                       {recipe, input_sha256, static_cast<std::int64_t>(most)},
+                       [&](const Row& row) { ids.push_back(row.text(0)); });
     });
     std::vector<Task> found;
     for (const std::string& id : ids) found.push_back(*task(id));
