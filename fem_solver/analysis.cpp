@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "fem_solver/ground_water.hpp"
-#include "fem_solver/plastic_gravity.hpp"
+#include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/run.hpp"
+#include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 

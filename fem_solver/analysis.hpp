@@ -4,8 +4,8 @@
 
 #include "core/process/phase.hpp"
 #include "fem_solver/checkpoint.hpp"
-#include "fem_solver/step.hpp"
-#include "fem_solver/watch.hpp"
+#include "fem_solver/monitors/watch.hpp"
+#include "fem_solver/solve/step.hpp"
 
 namespace breach::fem {
 

@@ -1,6 +1,6 @@
 #include "fem_solver/checkpoint.hpp"
 
-#include "core/materials/pm4sand_fields.hpp"
+#include "core/materials/pm4sand/fields.hpp"
 
 namespace breach::fem {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "fem_solver/beginning.hpp"
-#include "fem_solver/monitors.hpp"
-#include "fem_solver/newton.hpp"
+#include "fem_solver/monitors/monitors.hpp"
+#include "fem_solver/solve/beginning.hpp"
+#include "fem_solver/solve/newton.hpp"
 
 namespace breach::fem {
 

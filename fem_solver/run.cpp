@@ -8,9 +8,9 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/motion/read_motion.hpp"
-#include "fem_solver/absorbing_base.hpp"
 #include "fem_solver/analysis.hpp"
-#include "fem_solver/plastic_gravity.hpp"
+#include "fem_solver/model/absorbing_base.hpp"
+#include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 

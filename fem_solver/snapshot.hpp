@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/exchange/mesh_snapshot.hpp"
-#include "fem_solver/beginning.hpp"
+#include "fem_solver/solve/beginning.hpp"
 
 namespace breach::fem {
 

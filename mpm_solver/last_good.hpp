@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mpm_solver/points.hpp"
+#include "mpm_solver/body/points.hpp"
 
 namespace breach::mpm {
 

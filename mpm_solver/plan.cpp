@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "mpm_solver/choose.hpp"
+#include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/run.hpp"
 
 namespace breach::mpm {

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
+#include "mpm_solver/body/fill.hpp"
 #include "mpm_solver/checkpoint.hpp"
-#include "mpm_solver/fill.hpp"
 #include "mpm_solver/results.hpp"
 #include "mpm_solver/simulation.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mpm_solver/choose.hpp"
+#include "mpm_solver/body/choose.hpp"
 
 namespace breach::mpm {
 

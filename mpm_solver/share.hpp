@@ -1,7 +1,7 @@
 // A loop over all points, shared out by strips.
 #pragma once
 
-#include "mpm_solver/body.hpp"
+#include "mpm_solver/body/body.hpp"
 
 namespace breach::mpm {
 

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "core/process/session.hpp"
-#include "mpm_solver/body.hpp"
-#include "mpm_solver/energy.hpp"
-#include "mpm_solver/gauges.hpp"
-#include "mpm_solver/guard.hpp"
-#include "mpm_solver/history.hpp"
+#include "mpm_solver/body/body.hpp"
 #include "mpm_solver/last_good.hpp"
-#include "mpm_solver/overlap.hpp"
-#include "mpm_solver/runout.hpp"
+#include "mpm_solver/measure/energy.hpp"
+#include "mpm_solver/measure/gauges.hpp"
+#include "mpm_solver/measure/guard.hpp"
+#include "mpm_solver/measure/history.hpp"
+#include "mpm_solver/measure/overlap.hpp"
+#include "mpm_solver/measure/runout.hpp"
 
 namespace breach::mpm {
 

@@ -2,7 +2,7 @@
 // stands in the loops (*_loop.hpp); here they are shared out to the threads.
 #pragma once
 
-#include "mpm_solver/body.hpp"
+#include "mpm_solver/body/body.hpp"
 
 namespace breach::mpm {
 

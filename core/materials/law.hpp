@@ -6,7 +6,7 @@
 #include <optional>
 #include <variant>
 
-#include "core/materials/pm4sand.hpp"
+#include "core/materials/pm4sand/pm4sand.hpp"
 #include "core/mechanics/elasticity.hpp"
 #include "core/mechanics/tensor.hpp"
 

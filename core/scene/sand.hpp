@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/materials/pm4sand.hpp"
+#include "core/materials/pm4sand/pm4sand.hpp"
 
 namespace breach::scene {
 

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "core/materials/law.hpp"
-#include "core/materials/pm4sand.hpp"
+#include "core/materials/pm4sand/pm4sand.hpp"
 
 namespace breach::element_bench {
 

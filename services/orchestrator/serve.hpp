@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "services/orchestrator/dispatcher.hpp"
+#include "services/orchestrator/dispatch/dispatcher.hpp"
 #include "services/orchestrator/executors/slurm_executor.hpp"
 #include "services/orchestrator/http/http_server.hpp"
 

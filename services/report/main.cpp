@@ -3,10 +3,10 @@
 #include <iostream>
 
 #include "core/fault/fault.hpp"
-#include "services/report/element_test_figures.hpp"
+#include "services/report/figures/element_test_figures.hpp"
+#include "services/report/figures/stability_figures.hpp"
+#include "services/report/figures/transfer_figures.hpp"
 #include "services/report/run_report.hpp"
-#include "services/report/stability_figures.hpp"
-#include "services/report/transfer_figures.hpp"
 
 namespace {
 

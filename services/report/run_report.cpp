@@ -2,8 +2,8 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
-#include "services/report/page.hpp"
-#include "services/report/png.hpp"
+#include "services/report/chart/page.hpp"
+#include "services/report/chart/png.hpp"
 
 namespace breach::report {
 

@@ -1,7 +1,7 @@
 // A run as a page: `report RUN --output F`.
 #pragma once
 
-#include "services/report/chapters.hpp"
+#include "services/report/chapters/chapters.hpp"
 
 namespace breach::report {
 

@@ -1,6 +1,6 @@
 // kill -9 at each named place, once, then a restart: nothing acknowledged is lost, nothing comes
 // through twice, and the log of events is sound.
-#include "services/orchestrator/failpoint.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
 
 #include <gtest/gtest.h>
 

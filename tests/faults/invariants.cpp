@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/exchange/provenance.hpp"
-#include "services/orchestrator/data_folder.hpp"
+#include "services/orchestrator/files/data_folder.hpp"
 
 namespace breach::testing {
 

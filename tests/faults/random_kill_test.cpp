@@ -12,7 +12,7 @@
 #include <random>
 #include <thread>
 
-#include "services/orchestrator/failpoint.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
 #include "tests/faults/invariants.hpp"
 
 namespace breach::testing {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "services/orchestrator/data_folder.hpp"
+#include "services/orchestrator/files/data_folder.hpp"
 
 namespace breach::orchestrator {
 

@@ -9,7 +9,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
-#include "services/orchestrator/failpoint.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
 
 namespace breach::orchestrator {
 

@@ -21,8 +21,8 @@
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/executors/order.hpp"
 #include "services/orchestrator/executors/process_tree.hpp"
-#include "services/orchestrator/failpoint.hpp"
-#include "services/orchestrator/folder_watch.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
+#include "services/orchestrator/files/folder_watch.hpp"
 
 namespace breach::orchestrator {
 

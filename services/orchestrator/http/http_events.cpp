@@ -1,7 +1,7 @@
 #include <charconv>
 #include <memory>
 
-#include "services/orchestrator/answers.hpp"
+#include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
 namespace breach::orchestrator {

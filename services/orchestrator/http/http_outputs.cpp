@@ -4,8 +4,8 @@
 #include <memory>
 #include <sstream>
 
+#include "services/orchestrator/files/telemetry.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
-#include "services/orchestrator/telemetry.hpp"
 
 namespace breach::orchestrator {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "services/orchestrator/answers.hpp"
+#include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {

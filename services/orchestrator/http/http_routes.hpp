@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "services/orchestrator/http/http_router.hpp"
-#include "services/orchestrator/service.hpp"
+#include "services/orchestrator/http/service.hpp"
 
 namespace breach::orchestrator {
 

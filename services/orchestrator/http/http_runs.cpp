@@ -1,9 +1,9 @@
-#include "services/orchestrator/answers.hpp"
+#include "services/orchestrator/dispatch/why.hpp"
+#include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
-#include "services/orchestrator/results_file.hpp"
-#include "services/orchestrator/sweep_extension.hpp"
-#include "services/orchestrator/why.hpp"
+#include "services/orchestrator/http/results_file.hpp"
+#include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "services/orchestrator/service.hpp"
+#include "services/orchestrator/http/service.hpp"
 
 namespace breach::orchestrator {
 

@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include "core/exchange/provenance.hpp"
-#include "services/orchestrator/graph.hpp"
-#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/study/graph.hpp"
 
 namespace breach::orchestrator {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "services/orchestrator/failpoint.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/store/versions.hpp"
 
 namespace breach::orchestrator {

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "services/orchestrator/failpoint.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/store/migrations.hpp"
 
 namespace breach::orchestrator {

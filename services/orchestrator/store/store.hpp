@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-#include "services/orchestrator/histogram.hpp"
+#include "services/orchestrator/store/histogram.hpp"
 #include "services/orchestrator/store/transaction.hpp"
 
 namespace breach::orchestrator {

@@ -1,7 +1,7 @@
 #include "services/orchestrator/store/transaction.hpp"
 
-#include "services/orchestrator/identity.hpp"
-#include "services/orchestrator/sweep_extension.hpp"
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
 

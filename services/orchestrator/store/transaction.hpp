@@ -2,7 +2,7 @@
 // the lifecycle's table decides the new state. A Transaction exists only inside Store::write.
 #pragma once
 
-#include "services/orchestrator/records.hpp"
+#include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/store/connection.hpp"
 
 namespace breach::orchestrator {

@@ -1,9 +1,9 @@
 // Triggers and their firings in the store: the writing and the reading half.
 #include <map>
 
-#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"
-#include "services/orchestrator/study.hpp"
+#include "services/orchestrator/study/study.hpp"
 
 namespace breach::orchestrator {
 

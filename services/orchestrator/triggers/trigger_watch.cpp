@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "core/exchange/provenance.hpp"
-#include "services/orchestrator/failpoint.hpp"
-#include "services/orchestrator/frames.hpp"
-#include "services/orchestrator/identity.hpp"
-#include "services/orchestrator/study.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
+#include "services/orchestrator/files/frames.hpp"
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/study/study.hpp"
 #include "services/orchestrator/triggers/bisection.hpp"
 
 namespace breach::orchestrator {

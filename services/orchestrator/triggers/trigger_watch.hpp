@@ -13,8 +13,8 @@
 #include <chrono>
 #include <map>
 
-#include "services/orchestrator/data_folder.hpp"
-#include "services/orchestrator/folder_watch.hpp"
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/files/folder_watch.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/triggers/telemetry_tail.hpp"
 

@@ -11,7 +11,7 @@
 #include <ctime>
 #include <numeric>
 
-#include "mpm_solver/runout.hpp"
+#include "mpm_solver/measure/runout.hpp"
 #include "mpm_solver/simulation.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 

@@ -2,8 +2,8 @@
 // is seen by eye.
 #include <gtest/gtest.h>
 
-#include "fem_solver/failure_surface.hpp"
-#include "fem_solver/liquefaction.hpp"
+#include "fem_solver/monitors/failure_surface.hpp"
+#include "fem_solver/monitors/liquefaction.hpp"
 
 namespace breach::fem {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "fem_solver/mesh.hpp"
+#include "fem_solver/mesh/mesh.hpp"
 
 namespace breach::fem {
 namespace {

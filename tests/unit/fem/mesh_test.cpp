@@ -1,5 +1,5 @@
 // Mapped blocks, their joints, and what is refused.
-#include "fem_solver/mesh.hpp"
+#include "fem_solver/mesh/mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "fem_solver/mesh.hpp"
+#include "fem_solver/mesh/mesh.hpp"
 
 namespace breach::fem {
 namespace {

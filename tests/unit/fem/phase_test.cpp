@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "fem_solver/model.hpp"
+#include "fem_solver/model/model.hpp"
 #include "fem_solver/run.hpp"
 #include "fem_solver/snapshot.hpp"
 

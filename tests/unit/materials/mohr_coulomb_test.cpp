@@ -1,4 +1,4 @@
-#include "core/materials/mohr_coulomb.hpp"
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 
 #include <gtest/gtest.h>
 

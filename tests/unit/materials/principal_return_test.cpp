@@ -1,6 +1,6 @@
 // The closed forms against a solver that knows nothing of them: Koiter's rule by trying every set
 // of up to three of the nine planes.
-#include "core/materials/principal_return.hpp"
+#include "core/materials/mohr_coulomb/principal_return.hpp"
 
 #include <gtest/gtest.h>
 

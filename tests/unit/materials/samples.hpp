@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/materials/mohr_coulomb.hpp"
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 
 namespace breach::materials::samples {
 

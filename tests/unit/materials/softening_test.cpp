@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/materials/mohr_coulomb.hpp"
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "tests/unit/materials/samples.hpp"
 
 namespace breach::materials {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "core/materials/mohr_coulomb.hpp"
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "tests/unit/materials/samples.hpp"
 
 namespace breach::materials {

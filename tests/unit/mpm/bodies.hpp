@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "mpm_solver/energy.hpp"
-#include "mpm_solver/fill.hpp"
+#include "mpm_solver/body/fill.hpp"
+#include "mpm_solver/measure/energy.hpp"
 #include "mpm_solver/step.hpp"
 
 namespace breach::mpm::test {

@@ -1,8 +1,8 @@
-#include "mpm_solver/fill.hpp"
+#include "mpm_solver/body/fill.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mpm_solver/overburden.hpp"
+#include "mpm_solver/body/overburden.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {

@@ -1,8 +1,8 @@
-#include "mpm_solver/flow.hpp"
+#include "mpm_solver/measure/flow.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mpm_solver/gauges.hpp"
+#include "mpm_solver/measure/gauges.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {

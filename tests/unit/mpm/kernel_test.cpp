@@ -1,4 +1,4 @@
-#include "mpm_solver/kernel.hpp"
+#include "mpm_solver/loops/kernel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "mpm_solver/loops/turn.hpp"
 #include "mpm_solver/step.hpp"
-#include "mpm_solver/turn.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {

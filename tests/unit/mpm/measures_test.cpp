@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "mpm_solver/history.hpp"
-#include "mpm_solver/overlap.hpp"
+#include "mpm_solver/measure/history.hpp"
+#include "mpm_solver/measure/overlap.hpp"
+#include "mpm_solver/measure/runout.hpp"
 #include "mpm_solver/run.hpp"
-#include "mpm_solver/runout.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {

@@ -1,4 +1,4 @@
-#include "mpm_solver/terrain.hpp"
+#include "mpm_solver/body/terrain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/orchestrator/lifecycle.hpp"
+#include "services/orchestrator/records/lifecycle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-#include "services/orchestrator/identity.hpp"
+#include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/migrations.hpp"
 #include "services/orchestrator/store/versions.hpp"
 

@@ -1,4 +1,4 @@
-#include "services/orchestrator/study.hpp"
+#include "services/orchestrator/study/study.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "core/fault/fault.hpp"
-#include "services/orchestrator/graph.hpp"
-#include "services/orchestrator/verdict.hpp"
+#include "services/orchestrator/dispatch/verdict.hpp"
+#include "services/orchestrator/study/graph.hpp"
 
 namespace breach::orchestrator {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/materials/pm4sand_functions.hpp"
+#include "core/materials/pm4sand/functions.hpp"
 #include "tests/verification/pm4sand/soils.hpp"
 
 namespace breach::testing {

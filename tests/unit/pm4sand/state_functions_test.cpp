@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/materials/pm4sand_functions.hpp"
+#include "core/materials/pm4sand/functions.hpp"
 #include "tests/verification/pm4sand/soils.hpp"
 
 namespace breach::testing {

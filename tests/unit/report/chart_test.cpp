@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "core/fault/fault.hpp"
-#include "services/report/element_test_figures.hpp"
-#include "services/report/stability_figures.hpp"
+#include "services/report/figures/element_test_figures.hpp"
+#include "services/report/figures/stability_figures.hpp"
 
 namespace breach::report {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "services/report/colour_map.hpp"
-#include "services/report/figure.hpp"
+#include "services/report/chart/colour_map.hpp"
+#include "services/report/chart/figure.hpp"
 
 namespace breach::report {
 namespace {

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "core/fault/fault.hpp"
-#include "services/report/mesh_figures.hpp"
-#include "services/report/page.hpp"
-#include "services/report/png.hpp"
+#include "services/report/chart/page.hpp"
+#include "services/report/chart/png.hpp"
+#include "services/report/figures/mesh_figures.hpp"
 #include "tests/unit/report/wet_run.hpp"
 
 namespace breach::report {

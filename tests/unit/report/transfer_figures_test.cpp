@@ -1,4 +1,4 @@
-#include "services/report/transfer_figures.hpp"
+#include "services/report/figures/transfer_figures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // PM4Sand in the mesh: an element gives what the point gives, the switch from the elastic stages
 // happens once, an impossible strain is refused, and a resumed run repeats every bit.
-#include "fem_solver/sand.hpp"
+#include "fem_solver/solve/sand.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "core/materials/pm4sand_fields.hpp"
+#include "core/materials/pm4sand/fields.hpp"
 #include "fem_solver/checkpoint.hpp"
 #include "fem_solver/element_bench/specimen.hpp"
 #include "tests/verification/fem/bench.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "fem_solver/ssp_quad.hpp"
+#include "fem_solver/model/ssp_quad.hpp"
 #include "tests/verification/fem/bench.hpp"
 
 namespace breach::fem {

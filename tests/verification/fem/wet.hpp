@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fem_solver/step.hpp"
+#include "fem_solver/solve/step.hpp"
 #include "tests/verification/fem/bench.hpp"
 
 namespace breach::fem::bench {

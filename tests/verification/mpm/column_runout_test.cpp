@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "mpm_solver/overlap.hpp"
-#include "mpm_solver/runout.hpp"
+#include "mpm_solver/measure/overlap.hpp"
+#include "mpm_solver/measure/runout.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

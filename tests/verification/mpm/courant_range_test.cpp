@@ -1,7 +1,7 @@
 // Every Courant number from 0.1 to 0.7 keeps every point, on the shipped column, the shipped slope
 // and a coarse Mochikoshi-like runout.
-#include "mpm_solver/guard.hpp"
-#include "mpm_solver/runout.hpp"
+#include "mpm_solver/measure/guard.hpp"
+#include "mpm_solver/measure/runout.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

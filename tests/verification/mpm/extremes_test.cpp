@@ -1,5 +1,5 @@
 // The right answer, or at least a bounded one, where codes tend to fail.
-#include "mpm_solver/guard.hpp"
+#include "mpm_solver/measure/guard.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

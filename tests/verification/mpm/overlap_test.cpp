@@ -1,6 +1,6 @@
 // Soil whose points lie closer than their volumes allow, at rest in a box: nothing in stresses or
 // tracked volumes knows. The correction pushes it apart to the tolerance, and says what that cost.
-#include "mpm_solver/overlap.hpp"
+#include "mpm_solver/measure/overlap.hpp"
 
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"

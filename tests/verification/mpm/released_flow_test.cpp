@@ -1,5 +1,5 @@
 // Water and aluminium bars are let go: Ritter's dam break, and the experiment of Bui et al. (2008).
-#include "mpm_solver/flow.hpp"
+#include "mpm_solver/measure/flow.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

@@ -1,6 +1,6 @@
 // A stress that turns with the material: by 90 degrees sigma_xx and sigma_yy change places. (After
 // 360 degrees no rotation at all would pass.)
-#include "mpm_solver/turn.hpp"
+#include "mpm_solver/loops/turn.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

@@ -1,6 +1,6 @@
 // Terrain that cuts square cells: blocks on slopes of every angle move as Coulomb says, blocks on
 // arcs of many short edges swing and slip as rigid bodies do, a heap runs as on an aligned grid.
-#include "mpm_solver/runout.hpp"
+#include "mpm_solver/measure/runout.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

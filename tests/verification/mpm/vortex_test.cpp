@@ -1,7 +1,7 @@
 // A manufactured solution, the generalised vortex: a ring shears between its two still edges, and
 // the body force that this needs is given to the points. What comes out must be the motion that
 // went in, the more so the smaller the cells.
-#include "mpm_solver/kernel.hpp"
+#include "mpm_solver/loops/kernel.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/materials/pm4sand.hpp"
+#include "core/materials/pm4sand/pm4sand.hpp"
 
 namespace breach::testing {
 

@@ -1,7 +1,7 @@
 // Pore pressure, total and effective stress, liquefied layers, saturated and unsaturated soil.
 #include <gtest/gtest.h>
 
-#include "mpm_solver/points.hpp"
+#include "mpm_solver/body/points.hpp"
 #include "tests/verification/transfer/meshes.hpp"
 
 namespace breach::transfer {

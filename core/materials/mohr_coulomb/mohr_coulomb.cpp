@@ -1,0 +1,199 @@
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
+
+#include <array>
+
+namespace breach::materials {
+
+namespace {
+
+double softened(double peak, double residual, const Softening& softening, double epsilon_q) {
+    const double way = (epsilon_q - softening.epsilon_q_start) /
+                       (softening.epsilon_q_end - softening.epsilon_q_start);
+    return peak + std::clamp(way, 0.0, 1.0) * (residual - peak);
+}
+
+Strength strength_of(const MohrCoulomb& law, double tan_phi, double epsilon_q) {
+    if (!law.softening) return {law.c, tan_phi};
+    const Softening& softening = *law.softening;
+    return {softened(law.c, softening.c_residual, softening, epsilon_q),
+            softened(tan_phi, softening.tan_phi_residual, softening, epsilon_q)};
+}
+
+PlanePrincipal plane_principal(const Voigt& sigma) {
+    const double half = 0.5 * (sigma[0] - sigma[1]);
+    const double radius = std::sqrt(half * half + sigma[3] * sigma[3]);
+    const double centre = 0.5 * (sigma[0] + sigma[1]);
+    if (radius == 0.0) return {centre, 0.0, sigma[2], 1.0, 0.0};
+    return {centre, radius, sigma[2], half / radius, sigma[3] / radius};
+}
+
+/// Position of the in-plane major, in-plane minor and out-of-plane axis among the sorted ones.
+struct Order {
+    int major;
+    int minor;
+    int normal;
+};
+
+Order order_of(const PlanePrincipal& p) {
+    if (p.normal > p.centre + p.radius) return {1, 2, 0};
+    if (p.normal < p.centre - p.radius) return {0, 1, 2};
+    return {0, 2, 1};
+}
+
+/// A trial stress, its return and the axes both share.
+struct Turned {
+    PlanePrincipal trial;
+    Order order;
+    PrincipalReturn back;
+};
+
+Turned turn_back(const ReadyMohrCoulomb& law, const Cone& cone, const Voigt& sigma) {
+    Turned turned{plane_principal(sigma), {}, {}};
+    const PlanePrincipal& p = turned.trial;
+    turned.order = order_of(p);
+    Triple sorted;
+    sorted[turned.order.major] = p.centre + p.radius;
+    sorted[turned.order.minor] = p.centre - p.radius;
+    sorted[turned.order.normal] = p.normal;
+    turned.back = return_to_cone(cone, law.moduli, sorted);
+    return turned;
+}
+
+Return kind_of(const Cone& cone, Facet facet) {
+    switch (facet) {
+        case Facet::cone_plane:
+            return Return::plane;
+        case Facet::cone_edge_major:
+            return Return::edge_major;
+        case Facet::cone_edge_minor:
+            return Return::edge_minor;
+        case Facet::tip:
+            return cone.tip == Cone::Tip::apex ? Return::apex : Return::tension;
+        default:
+            return Return::tension;
+    }
+}
+
+Update update_from(const ReadyMohrCoulomb& law, const Cone& cone, const State& trial,
+                   const Turned& turned) {
+    const auto& [p, order, back] = turned;
+    const Triple& s = back.sigma;
+    const Triple& e = back.d_epsilon_plastic;
+    const double centre = 0.5 * (s[order.major] + s[order.minor]);
+    const double radius = 0.5 * (s[order.major] - s[order.minor]);
+    const double e_centre = 0.5 * (e[order.major] + e[order.minor]);
+    const double e_radius = 0.5 * (e[order.major] - e[order.minor]);
+    Update update{{{centre + radius * p.cos_2a, centre - radius * p.cos_2a, s[order.normal],
+                    radius * p.sin_2a},
+                   trial.epsilon_q},
+                  {e_centre + e_radius * p.cos_2a, e_centre - e_radius * p.cos_2a, e[order.normal],
+                   2.0 * e_radius * p.sin_2a},
+                  kind_of(cone, back.facet)};
+    if (!law.law.softening || law.law.softening->driver == SofteningDriver::plastic) {
+        const Triple deviator = e.array() - e.sum() / 3.0;
+        update.state.epsilon_q += std::sqrt(2.0 / 3.0 * deviator.squaredNorm());
+    }
+    return update;
+}
+
+/// Shear stiffness in the trial's principal axes: the axes turn with the trial stress, so a shear
+/// strain moves the returned stress by (s_major - s_minor) / (trial major - trial minor) of what it
+/// moves the trial.
+double shear_tangent(const Moduli& moduli, const Turned& turned, const Matrix3& principal) {
+    const auto& [p, order, back] = turned;
+    const double apart = 2.0 * p.radius;
+    const double scale = std::abs(p.centre) + p.radius + std::abs(p.normal);
+    if (apart > 1e-9 * scale) {
+        return moduli.G * (back.sigma[order.major] - back.sigma[order.minor]) / apart;
+    }
+    // The axes coalesce: the ratio becomes the derivative of the difference.
+    const int a = order.major;
+    const int b = order.minor;
+    return 0.25 * (principal(a, a) - principal(a, b) - principal(b, a) + principal(b, b));
+}
+
+/// From the trial's principal axes (major, minor, normal, shear between the first two) to x, y.
+Matrix4 to_section_axes(const PlanePrincipal& p, const Matrix4& in_principal_axes) {
+    const double C = p.cos_2a;
+    const double S = p.sin_2a;
+    Matrix4 strain;  // rows: strains along the principal axes from (xx, yy, zz, xy)
+    strain << 0.5 * (1.0 + C), 0.5 * (1.0 - C), 0.0, 0.5 * S,  //
+        0.5 * (1.0 - C), 0.5 * (1.0 + C), 0.0, -0.5 * S,       //
+        0.0, 0.0, 1.0, 0.0,                                    //
+        -S, S, 0.0, C;
+    return strain.transpose() * in_principal_axes * strain;
+}
+
+Matrix4 plastic_tangent(const ReadyMohrCoulomb& law, const Cone& cone, const Turned& turned) {
+    const Matrix3 principal = principal_tangent(cone, law.moduli, turned.back.facet);
+    const std::array<int, 3> sorted{turned.order.major, turned.order.minor, turned.order.normal};
+    Matrix4 tangent = Matrix4::Zero();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) tangent(i, j) = principal(sorted[i], sorted[j]);
+    }
+    tangent(3, 3) = shear_tangent(law.moduli, turned, principal);
+    return to_section_axes(turned.trial, tangent);
+}
+
+}  // namespace
+
+ReadyMohrCoulomb ready(const MohrCoulomb& law) {
+    const double tan_phi = std::tan(law.phi);
+    const double tan_psi = std::tan(law.psi);
+    return {law, make_moduli(law.elasticity), tan_phi, tan_psi,
+            make_cone(law.c, tan_phi, std::min(tan_psi, tan_phi), law.tension_cutoff)};
+}
+
+Cone cone_at(const ReadyMohrCoulomb& law, double epsilon_q) {
+    if (!law.law.softening || epsilon_q <= law.law.softening->epsilon_q_start) return law.peak;
+    const auto [c, tan_phi] = strength_of(law.law, law.tan_phi, epsilon_q);
+    return make_cone(c, tan_phi, std::min(law.tan_psi, tan_phi), law.law.tension_cutoff);
+}
+
+Update return_from(const ReadyMohrCoulomb& law, const Cone& cone, const State& trial) {
+    return update_from(law, cone, trial, turn_back(law, cone, trial.sigma));
+}
+
+Update integrate(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+                 Matrix4& tangent) {
+    const Cone cone = cone_at(law, old.epsilon_q);
+    State trial{trial_stress(law.moduli, old.sigma, d_epsilon), old.epsilon_q};
+    if (law.law.softening && law.law.softening->driver == SofteningDriver::total) {
+        trial.epsilon_q += mechanics::epsilon_q(d_epsilon);
+    }
+    if (lies_inside(cone, trial.sigma)) {
+        tangent = mechanics::elastic_stiffness(law.law.elasticity);
+        return {trial, Voigt::Zero(), Return::elastic};
+    }
+    const Turned turned = turn_back(law, cone, trial.sigma);
+    tangent = plastic_tangent(law, cone, turned);
+    return update_from(law, cone, trial, turned);
+}
+
+Strength strength(const MohrCoulomb& law, double epsilon_q) {
+    return strength_of(law, std::tan(law.phi), epsilon_q);
+}
+
+Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon) {
+    return integrate(ready(law), old, d_epsilon);
+}
+
+Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+                 Matrix4& tangent) {
+    return integrate(ready(law), old, d_epsilon, tangent);
+}
+
+double yield_excess(const MohrCoulomb& law, const State& state) {
+    const auto [c, tan_phi] = strength(law, state.epsilon_q);
+    const PlanePrincipal p = plane_principal(state.sigma);
+    const double s1 = std::max(p.centre + p.radius, p.normal);
+    const double s3 = std::min(p.centre - p.radius, p.normal);
+    const double cos_phi = 1.0 / std::sqrt(1.0 + tan_phi * tan_phi);
+    const double sin_phi = tan_phi * cos_phi;
+    const double cone = s1 - s3 + (s1 + s3) * sin_phi - 2.0 * c * cos_phi;
+    const double cut_off =
+        tan_phi > 0.0 ? std::min(law.tension_cutoff, c / tan_phi) : law.tension_cutoff;
+    return std::max(cone, s1 - cut_off);
+}
+
+}  // namespace breach::materials

@@ -1,0 +1,152 @@
+// The adaptive scheme around its walk: how a call is opened, how unloading inside it is taken, and
+// how it is closed. One point and several side by side share this text.
+#pragma once
+
+#include "core/materials/pm4sand/call.hpp"
+#include "core/materials/pm4sand/walk.hpp"
+
+namespace breach::materials::pm4sand {
+
+/// One call in the making: what a lane of a walk does not carry.
+struct Errand {
+    Update* update;          ///< the state being changed, and what is counted
+    Strain<double> plastic;  ///< strain that is left after the elastic part
+    double epsilon_v;        ///< before the plastic part
+    Plane n;                 ///< plastic direction where the plastic part begins
+};
+
+/// Reversal and elastic part. True if there is plastic strain to walk through.
+bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand);
+
+/// Takes a point that unloads from (p, alpha, n) along the elastic path.
+struct Excursion {
+    enum class End { nowhere, inside, on_cone } end;
+    Stress sigma;     ///< where it ends
+    Plane n;          ///< normal there, if on the cone
+    double fraction;  ///< of the strain given
+};
+Excursion unload(const Ready& law, const Stress& sigma, const Plane& alpha, double G,
+                 const Strain<double>& rest, double floor);
+
+/// Closes a call whose update holds the final p, s, alpha, z and sums.
+void finish_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand);
+
+template <class R>
+[[gnu::always_inline]] inline void set_lane(Deviator<R>& a, int i, const Plane& value) {
+    lanes::set_lane(a.d, i, value.d);
+    lanes::set_lane(a.x, i, value.x);
+}
+template <class R>
+[[gnu::always_inline]] inline Plane lane(const Deviator<R>& a, int i) {
+    return {lanes::lane(a.d, i), lanes::lane(a.x, i)};
+}
+
+/// Puts an opened errand into lane i.
+template <class R>
+[[gnu::always_inline]] inline void load(const Errand& errand, int i, Walk<R>& walk) {
+    using lanes::set_lane;
+    const State& s = errand.update->state;
+    const Strain<double>& d = errand.plastic;
+    const double size = std::sqrt(0.5 * d.v * d.v + dot(d.e, d.e));
+    set_lane(walk.p, i, s.p);
+    set_lane(walk.time, i, 0.0);
+    set_lane(walk.step, i, std::min(1.0, s.sub_step / size));
+    set_lane(walk.proposed, i, s.sub_step / size);
+    set_lane(walk.size, i, size);
+    set_lane(walk.epsilon_v, i, errand.epsilon_v);
+    set_lane(walk.d.v, i, d.v);
+    pm4sand::set_lane(walk.d.e, i, d.e);
+    pm4sand::set_lane(walk.alpha, i, s.alpha);
+    pm4sand::set_lane(walk.n, i, errand.n);
+    pm4sand::set_lane(walk.z, i, s.z);
+    Fixed<R>& f = walk.fixed;
+    pm4sand::set_lane(f.alpha_app, i, deviator(s.alpha_app));
+    pm4sand::set_lane(f.alpha_true, i, s.alpha_true);
+    pm4sand::set_lane(f.alpha_prev, i, s.alpha_prev);
+    pm4sand::set_lane(f.z_in, i, s.z_in);
+    set_lane(f.z_cum, i, s.z_cum);
+    set_lane(f.z_peak, i, s.z_peak);
+    set_lane(f.p_zp, i, s.p_zp);
+    set_lane(f.A_do, i, s.A_do);
+    set_lane(f.z_max, i, s.z_max);
+    set_lane(f.p_min, i, s.p_min);
+    set_lane(f.p_min2, i, s.p_min2);
+    for (R* count : walk.counts()) set_lane(*count, i, 0.0);
+}
+
+/// Writes lane i back into its errand.
+template <class R>
+[[gnu::always_inline]] inline void store(const Ready& law, int i, const Walk<R>& walk,
+                                         Errand& errand) {
+    using lanes::lane;
+    State& s = errand.update->state;
+    s.p = lane(walk.p, i);
+    s.alpha = pm4sand::lane(walk.alpha, i);
+    const Plane n = pm4sand::lane(walk.n, i);
+    s.s = s.p * (s.alpha + (law.parameters.m * inverse_sqrt2) * n);
+    s.z = pm4sand::lane(walk.z, i);
+    s.z_cum = lane(walk.fixed.z_cum, i);
+    s.z_peak = lane(walk.fixed.z_peak, i);
+    s.sub_step = lane(walk.proposed, i) * lane(walk.size, i);
+    const auto number = [i](const R& count) { return static_cast<int>(lane(count, i)); };
+    errand.update->counts += {.evaluations = number(walk.evaluations),
+                              .sub_steps = number(walk.sub_steps),
+                              .rejected = number(walk.rejected),
+                              .forced = number(walk.forced),
+                              .projected = number(walk.projected),
+                              .softened = number(walk.softened),
+                              .stalled = number(walk.stalled)};
+}
+
+/// What an excursion did to a lane of a walk.
+template <class R>
+[[gnu::always_inline]] inline Excursion::End excursion(const Ready& law, int i, Walk<R>& walk,
+                                                       Errand& errand) {
+    using lanes::lane;
+    using lanes::set_lane;
+    const double p = lane(walk.p, i);
+    const Plane alpha = pm4sand::lane(walk.alpha, i);
+    const Plane n = pm4sand::lane(walk.n, i);
+    const double left = 1.0 - lane(walk.time, i);
+    const Strain<double> rest{left * errand.plastic.v, left * errand.plastic.e};
+    const Stress sigma{p, p * (alpha + (law.parameters.m * inverse_sqrt2) * n)};
+    const Excursion path =
+        unload(law, sigma, alpha, lane(walk.G, i), rest, 0.2 * errand.update->state.p_min);
+    if (path.end == Excursion::End::nowhere) return path.end;
+    set_lane(walk.p, i, path.sigma.p);
+    if (path.end == Excursion::End::inside) {
+        store(law, i, walk, errand);
+        errand.update->state.s = path.sigma.s;
+        return path.end;
+    }
+    pm4sand::set_lane(walk.n, i, path.n);
+    const double time = 1.0 - left * (1.0 - path.fraction);
+    set_lane(walk.time, i, path.fraction >= 1.0 ? 1.0 : time);
+    set_lane(walk.step, i, std::min(lane(walk.step, i), 1.0 - time));
+    return path.end;
+}
+
+/// One lane's progress after `begin`: leaves, unloads or walks on.
+enum class Next { walk, again, leave };
+
+/// What lane i does after `begin` found that it unloads.
+template <class R>
+[[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
+                                                   Errand& errand) {
+    switch (excursion(law, i, walk, errand)) {
+        case Excursion::End::nowhere:
+            return Next::walk;
+        case Excursion::End::inside:
+            return Next::leave;
+        case Excursion::End::on_cone:
+            break;
+    }
+    if (lanes::lane(walk.time, i) < 1.0) return Next::again;
+    store(law, i, walk, errand);
+    return Next::leave;
+}
+
+Update integrate_adaptive(const Ready& law, const State& old, const Strain<double>& d,
+                          const Options& options);
+
+}  // namespace breach::materials::pm4sand

@@ -1,0 +1,142 @@
+#include "fem_solver/model/constraints.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace breach::fem {
+namespace {
+
+struct Found {
+    bool any = false, x = false, y = false;
+};
+
+void hold(const scene::Fem& fem, const Mesh& mesh, double tolerance, std::vector<bool>& held,
+          std::vector<fault::Fault>& faults) {
+    bool holds_x = false, holds_y = false;
+    for (std::size_t s = 0; s < fem.supports.size(); ++s) {
+        const scene::Support& support = fem.supports[s];
+        bool found = false;
+        for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+            if (scene::distance_to_segment(mesh.nodes[i], support.from, support.to) > tolerance)
+                continue;
+            found = true;
+            if (support.fixes_x) held[2 * i] = true;
+            if (support.fixes_y) held[2 * i + 1] = true;
+        }
+        if (!found) {
+            faults.push_back({"/fem/supports/" + std::to_string(s),
+                              "support '" + support.name + "' holds no node of the mesh",
+                              "let its segment run along an edge of a region"});
+        }
+        holds_x = holds_x || (found && support.fixes_x);
+        holds_y = holds_y || (found && support.fixes_y);
+    }
+    if (!holds_x || !holds_y) {
+        faults.push_back({"/fem/supports",
+                          std::string("nothing holds the body in ") + (holds_x ? "y" : "x"),
+                          "add a support that fixes this direction"});
+    }
+}
+
+std::vector<bool> lowest_nodes(const Mesh& mesh, double tolerance) {
+    double lowest = mesh.nodes.front().y();
+    for (const Vec2& x : mesh.nodes) lowest = std::min(lowest, x.y());
+    std::vector<bool> is_lowest;
+    for (const Vec2& x : mesh.nodes) is_lowest.push_back(x.y() <= lowest + tolerance);
+    return is_lowest;
+}
+
+void check_ties(const Constraints& c, const Mesh& mesh, const std::vector<Tie>& ties,
+                const std::vector<bool>& is_lowest, std::vector<fault::Fault>& faults) {
+    for (const auto& [master, slave] : ties) {
+        for (const std::int32_t node : {master, slave}) {
+            const auto dof = 2 * static_cast<std::size_t>(node);
+            if (is_lowest[node] || !(c.held[dof] || c.held[dof + 1])) continue;
+            const Vec2& x = mesh.nodes[node];
+            faults.push_back({"/fem/supports",
+                              "a support holds (" + std::to_string(x.x()) + ", " +
+                                  std::to_string(x.y()) + "), where a free-field column stands",
+                              "hold only the base of a side that has a column"});
+            return;
+        }
+    }
+}
+
+std::int32_t root(const std::vector<std::int32_t>& masters, std::int32_t i) {
+    while (masters[i] != i) i = masters[i];
+    return i;
+}
+
+}  // namespace
+
+void tie(std::vector<std::int32_t>& masters, std::int32_t master, std::int32_t slave) {
+    const std::int32_t a = root(masters, master), b = root(masters, slave);
+    masters[std::max(a, b)] = std::min(a, b);
+}
+
+Constraints unconstrained(std::size_t nodes) {
+    Constraints c;
+    c.held.assign(2 * nodes, false);
+    c.master.resize(2 * nodes);
+    c.pressure_master.resize(nodes);
+    std::iota(c.master.begin(), c.master.end(), 0);
+    std::iota(c.pressure_master.begin(), c.pressure_master.end(), 0);
+    return c;
+}
+
+Constraints constraints_of(const scene::Fem& fem, const Mesh& mesh, const std::vector<Tie>& ties,
+                           const std::vector<Tie>& pressure_ties) {
+    const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
+    Constraints c = unconstrained(mesh.nodes.size());
+    std::vector<fault::Fault> faults;
+    hold(fem, mesh, tolerance, c.held, faults);
+    const std::vector<bool> is_lowest = lowest_nodes(mesh, tolerance);
+    check_ties(c, mesh, ties, is_lowest, faults);
+    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
+    for (const auto& [master, slave] : ties) {
+        tie(c.master, 2 * master, 2 * slave);
+        tie(c.master, 2 * master + 1, 2 * slave + 1);
+    }
+    for (const auto& [master, slave] : pressure_ties) tie(c.pressure_master, master, slave);
+    if (!fem.base) return c;
+    c.is_base = is_lowest;
+    if (fem.base->nodes == scene::BaseNodes::free) return c;
+    const auto first = std::find(is_lowest.begin(), is_lowest.end(), true) - is_lowest.begin();
+    for (std::size_t i = 0; i < is_lowest.size(); ++i) {
+        if (!is_lowest[i]) continue;
+        tie(c.master, 2 * static_cast<std::int32_t>(first), 2 * static_cast<std::int32_t>(i));
+    }
+    return c;
+}
+
+Unknowns number_unknowns(const Constraints& c, const std::vector<bool>& pressure_is_unknown,
+                         Solved solved) {
+    const bool base_is_free = solved == Solved::motion_and_pressure && !c.is_base.empty();
+    std::vector<bool> held(c.held.size(), false);  // [masters]
+    for (std::size_t d = 0; d < held.size(); ++d) {
+        const bool released = base_is_free && d % 2 == 0 && c.is_base[d / 2];
+        if (c.held[d] && !released) held[root(c.master, static_cast<std::int32_t>(d))] = true;
+    }
+    Unknowns unknowns;
+    unknowns.of_dof.assign(held.size(), -1);
+    for (std::size_t d = 0; d < held.size(); ++d) {
+        const std::int32_t master = root(c.master, static_cast<std::int32_t>(d));
+        if (held[master]) continue;
+        std::int32_t& number = unknowns.of_dof[master];
+        if (number < 0) number = unknowns.displacements++;
+        unknowns.of_dof[d] = number;
+    }
+    unknowns.count = unknowns.displacements;
+    if (solved == Solved::displacement || pressure_is_unknown.empty()) return unknowns;
+    unknowns.of_pressure.assign(pressure_is_unknown.size(), -1);
+    for (std::size_t i = 0; i < pressure_is_unknown.size(); ++i) {
+        if (!pressure_is_unknown[i]) continue;
+        const std::int32_t master = root(c.pressure_master, static_cast<std::int32_t>(i));
+        std::int32_t& number = unknowns.of_pressure[master];
+        if (number < 0) number = unknowns.count++;
+        unknowns.of_pressure[i] = number;
+    }
+    return unknowns;
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,58 @@
+// Which displacements and pressures are unknown: nodes that supports hold, nodes that move alike,
+// nodes whose pressure is prescribed.
+#pragma once
+
+#include <vector>
+
+#include "fem_solver/mesh/mesh.hpp"
+
+namespace breach::fem {
+
+/// Numbers of the unknowns, -1 where there is none: displacements first, then pressures. Nodes that
+/// are tied share a number.
+struct Unknowns {
+    std::vector<std::int32_t> of_dof;       ///< [2 per node, x then y]
+    std::vector<std::int32_t> of_pressure;  ///< [nodes]; empty when no pressure is unknown
+    std::int32_t displacements = 0;
+    std::int32_t count = 0;
+
+    std::int32_t pressures() const { return count - displacements; }
+};
+
+/// Two nodes of which the second does what the first does.
+struct Tie {
+    std::int32_t master;
+    std::int32_t slave;
+};
+
+/// What holds and ties the nodes. Ties may be chained; all of a chain end at one master.
+struct Constraints {
+    std::vector<bool> held;                     ///< [dofs] by a support
+    std::vector<std::int32_t> master;           ///< [dofs] itself where nothing is tied
+    std::vector<std::int32_t> pressure_master;  ///< [nodes]
+    std::vector<bool> is_base;                  ///< [nodes] on an elastic base; empty: no base
+};
+
+/// Which of the unknowns a stage has.
+enum class Solved {
+    displacement,         ///< statics: the base is held, pressures are known
+    motion_and_pressure,  ///< dynamics: the base is free in x
+};
+
+/// ties: in both directions of u. pressure_ties: in p. Throws BadInput when a support holds no
+/// node, when nothing holds the body in x or y, or when a support and a tie claim the same node
+/// above the base.
+Constraints constraints_of(const scene::Fem& fem, const Mesh& mesh, const std::vector<Tie>& ties,
+                           const std::vector<Tie>& pressure_ties);
+
+/// No support and no tie: every displacement of these nodes is its own.
+Constraints unconstrained(std::size_t nodes);
+
+/// Moves dof `slave` with `master` from now on, and what was tied to either.
+void tie(std::vector<std::int32_t>& masters, std::int32_t master, std::int32_t slave);
+
+/// pressure_is_unknown: [nodes], empty in dry soil.
+Unknowns number_unknowns(const Constraints& constraints,
+                         const std::vector<bool>& pressure_is_unknown, Solved solved);
+
+}  // namespace breach::fem

@@ -1,0 +1,50 @@
+// The 4-node plane-strain quad: shape functions at 2x2 Gauss points and the mean-dilatation strain
+// operator B-bar.
+#pragma once
+
+#include <array>
+
+#include "fem_solver/mesh/mesh.hpp"
+
+namespace breach::fem {
+
+inline constexpr int gauss_points = 4;
+
+using StrainOperator =
+    Eigen::Matrix<double, 3, 8>;  ///< rows xx, yy, xy (engineering shear); dofs (x, y) per node
+using Gradient = Eigen::Matrix<double, 2, 4>;  ///< dN_i/dx, one column per node [1/m]
+using Dofs8 = Eigen::Matrix<double, 8, 1>;
+using Stiffness = Eigen::Matrix<double, 8, 8>;
+
+/// Natural coordinates (xi, eta) of the Gauss points, counter-clockwise like the corners.
+const std::array<Vec2, gauss_points>& gauss_positions();
+
+/// N_i at natural coordinates (xi, eta) [-].
+Eigen::Vector4d shape_functions(const Vec2& xi);
+
+/// What an element's integrals need at each Gauss point.
+struct Quadrature {
+    std::array<StrainOperator, gauss_points> B;  ///< B-bar [1/m]
+    std::array<double, gauss_points> weight;     ///< w det J t [m3]
+};
+
+/// Standard gradients of the shape functions and weights w det J t.
+struct Gradients {
+    std::array<Gradient, gauss_points> dN;
+    std::array<double, gauss_points> weight;
+};
+
+/// x: corners [m]; thickness [m]. det J > 0 is the caller's business (weights show it).
+void evaluate_gradients(const Corners& x, double thickness, Gradients& out);
+
+/// B-bar of the mean-dilatation method (Hughes 1980): the in-plane volumetric part of B is replaced
+/// by its element mean, so that one volumetric constraint per element remains. Plane strain is kept
+/// exactly: epsilon_zz = 0 at every point. Departs from: Hughes splits the 3D dilatation (thirds),
+/// which gives epsilon_zz != 0 at the points.
+void evaluate_quadrature(const Gradients& gradients, Quadrature& out);
+
+/// Nodal shares of the element's volume, integral of N_i dV [m3] (row sums: the lumped mass at unit
+/// density).
+Eigen::Vector4d nodal_volumes(const Corners& x, double thickness);
+
+}  // namespace breach::fem

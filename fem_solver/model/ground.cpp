@@ -1,0 +1,79 @@
+#include "fem_solver/model/ground.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace breach::fem {
+
+std::vector<GroundEdge> ground_edges(const Model& model) {
+    const Mesh& mesh = model.mesh;
+    std::map<std::array<std::int32_t, 2>, int> count;
+    for (const Quad& quad : mesh.quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            ++count[{std::min(quad[k], quad[(k + 1) % 4]), std::max(quad[k], quad[(k + 1) % 4])}];
+        }
+    }
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    for (std::size_t i = 0; i < model.body.nodes; ++i) {
+        left = std::min(left, mesh.nodes[i].x());
+        right = std::max(right, mesh.nodes[i].x());
+    }
+    std::vector<GroundEdge> ground;
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        const Quad& quad = mesh.quads[e];
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::int32_t a = quad[k], b = quad[(k + 1) % 4];
+            if (count[{std::min(a, b), std::max(a, b)}] > 1) continue;
+            const Vec2 along = mesh.nodes[b] - mesh.nodes[a];
+            const double length = along.norm(), small = 1e-6 * length;
+            const double x = 0.5 * (mesh.nodes[a] + mesh.nodes[b]).x();
+            const bool upwards = -along.x() > small;
+            const bool within = e < model.body.elements && std::abs(along.x()) <= small &&
+                                x > left + small && x < right - small;
+            if (!upwards && !within) continue;
+            ground.push_back({a, b, model.thickness_of(e) * Vec2(along.y(), -along.x())});
+        }
+    }
+    return ground;
+}
+
+double level_at(const std::vector<Vec2>& line, double x) {
+    if (x <= line.front().x()) return line.front().y();
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (x > line[i].x()) continue;
+        const Vec2 &a = line[i - 1], &b = line[i];
+        return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
+    }
+    return line.back().y();
+}
+
+double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x) {
+    return water.density * gravity * std::max(0.0, level_at(water.line, x.x()) - x.y());
+}
+
+void add_ground_loads(const scene::Scene& scene, Model& model) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    if (!fem.water && fem.surcharge.empty()) return;
+    const auto add = [&](std::int32_t node, const Vec2& force) {
+        model.external_force.segment<2>(2 * static_cast<Eigen::Index>(node)) += force;
+    };
+    for (const auto& [a, b, outwards] : ground_edges(model)) {
+        const Vec2 &x_a = model.mesh.nodes[a], &x_b = model.mesh.nodes[b];
+        if (fem.water) {
+            const double p_a = pond_pressure(*fem.water, scene.gravity, x_a);
+            const double p_b = pond_pressure(*fem.water, scene.gravity, x_b);
+            add(a, -(2.0 * p_a + p_b) / 6.0 * outwards);
+            add(b, -(p_a + 2.0 * p_b) / 6.0 * outwards);
+        }
+        for (const scene::Surcharge& load : fem.surcharge) {
+            const double middle = 0.5 * (x_a.x() + x_b.x());
+            if (middle < load.from || middle > load.to) continue;
+            const Vec2 force(0.0, -0.5 * load.pressure * outwards.y());
+            add(a, force);
+            add(b, force);
+        }
+    }
+}
+
+}  // namespace breach::fem

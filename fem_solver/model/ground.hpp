@@ -1,0 +1,27 @@
+// The ground surface of the mesh and what lies on it: ponded water and surcharge.
+#pragma once
+
+#include "fem_solver/model/model.hpp"
+
+namespace breach::fem {
+
+/// An edge of the mesh that looks upwards, or sideways within the section.
+struct GroundEdge {
+    std::int32_t a;
+    std::int32_t b;
+    Vec2 outwards;  ///< normal times area [m2]
+};
+std::vector<GroundEdge> ground_edges(const Model& model);
+
+/// Level of a line at x: straight between its points, level beyond its ends [m].
+double level_at(const std::vector<Vec2>& line, double x);
+
+/// Pressure of free water with its surface at `line` on a point of the ground, 0 above it [Pa].
+double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x);
+
+/// Adds the forces of ponded water (normal to the ground, linear along an edge) and of the
+/// surcharge (vertical, on the edge's horizontal extent) to the model's external force. They stay
+/// as they are when the ground moves.
+void add_ground_loads(const scene::Scene& scene, Model& model);
+
+}  // namespace breach::fem

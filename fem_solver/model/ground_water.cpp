@@ -1,0 +1,165 @@
+#include "fem_solver/model/ground_water.hpp"
+
+#include "fem_solver/model/ground.hpp"
+
+namespace breach::fem {
+namespace {
+
+using scene::AboveWater;
+using scene::GroundWater;
+
+constexpr double free_drainage = 1.0;  // hydraulic conductivity [m/s]
+
+const scene::Material& material_of(const scene::Scene& scene, const Model& model,
+                                   const Zone& zone) {
+    const std::int32_t region = model.mesh.region_of_element[zone.first];
+    return scene.materials[scene.section.regions[region].material];
+}
+
+/// Depth of each node below the phreatic line; within `tolerance` of it counts as on it [m].
+std::vector<double> depths_below(const GroundWater& water, const Mesh& mesh, double tolerance) {
+    std::vector<double> depth;
+    for (const Vec2& x : mesh.nodes) {
+        const double below = level_at(water.line, x.x()) - x.y();
+        depth.push_back(std::abs(below) <= tolerance ? 0.0 : below);
+    }
+    return depth;
+}
+
+std::vector<bool> wet_elements(const GroundWater& water, const Mesh& mesh,
+                               const std::vector<double>& depth) {
+    std::vector<bool> wet(mesh.quads.size(), false);
+    for (std::size_t e = 0; e < wet.size(); ++e) {
+        if (water.above == AboveWater::dry) {
+            const Vec2 centre = corners_of(mesh, e).rowwise().mean();
+            wet[e] = centre.y() < level_at(water.line, centre.x());
+            continue;
+        }
+        for (const std::int32_t node : mesh.quads[e]) wet[e] = wet[e] || depth[node] > 0.0;
+    }
+    return wet;
+}
+
+void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tolerance,
+                          double weight, std::vector<std::optional<double>>& prescribed) {
+    std::vector<fault::Fault> faults;
+    for (std::size_t b = 0; b < water.boundaries.size(); ++b) {
+        const scene::PressureBoundary& boundary = water.boundaries[b];
+        bool found = false;
+        for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+            const Vec2& x = mesh.nodes[i];
+            if (scene::distance_to_segment(x, boundary.from, boundary.to) > tolerance) continue;
+            found = true;
+            prescribed[i] = boundary.level ? weight * std::max(0.0, *boundary.level - x.y()) : 0.0;
+        }
+        if (found) continue;
+        faults.push_back({"/fem/water/boundaries/" + std::to_string(b),
+                          "boundary '" + boundary.name + "' holds no node of the mesh",
+                          "let its segment run along an edge of a region"});
+    }
+    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
+}
+
+/// On and above the line p = 0; on submerged ground the pond's pressure; between wet and dry
+/// elements the hydrostatic one.
+std::vector<std::optional<double>> prescribed_pressures(const scene::Scene& scene,
+                                                        const Model& model,
+                                                        const std::vector<double>& depth,
+                                                        const std::vector<bool>& wet,
+                                                        double tolerance) {
+    const GroundWater& water = *scene::fem_of(scene).water;
+    const double weight = water.density * scene.gravity;
+    std::vector<std::optional<double>> prescribed(depth.size());
+    std::vector<bool> meets_dry(depth.size(), false);
+    for (std::size_t e = 0; e < wet.size(); ++e) {
+        if (wet[e]) continue;
+        for (const std::int32_t node : model.mesh.quads[e]) meets_dry[node] = true;
+    }
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+        if (depth[i] <= 0.0) {
+            prescribed[i] = 0.0;
+        } else if (meets_dry[i]) {
+            prescribed[i] = weight * depth[i];
+        }
+    }
+    for (const GroundEdge& edge : ground_edges(model)) {
+        for (const std::int32_t node : {edge.a, edge.b}) {
+            if (depth[node] > 0.0) prescribed[node] = weight * depth[node];
+        }
+    }
+    prescribe_boundaries(water, model.mesh, tolerance, weight, prescribed);
+    for (std::size_t i = 0; i < prescribed.size(); ++i) {
+        const std::int32_t master = model.constraints.pressure_master[i];
+        if (static_cast<std::size_t>(master) != i) prescribed[i] = prescribed[master];
+    }
+    return prescribed;
+}
+
+/// One entry per zone that has a wet element.
+std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const Model& model,
+                                            const std::vector<bool>& wet) {
+    const GroundWater& water = *scene::fem_of(scene).water;
+    std::vector<std::optional<Fluid>> fluids(model.zones.size());
+    std::vector<fault::Fault> faults;
+    for (std::size_t z = 0; z < model.zones.size(); ++z) {
+        const Zone& zone = model.zones[z];
+        bool any = false;
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) any = any || wet[e];
+        if (!any) continue;
+        const scene::Material& material = material_of(scene, model, zone);
+        if (!material.void_ratio || !material.permeability) {
+            faults.push_back({"/materials/" + material.name,
+                              "lies below the phreatic line and lacks void_ratio or permeability",
+                              "give both, or leave out /fem/water"});
+            continue;
+        }
+        fluids[z] = Fluid{.bulk_modulus = water.bulk_modulus,
+                          .density = water.density,
+                          .mobility = Vec2::Zero(),
+                          .porosity = *material.void_ratio / (1.0 + *material.void_ratio),
+                          .stabilisation = water.pressure_stabilisation};
+    }
+    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
+    return fluids;
+}
+
+/// Weight of water that turns a hydraulic conductivity into a mobility; standard gravity where the
+/// scene has none [N/m3].
+double unit_weight(const scene::Scene& scene) {
+    constexpr double standard_gravity = 9.80665;
+    const double g = scene.gravity > 0.0 ? scene.gravity : standard_gravity;
+    return scene::fem_of(scene).water->density * g;
+}
+
+}  // namespace
+
+PoreWater ground_water(const scene::Scene& scene, const Model& model) {
+    const GroundWater& water = *scene::fem_of(scene).water;
+    const double tolerance = 1e-6 * quality_of(model.mesh).shortest_edge;
+    const std::vector<double> depth = depths_below(water, model.mesh, tolerance);
+    std::vector<bool> wet = wet_elements(water, model.mesh, depth);
+    auto fluids = fluids_of(scene, model, wet);
+    auto prescribed = prescribed_pressures(scene, model, depth, wet, tolerance);
+    return build_pore_water(model, {.fluids = std::move(fluids),
+                                    .wet = std::move(wet),
+                                    .prescribed = std::move(prescribed),
+                                    .body = Vec2(0.0, -scene.gravity)});
+}
+
+void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,
+                      Model& model) {
+    if (!model.water.any()) return;
+    for (std::size_t z = 0; z < model.zones.size(); ++z) {
+        auto& fluid = model.water.fluids[z];
+        if (!fluid) continue;
+        Vec2 conductivity = Vec2::Constant(free_drainage);
+        if (permeability == scene::StagePermeability::scene) {
+            const auto& own = *material_of(scene, model, model.zones[z]).permeability;
+            conductivity = Vec2(own[0], own[1]);
+        }
+        fluid->mobility = conductivity / unit_weight(scene);
+    }
+    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), model.water);
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,17 @@
+// What the scene says of water, on this mesh: which elements are wet, where the pressure is
+// prescribed, and how freely the water flows in a stage.
+#pragma once
+
+#include "fem_solver/model/model.hpp"
+
+namespace breach::fem {
+
+/// Water below the scene's phreatic line. Throws BadInput when a wet material lacks void_ratio or
+/// permeability, when a boundary holds no node, or when the pressure is not determined.
+PoreWater ground_water(const scene::Scene& scene, const Model& model);
+
+/// Puts the stage's permeability in force: free drainage, or the materials' own.
+void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,
+                      Model& model);
+
+}  // namespace breach::fem

@@ -1,0 +1,109 @@
+// What stays fixed during an analysis: mesh, unknowns, masses, weights and the laws of the zones;
+// and what changes: the motion of the nodes and the state of the Gauss points.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "fem_solver/model/absorbing_base.hpp"
+#include "fem_solver/model/free_field.hpp"
+#include "fem_solver/model/pore_water.hpp"
+
+namespace breach::fem {
+
+using materials::State;
+using mechanics::Voigt;
+
+/// Consecutive elements of one region: one law, one density.
+struct Zone {
+    std::size_t first;
+    std::size_t count;
+    double density;  ///< [kg/m3]
+    materials::Law law;
+    std::size_t first_sand = 0;  ///< PM4Sand: its first point's place in Motion::sand
+};
+
+/// Damping matrix C = mass M + stiffness K_elastic.
+struct Rayleigh {
+    double mass = 0.0;       ///< [1/s]
+    double stiffness = 0.0;  ///< [s]
+};
+
+/// How the hourglass force of the single-point quad follows the soil.
+enum class HourglassModulus {
+    current,  ///< c_s from the secant shear modulus of the last step, force continuous
+    elastic,  ///< c_s = 4 G for ever, as in OpenSees
+};
+
+struct Model {
+    Mesh mesh;
+    std::vector<Zone> zones;
+    double thickness;               ///< of the body [m]
+    double column_thickness = 1.0;  ///< of free-field columns over the body's [-]
+    Body body{};                    ///< what comes before the columns
+    Constraints constraints;
+    PoreWater water;
+    AbsorbingBase base;
+    std::vector<double> nodal_mass;  ///< lumped by row sums [kg]
+    Eigen::VectorXd mass;            ///< the same, one entry per dof [kg]
+    Eigen::VectorXd external_force;  ///< weight and any other constant load, per dof [N]
+    /// What a dof's force and mass count in the sum over its tie; empty: all as they are. A column
+    /// of the body's own thickness would press on the edge as the ground beyond does: that is one
+    /// part in `column_thickness` of what the thick column's inner nodes carry. With it, level
+    /// ground moves alike everywhere whatever the thickness.
+    Eigen::VectorXd row_weight;
+    std::size_t points_per_element = gauss_points;
+    std::vector<Quadrature> reference;   ///< of the undeformed elements
+    std::vector<SspGeometry> hourglass;  ///< the same of single-point quads; otherwise empty
+    HourglassModulus hourglass_modulus = HourglassModulus::current;
+    std::vector<double> volume;  ///< of the undeformed elements [m3]
+    scene::Kinematics kinematics = scene::Kinematics::small_strain;
+    Rayleigh rayleigh;
+
+    std::size_t points() const { return mesh.quads.size() * points_per_element; }
+    double thickness_of(std::size_t element) const {
+        return element < body.elements ? thickness : column_thickness * thickness;
+    }
+    Unknowns unknowns(Solved solved) const {
+        return number_unknowns(constraints, water.is_unknown, solved);
+    }
+    Eigen::Index dofs() const { return static_cast<Eigen::Index>(2 * mesh.nodes.size()); }
+};
+
+/// Throws BadInput when supports, water, base or columns do not fit the mesh.
+Model build_model(const scene::Scene& scene, Mesh mesh);
+
+/// The zones' laws with every region linear elastic (its own E and nu), or the scene's.
+std::vector<materials::Law> laws_for(const Model& model, scene::StageLaws laws);
+
+/// Hourglass state of a single-point quad.
+struct Hourglass {
+    Vec2 force;     ///< Q, work-conjugate to the amplitude q [N]
+    double c_s;     ///< modulus for the next increment: dQ = c_s H dq [Pa]
+    double energy;  ///< integral of Q dq [J]
+};
+
+/// All that a time step changes.
+struct Motion {
+    Eigen::VectorXd u;          ///< displacement [m], per dof
+    Eigen::VectorXd v;          ///< velocity [m/s]
+    Eigen::VectorXd a;          ///< acceleration [m/s2]
+    Eigen::VectorXd force;      ///< internal force of the stresses [N]
+    Eigen::VectorXd p;          ///< pore pressure, per node; empty in a dry scene [Pa]
+    Eigen::VectorXd p_rate;     ///< [Pa/s]
+    std::vector<State> points;  ///< element by element, Gauss point by Gauss point
+    std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
+    std::vector<materials::pm4sand::State>
+        sand;  ///< points of PM4Sand zones, zone by zone; empty in the elastic stages before
+    std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
+};
+
+/// Nothing moves, no stress; pressures as prescribed.
+Motion at_rest(const Model& model);
+
+Dofs8 gather(const Quad& quad, const Eigen::VectorXd& values);
+/// Corners of an element displaced by u.
+Corners displaced_corners(const Model& model, std::size_t element, const Eigen::VectorXd& u);
+
+}  // namespace breach::fem

@@ -1,0 +1,219 @@
+#include "fem_solver/model/pore_water.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <numeric>
+
+#include "fem_solver/model/model.hpp"
+
+namespace breach::fem {
+namespace {
+
+/// In rock stiffer than its water (K_f / n, 5 GPa) the water's own compliance measures it: with the
+/// skeleton's a jump of pressure at soft soil would go on as a zig-zag that nothing damps.
+Vec2 stabilisation_of(const Corners& x, const Fluid& fluid, double skeleton_modulus) {
+    if (fluid.alpha) return Vec2::Constant(*fluid.alpha);
+    const Vec2 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+    const double modulus = std::min(skeleton_modulus, fluid.bulk_modulus / fluid.porosity);
+    return fluid.stabilisation / modulus * extent.array().square();
+}
+
+}  // namespace
+
+void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
+                     const Vec2& body, PorousElement& out) {
+    const Gradient& dN = geometry.dN;
+    const double V = geometry.volume;
+    const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
+    for (int i = 0; i < 4; ++i) {
+        out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i).replicate<1, 4>();
+    }
+    out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
+    out.S.array() += V * fluid.porosity / fluid.bulk_modulus / 16.0;
+    out.H.noalias() = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
+    out.flux.noalias() = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
+}
+
+void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& fluid,
+                     const Vec2& body, PorousElement& out) {
+    const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
+    out.S.setZero();
+    out.H.setZero();
+    out.flux.setZero();
+    Gradient mean = Gradient::Zero();
+    Eigen::Vector4d shares = Eigen::Vector4d::Zero();
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+        const Gradient& dN = gradients.dN[g];
+        const double w = gradients.weight[g];
+        const Eigen::Vector4d N = shape_functions(gauss_positions()[g]);
+        mean += w * dN;
+        shares += w * N;
+        out.S += w * fluid.porosity / fluid.bulk_modulus * N * N.transpose();
+        out.S += w * dN.transpose() * alpha.asDiagonal() * dN;
+        out.H += w * dN.transpose() * fluid.mobility.asDiagonal() * dN;
+        out.flux += w * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
+    }
+    mean /= shares.sum();
+    for (int i = 0; i < 4; ++i) {
+        out.Q.middleRows<2>(2 * i) = mean.col(i) * shares.transpose();
+    }
+}
+
+namespace {
+
+/// Smallest node of the connected saturated body that each node belongs to.
+std::vector<std::int32_t> bodies_of(const Model& model, const PoreWater& water) {
+    std::vector<std::int32_t> parent(model.mesh.nodes.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::int32_t node) {
+        while (parent[node] != node) node = parent[node] = parent[parent[node]];
+        return node;
+    };
+    for (const PorousElement& each : water.elements) {
+        for (const std::int32_t node : model.mesh.quads[each.element]) {
+            const std::int32_t a = root(model.mesh.quads[each.element][0]), b = root(node);
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    for (std::size_t i = 0; i < parent.size(); ++i) {
+        parent[i] = root(static_cast<std::int32_t>(i));
+    }
+    return parent;
+}
+
+void check_drainage(const Model& model, const PoreWater& water,
+                    const std::vector<std::optional<double>>& prescribed) {
+    const auto body = bodies_of(model, water);
+    std::vector<bool> has_drain(body.size(), false);
+    for (std::size_t i = 0; i < body.size(); ++i) {
+        if (prescribed[i]) has_drain[body[i]] = true;
+    }
+    for (const PorousElement& each : water.elements) {
+        if (has_drain[body[model.mesh.quads[each.element][0]]]) continue;
+        const Vec2 where = corners_of(model.mesh, each.element).rowwise().mean();
+        throw fault::BadInput("scene",
+                              {{"/fem/water",
+                                "the saturated soil around (" + std::to_string(where.x()) + ", " +
+                                    std::to_string(where.y()) +
+                                    ") has no node with a prescribed pressure: constant pressure "
+                                    "and checkerboard would be free",
+                                "drain an edge of it: lower the line, or add a boundary"}});
+    }
+}
+
+double constrained_modulus(const mechanics::Elasticity& soil) {
+    return 2.0 * soil.shear_modulus() * (1.0 - soil.nu) / (1.0 - 2.0 * soil.nu);  // K + 4G/3
+}
+
+}  // namespace
+
+PoreWater build_pore_water(const Model& model, Wetness wetness) {
+    PoreWater water;
+    std::vector<bool> touched(model.mesh.nodes.size(), false);
+    for (std::size_t z = 0; z < model.zones.size(); ++z) {
+        if (!wetness.fluids[z]) continue;
+        const Zone& zone = model.zones[z];
+        const double modulus = constrained_modulus(materials::elasticity(zone.law));
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            if (!wetness.wet[e]) continue;
+            PorousElement& porous = water.elements.emplace_back();
+            porous.element = e;
+            porous.zone = z;
+            porous.skeleton_modulus = modulus;
+            for (const std::int32_t node : model.mesh.quads[e]) touched[node] = true;
+        }
+    }
+    if (water.elements.empty()) return water;
+    check_drainage(model, water, wetness.prescribed);
+    water.fluids = std::move(wetness.fluids);
+    water.body = wetness.body;
+    water.is_unknown.assign(touched.size(), false);
+    water.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(touched.size()));
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+        const auto& p = wetness.prescribed[i];
+        water.is_unknown[i] = touched[i] && !p;
+        if (touched[i] && p) water.prescribed[static_cast<Eigen::Index>(i)] = *p;
+    }
+    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), water);
+    return water;
+}
+
+void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater& water) {
+    const bool moves = model.kinematics == scene::Kinematics::updated_lagrangian;
+    for (PorousElement& each : water.elements) {
+        const std::size_t e = each.element;
+        const Corners x = moves ? displaced_corners(model, e, u) : corners_of(model.mesh, e);
+        const Fluid& fluid = *water.fluids[each.zone];
+        if (model.hourglass.empty()) {
+            Gradients gradients;
+            evaluate_gradients(x, model.thickness_of(e), gradients);
+            evaluate_porous(gradients, x, fluid, water.body, each);
+        } else {
+            SspGeometry geometry;
+            evaluate_ssp(x, model.thickness_of(e), geometry);
+            evaluate_porous(geometry, x, fluid, water.body, each);
+        }
+    }
+}
+
+void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f) {
+    for (const PorousElement& each : model.water.elements) {
+        const Quad& quad = model.mesh.quads[each.element];
+        const Eigen::Vector4d local(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]);
+        const Dofs8 force = each.Q * local;
+        for (int i = 0; i < 4; ++i) {
+            f.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) += force.segment<2>(2 * i);
+        }
+    }
+}
+
+Eigen::VectorXd steady_pressure(const Model& model) {
+    const PoreWater& water = model.water;
+    Eigen::VectorXd p = water.prescribed;
+    const Unknowns unknowns = model.unknowns(Solved::motion_and_pressure);
+    const auto number = [&](std::int32_t node) {
+        const std::int32_t i = unknowns.of_pressure[node];
+        return i < 0 ? -1 : i - unknowns.displacements;
+    };
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns.pressures());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const PorousElement& each : water.elements) {
+        const Quad& quad = model.mesh.quads[each.element];
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t row = number(quad[i]);
+            if (row < 0) continue;
+            right[row] += each.flux[i];
+            for (int j = 0; j < 4; ++j) {
+                const std::int32_t column = number(quad[j]);
+                if (column >= 0) {
+                    entries.emplace_back(row, column, each.H(i, j));
+                } else {
+                    right[row] -= each.H(i, j) * p[quad[j]];
+                }
+            }
+        }
+    }
+    Eigen::SparseMatrix<double> H(right.size(), right.size());
+    H.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(H);
+    // A pressure that nothing determines shows as a pivot that is lost in the rounding of its row.
+    constexpr double lost = 1e-13;
+    const bool determined =
+        right.size() == 0 || (factors.info() == Eigen::Success &&
+                              factors.vectorD().minCoeff() > lost * H.diagonal().minCoeff());
+    if (!determined) {
+        throw fault::BadInput("scene", {{"/fem/water",
+                                         "the prescribed pressures do not determine the steady "
+                                         "seepage: a pressure checkerboard is free",
+                                         "prescribe the pressure along an edge"}});
+    }
+    const Eigen::VectorXd solved = factors.solve(right);
+    for (std::size_t i = 0; i < water.is_unknown.size(); ++i) {
+        if (water.is_unknown[i]) {
+            p[static_cast<Eigen::Index>(i)] = solved[number(static_cast<std::int32_t>(i))];
+        }
+    }
+    return p;
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,43 @@
+// The stabilised single-point quad (McGann, Arduino & Mackenzie-Helnwein 2012): one material point
+// at the centre; the two hourglass modes get an assumed deviatoric strain of their own. Pure
+// geometry and element operators, dry and with pore pressure.
+#pragma once
+
+#include "fem_solver/model/element.hpp"
+
+namespace breach::fem {
+
+using mechanics::Matrix2;
+
+/// What the element's one-point integrals need.
+struct SspGeometry {
+    Gradient dN;            ///< at the centre [1/m]
+    Eigen::Vector4d gamma;  ///< hourglass amplitude q = sum_i gamma_i u_i; blind to linear fields
+    Matrix2 H;              ///< hourglass stiffness at c_s = 1: work-conjugate force = c_s H q [m]
+    double volume;          ///< [m3]
+};
+
+/// x: corners [m]. H is the exact integral of the assumed strain e_xx = -e_yy = (xi eta),x q_x / 2
+/// - (xi eta),y q_y / 2 with the centre's Jacobian: a Gram matrix, hence positive definite on every
+/// convex quad. Departs from: OpenSees integrates with normalised base vectors and counts the cross
+/// term once, which is indefinite on skewed quads; on rectangles both agree.
+void evaluate_ssp(const Corners& x, double thickness, SspGeometry& out);
+
+/// Strain operator at the centre (3 x 8) [1/m].
+StrainOperator centre_strain_operator(const Gradient& dN);
+
+/// Turns gradients and quadrature into those of the single point: their first entry is the centre
+/// with the whole volume; the others are zero.
+void use_centre_only(const SspGeometry& geometry, Gradients& gradients, Quadrature& quadrature);
+
+/// gamma_i gamma_j c_s H, the hourglass part of the stiffness [N/m]; c_s = C_11 - C_12 - C_21 +
+/// C_22 of the material [Pa], 4 G when isotropic.
+Stiffness hourglass_stiffness(const SspGeometry& geometry, double c_s);
+
+/// Nodal forces of the hourglass force Q [N].
+Dofs8 hourglass_forces(const SspGeometry& geometry, const Vec2& Q);
+
+/// Hourglass amplitude of nodal values [m].
+Vec2 hourglass_amplitude(const SspGeometry& geometry, const Dofs8& u);
+
+}  // namespace breach::fem

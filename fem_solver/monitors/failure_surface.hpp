@@ -1,0 +1,30 @@
+// Bands of large strain that cut the section from ground to ground: failure surfaces, counted.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fem_solver/mesh/mesh.hpp"
+
+namespace breach::fem {
+
+/// The ground as a chain of border edges from the upper left to the upper right corner of the
+/// mesh: the element of each edge and the distance along the ground where it begins [m].
+struct Ground {
+    std::vector<std::size_t> element;
+    std::vector<double> begin;
+    std::vector<double> end;
+};
+
+/// The border from the highest node of the left side to the highest of the right side. The mesh is
+/// one body without holes.
+Ground ground_of(const Mesh& mesh);
+
+/// Number of failure surfaces: elements with epsilon_q above `threshold` that share nodes form
+/// bands; a band that meets the ground at k separate places holds k - 1 surfaces. Places closer
+/// than `least_separation` [m] along the ground are one. epsilon_q: [elements].
+std::size_t count_failure_surfaces(const Mesh& mesh, const Ground& ground,
+                                   std::span<const double> epsilon_q, double threshold,
+                                   double least_separation);
+
+}  // namespace breach::fem

@@ -1,0 +1,166 @@
+#include "fem_solver/monitors/monitors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breach::fem {
+
+const std::vector<Column>& columns() {
+    using R = Reading;
+    static const std::vector<Column> all{
+        {"step", "1", &R::step},
+        {"time", "s", &R::time},
+        {"dt", "s", &R::dt},
+        {"iterations", "1", &R::iterations},
+        {"residual", "1", &R::residual},
+        {"crest_displacement", "m", &R::crest_displacement},
+        {"crest_dx", "m", &R::crest_dx},
+        {"crest_dy", "m", &R::crest_dy},
+        {"kinetic_energy", "J", &R::kinetic_energy},
+        {"external_work", "J", &R::external_work},
+        {"internal_work", "J", &R::internal_work},
+        {"jacobian_ratio_avg", "1", &R::jacobian_ratio_avg},
+        {"jacobian_ratio_min", "1", &R::jacobian_ratio_min},
+        {"jacobian_centre_avg", "1", &R::jacobian_centre_avg},
+        {"jacobian_least_avg", "1", &R::jacobian_least_avg},
+        {"jacobian_least_min", "1", &R::jacobian_least_min},
+        {"epsilon_q_avg", "1", &R::epsilon_q_avg},
+        {"epsilon_q_max", "1", &R::epsilon_q_max},
+        {"strained_share", "1", &R::strained_share},
+        {"softened_share", "1", &R::softened_share},
+        {"excess_pressure_avg", "Pa", &R::excess_pressure_avg},
+        {"r_u_max", "1", &R::r_u_max},
+        {"liquefaction_depth", "m", &R::liquefaction_depth},
+        {"failure_surfaces", "1", &R::failure_surfaces},
+    };
+    return all;
+}
+
+double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element) {
+    const std::size_t points = model.points_per_element;
+    double sum = 0.0;
+    for (std::size_t g = 0; g < points; ++g) {
+        sum += mechanics::epsilon_q(motion.strain[element * points + g]);
+    }
+    return sum / static_cast<double>(points);
+}
+
+Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold) {
+    Distortion result;
+    double volume = 0.0, centre = 0.0, least = 0.0;
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        const auto ratio = mechanics::jacobian_ratio(displaced_corners(model, e, motion.u),
+                                                     corners_of(model.mesh, e));
+        if (ratio.least < result.least) {
+            result.least = ratio.least;
+            result.worst_element = e;
+        }
+        if (element_epsilon_q(model, motion, e) <= strain_threshold) continue;
+        volume += model.volume[e];
+        centre += model.volume[e] * ratio.centre;
+        least += model.volume[e] * ratio.least;
+    }
+    if (volume > 0.0) {
+        result.centre_average = centre / volume;
+        result.least_average = least / volume;
+    }
+    return result;
+}
+
+namespace {
+
+/// Volumes [m3] of elements that can soften, and of Gauss points that have.
+struct Softened {
+    double possible = 0.0;
+    double done = 0.0;
+};
+
+Softened softened_volume(const Model& model, const Motion& motion) {
+    Softened volume;
+    for (const Zone& zone : model.zones) {
+        const auto* soil = std::get_if<materials::MohrCoulomb>(&zone.law);
+        if (soil == nullptr || !soil->softening) continue;
+        const std::size_t end = std::min(zone.first + zone.count, model.body.elements);
+        for (std::size_t e = zone.first; e < end; ++e) {
+            volume.possible += model.volume[e];
+            for (std::size_t g = 0; g < model.points_per_element; ++g) {
+                const double reached = motion.points[e * model.points_per_element + g].epsilon_q;
+                if (reached <= soil->softening->epsilon_q_start) continue;
+                volume.done += model.reference[e].weight[g];
+            }
+        }
+    }
+    return volume;
+}
+
+}  // namespace
+
+Reading read_monitors(const Model& model, const Motion& motion, const Distortion& distortion,
+                      std::size_t crest_node, double strain_threshold) {
+    Reading r;
+    const auto crest = 2 * static_cast<Eigen::Index>(crest_node);
+    r.crest_dx = motion.u[crest];
+    r.crest_dy = motion.u[crest + 1];
+    r.crest_displacement = std::hypot(r.crest_dx, r.crest_dy);
+    const auto dofs = static_cast<Eigen::Index>(2 * model.body.nodes);
+    r.kinetic_energy =
+        0.5 * (model.mass.head(dofs).array() * motion.v.head(dofs).array().square()).sum();
+    r.jacobian_ratio_avg = r.jacobian_centre_avg = distortion.centre_average;
+    r.jacobian_least_avg = distortion.least_average;
+    r.jacobian_ratio_min = r.jacobian_least_min = distortion.least;
+    double strained = 0.0, weighted = 0.0, all = 0.0;
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        const double epsilon_q = element_epsilon_q(model, motion, e);
+        all += model.volume[e];
+        r.epsilon_q_max = std::max(r.epsilon_q_max, epsilon_q);
+        if (epsilon_q <= strain_threshold) continue;
+        strained += model.volume[e];
+        weighted += model.volume[e] * epsilon_q;
+    }
+    if (strained > 0.0) r.epsilon_q_avg = weighted / strained;
+    r.strained_share = strained / all;
+    const Softened softened = softened_volume(model, motion);
+    if (softened.possible > 0.0) r.softened_share = softened.done / softened.possible;
+    return r;
+}
+
+nlohmann::json telemetry_line(const Reading& reading) {
+    nlohmann::json line{{"phase", "fem_solver"}};
+    for (const Column& column : columns()) line[column.name] = reading.*column.member;
+    line["step"] = static_cast<std::int64_t>(reading.step);
+    line["failure_surfaces"] = static_cast<std::int64_t>(reading.failure_surfaces);
+    line["iterations"] = static_cast<std::int64_t>(reading.iterations);
+    return line;
+}
+
+exchange::Archive history_archive(const std::vector<Reading>& history) {
+    exchange::Archive archive;
+    archive.kind = "fem_history";
+    for (const Column& column : columns()) {
+        std::vector<double>& values = archive.reals[column.name];
+        for (const Reading& reading : history) values.push_back(reading.*column.member);
+        archive.units[column.name] = column.unit;
+    }
+    return archive;
+}
+
+std::vector<Reading> history_from(const exchange::Archive& archive) {
+    std::vector<Reading> history(archive.reals.at("step").size());
+    for (const Column& column : columns()) {
+        const std::vector<double>& values = archive.reals.at(column.name);
+        for (std::size_t i = 0; i < history.size(); ++i) {
+            history[i].*column.member = values.at(i);
+        }
+    }
+    return history;
+}
+
+std::size_t nearest_node(const Mesh& mesh, const Vec2& point) {
+    const auto nearer = [&](const Vec2& a, const Vec2& b) {
+        return (a - point).squaredNorm() < (b - point).squaredNorm();
+    };
+    const auto best = std::min_element(mesh.nodes.begin(), mesh.nodes.end(), nearer);
+    return static_cast<std::size_t>(best - mesh.nodes.begin());
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,77 @@
+// What an analysis reports about itself at one time, as a telemetry line and as a row of the
+// history.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/exchange/archive.hpp"
+#include "fem_solver/model/model.hpp"
+
+namespace breach::fem {
+
+/// Distortion of the mesh, |J_t| / |J_0| [-]. centre: area ratio; least: worst corner of an
+/// element.
+struct Distortion {
+    double centre_average = 1.0;  ///< over the strained elements
+    double least_average = 1.0;   ///< over the strained elements
+    double least = 1.0;           ///< over all elements
+    std::size_t worst_element = 0;
+};
+
+/// One row; every member is a column.
+struct Reading {
+    double step = 0.0;
+    double time = 0.0;  ///< [s]
+    double dt = 0.0;    ///< [s]
+    double iterations = 0.0;
+    double residual = 0.0;            ///< out-of-balance over reference force [-]
+    double crest_displacement = 0.0;  ///< [m]
+    double crest_dx = 0.0;            ///< [m]
+    double crest_dy = 0.0;            ///< [m]
+    double kinetic_energy = 0.0;      ///< [J]
+    double external_work = 0.0;       ///< of gravity since the first dynamic stage [J]
+    double internal_work = 0.0;       ///< of the stresses since the first dynamic stage [J]
+    double jacobian_ratio_avg = 1.0;  ///< = jacobian_centre_avg
+    double jacobian_ratio_min = 1.0;  ///< = jacobian_least_min
+    double jacobian_centre_avg = 1.0;
+    double jacobian_least_avg = 1.0;
+    double jacobian_least_min = 1.0;
+    double epsilon_q_avg =
+        0.0;  ///< volume average over the strained elements; 0 when there are none [-]
+    double epsilon_q_max = 0.0;  ///< [-]
+    double strained_share =
+        0.0;  ///< volume of elements with epsilon_q above the threshold over all volume [-]
+    double excess_pressure_avg = 0.0;  ///< u - u_0 over the nodes with a pressure unknown, weighted
+                                       ///< by mass [Pa]
+    double r_u_max = 0.0;              ///< of the watched nodes [-]
+    double liquefaction_depth = 0.0;   ///< deepest watched node above the threshold [m]
+    double failure_surfaces = 0.0;     ///< from ground to ground
+    double softened_share = 0.0;       ///< volume that has lost strength over volume that can [-]
+};
+
+struct Column {
+    const char* name;
+    const char* unit;
+    double Reading::*member;
+};
+const std::vector<Column>& columns();
+
+/// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
+/// [-].
+double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element);
+
+Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold);
+
+/// All of a Reading that follows from the motion; time, dt, iterations, residual and works are the
+/// caller's.
+Reading read_monitors(const Model& model, const Motion& motion, const Distortion& distortion,
+                      std::size_t crest_node, double strain_threshold);
+
+nlohmann::json telemetry_line(const Reading& reading);
+exchange::Archive history_archive(const std::vector<Reading>& history);
+std::vector<Reading> history_from(const exchange::Archive& archive);
+
+std::size_t nearest_node(const Mesh& mesh, const Vec2& point);
+
+}  // namespace breach::fem

@@ -1,0 +1,51 @@
+#include "fem_solver/monitors/watch.hpp"
+
+#include <algorithm>
+
+namespace breach::fem {
+
+Watch::Watch(const scene::Fem& fem, const Model& model)
+    : body_(model.mesh),
+      failure_strain_(fem.failure_strain),
+      failure_separation_(fem.failure_separation) {
+    body_.nodes.resize(model.body.nodes);
+    body_.quads.resize(model.body.elements);
+    body_.region_of_element.resize(model.body.elements);
+    ground_ = ground_of(body_);
+    if (!fem.liquefaction) return;
+    window_ = {fem.liquefaction->regions, fem.liquefaction->x, fem.liquefaction->level,
+               fem.liquefaction->r_u};
+    least_stress_ = fem.liquefaction->least_stress;
+    nodes_ = nodes_in(body_, window_);
+}
+
+void Watch::read(const Model& model, const Motion& motion, const Beginning& beginning,
+                 Reading& reading) const {
+    std::vector<double> epsilon_q(model.body.elements);
+    for (std::size_t e = 0; e < epsilon_q.size(); ++e) {
+        epsilon_q[e] = element_epsilon_q(model, motion, e);
+    }
+    reading.failure_surfaces = static_cast<double>(
+        count_failure_surfaces(body_, ground_, epsilon_q, failure_strain_, failure_separation_));
+    if (beginning.p.size() > 0) read_water(model, motion, beginning, reading);
+}
+
+void Watch::read_water(const Model& model, const Motion& motion, const Beginning& beginning,
+                       Reading& reading) const {
+    const std::size_t nodes = model.body.nodes;
+    double mass = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+        if (!model.water.is_unknown[i]) continue;
+        const auto n = static_cast<Eigen::Index>(i);
+        mass += model.nodal_mass[i];
+        sum += model.nodal_mass[i] * (motion.p[n] - beginning.p[n]);
+    }
+    reading.excess_pressure_avg = mass > 0.0 ? sum / mass : 0.0;
+    if (nodes_.empty()) return;
+    const std::vector<double> r_u = pore_pressure_ratio(
+        {motion.p.data(), nodes}, {beginning.p.data(), nodes}, beginning.sigma_v0, least_stress_);
+    for (const std::int32_t i : nodes_) reading.r_u_max = std::max(reading.r_u_max, r_u[i]);
+    reading.liquefaction_depth = liquefaction_depth(body_, nodes_, r_u, window_);
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,33 @@
+// What is watched beside the motion itself: liquefaction and failure surfaces, on the body alone.
+#pragma once
+
+#include "fem_solver/monitors/failure_surface.hpp"
+#include "fem_solver/monitors/liquefaction.hpp"
+#include "fem_solver/monitors/monitors.hpp"
+#include "fem_solver/solve/beginning.hpp"
+
+namespace breach::fem {
+
+class Watch {
+  public:
+    Watch(const scene::Fem& fem, const Model& model);
+
+    /// Excess pore pressure, r_u and depth of liquefaction, failure surfaces; zeros in dry soil and
+    /// before the first dynamic stage.
+    void read(const Model& model, const Motion& motion, const Beginning& beginning,
+              Reading& reading) const;
+
+  private:
+    void read_water(const Model& model, const Motion& motion, const Beginning& beginning,
+                    Reading& reading) const;
+
+    Mesh body_;  ///< without free-field columns
+    Ground ground_;
+    LiquefactionWindow window_{};
+    double least_stress_ = 0.0;
+    std::vector<std::int32_t> nodes_;  ///< in the window; empty: nothing is watched
+    double failure_strain_;
+    double failure_separation_;
+};
+
+}  // namespace breach::fem

@@ -1,0 +1,96 @@
+#include "fem_solver/solve/beginning.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace breach::fem {
+namespace {
+
+/// The force that is missing to rest at the base's nodes in x.
+Eigen::VectorXd base_reaction(const Model& model, const Motion& motion) {
+    Eigen::VectorXd applied = model.external_force;
+    add_pressure_force(model, motion.p, applied);
+    Eigen::VectorXd missing = Eigen::VectorXd::Zero(model.dofs());
+    for (std::size_t i = 0; i < model.constraints.is_base.size(); ++i) {
+        const auto d = static_cast<Eigen::Index>(2 * i);
+        if (model.constraints.is_base[i]) missing[d] = motion.force[d] - applied[d];
+    }
+    return missing;
+}
+
+/// Average of -sigma'_yy over the elements at a node, by volume.
+std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
+    std::vector<double> sum(model.body.nodes, 0.0), volume(model.body.nodes, 0.0);
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        for (std::size_t g = 0; g < model.points_per_element; ++g) {
+            const double w = model.reference[e].weight[g];
+            const double sigma_v = -motion.points[e * model.points_per_element + g].sigma[1];
+            for (const std::int32_t node : model.mesh.quads[e]) {
+                sum[node] += w * sigma_v;
+                volume[node] += w;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= volume[i];
+    return sum;
+}
+
+/// K + 4G/3 now: of PM4Sand from its own state, of other laws the elastic one.
+double modulus_of(const Model& model, const Motion& motion, const PorousElement& porous) {
+    const Zone& zone = model.zones[porous.zone];
+    const auto* sand = std::get_if<materials::PM4Sand>(&zone.law);
+    if (sand == nullptr || motion.sand.empty()) return porous.skeleton_modulus;
+    const std::size_t first = (porous.element - zone.first) * model.points_per_element;
+    const auto& state = motion.sand[zone.first_sand + first];
+    return materials::pm4sand::elastic_tangent(sand->ready, state)(0, 0);
+}
+
+}  // namespace
+
+Beginning beginning_of(const Model& model, const Motion& motion) {
+    Beginning beginning;
+    if (model.base.any()) beginning.base_reaction = base_reaction(model, motion);
+    if (!model.water.any()) return beginning;
+    beginning.p = motion.p;
+    beginning.sigma_v0 = vertical_stress(model, motion);
+    for (const PorousElement& each : model.water.elements) {
+        beginning.skeleton_modulus.push_back(modulus_of(model, motion, each));
+    }
+    return beginning;
+}
+
+void set_skeleton_modulus(const Beginning& beginning, Model& model) {
+    for (std::size_t i = 0; i < beginning.skeleton_modulus.size(); ++i) {
+        model.water.elements[i].skeleton_modulus = beginning.skeleton_modulus[i];
+    }
+}
+
+LateralStress lateral_stress(const Model& model, const Motion& motion) {
+    const auto mean_of = [&](std::size_t e) {
+        Voigt mean = Voigt::Zero();
+        for (std::size_t g = 0; g < model.points_per_element; ++g) {
+            mean += motion.points[e * model.points_per_element + g].sigma;
+        }
+        return mean;
+    };
+    double largest = 0.0;
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        largest = std::max(largest, -mean_of(e)[1]);
+    }
+    LateralStress K{0.0, std::numeric_limits<double>::infinity(), 0.0};
+    double volume = 0.0;
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        const Voigt sigma = mean_of(e);
+        if (-sigma[1] <= 0.01 * largest) continue;
+        const double ratio = sigma[0] / sigma[1];
+        K.average += model.volume[e] * ratio;
+        volume += model.volume[e];
+        K.least = std::min(K.least, ratio);
+        K.largest = std::max(K.largest, ratio);
+    }
+    if (volume == 0.0) return {};
+    K.average /= volume;
+    return K;
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,354 @@
+#include "fem_solver/solve/internal_force.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace breach::fem {
+
+using mechanics::Matrix2;
+using mechanics::Matrix4;
+
+namespace {
+
+Voigt rotated_strain(Voigt epsilon, double angle) {
+    epsilon[3] *= 0.5;  // engineering to tensor shear and back
+    epsilon = mechanics::rotated_stress(epsilon, angle);
+    epsilon[3] *= 2.0;
+    return epsilon;
+}
+
+Eigen::Matrix3d in_plane(const Matrix4& D) {
+    static constexpr int at[3] = {0, 1, 3};
+    Eigen::Matrix3d C;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) C(i, j) = D(at[i], at[j]);
+    }
+    return C;
+}
+
+Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
+    const Eigen::Vector3d e = B * d_u;
+    return {e[0], e[1], 0.0, e[2]};
+}
+
+}  // namespace
+
+InternalForce::InternalForce(const Model& model, Seconds& seconds)
+    : model_(model), points_(model.points_per_element), seconds_(seconds), sand_(model) {
+    d_epsilon_.resize(model.points());
+    tangent_.resize(model.points());
+    if (model.kinematics == scene::Kinematics::updated_lagrangian) {
+        half_angle_.resize(model.points());
+        current_.resize(model.mesh.quads.size());
+        gradients_.resize(model.mesh.quads.size());
+        hourglass_ = model.hourglass;
+    }
+    d_q_.resize(model.hourglass.size());
+    for (const Zone& zone : model.zones) {
+        const double G = materials::elasticity(zone.law).shear_modulus();
+        elastic_c_s_.insert(elastic_c_s_.end(), d_q_.empty() ? 0 : zone.count, 4.0 * G);
+    }
+}
+
+const Quadrature& InternalForce::quadrature(std::size_t element) const {
+    return current_.empty() ? model_.reference[element] : current_[element];
+}
+
+const SspGeometry& InternalForce::hourglass(std::size_t element) const {
+    return hourglass_.empty() ? model_.hourglass[element] : hourglass_[element];
+}
+
+Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
+    const std::size_t elements = model_.mesh.quads.size();
+    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
+        for (std::size_t e = 0; e < elements; ++e) {
+            if (moving_strains(e, old, trial) == Geometry::degenerate) return Geometry::degenerate;
+        }
+        return Geometry::sound;
+    }
+    for (std::size_t e = 0; e < elements; ++e) {
+        const Quad& quad = model_.mesh.quads[e];
+        const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
+        for (std::size_t g = 0; g < points_; ++g) {
+            d_epsilon_[e * points_ + g] = strain_of(model_.reference[e].B[g], d_u);
+        }
+        if (!d_q_.empty()) d_q_[e] = hourglass_amplitude(model_.hourglass[e], d_u);
+    }
+    return Geometry::sound;
+}
+
+/// Strain increment and rotation from the mid-configuration: both are exact for a rigid rotation
+/// (Hughes & Winget 1980, with the exact angle). Leaves the quadrature of the end configuration for
+/// the forces.
+Geometry InternalForce::moving_strains(std::size_t element, const Motion& old,
+                                       const Motion& trial) {
+    const Quad& quad = model_.mesh.quads[element];
+    const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
+    const Corners end = displaced_corners(model_, element, trial.u);
+    const Corners middle = end - 0.5 * Eigen::Map<const Corners>(d_u.data());
+    Gradients& gradients = gradients_[element];
+    Quadrature& current = current_[element];
+    if (evaluate_element(element, middle) == Geometry::degenerate) return Geometry::degenerate;
+    if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(hourglass_[element], d_u);
+    for (std::size_t g = 0; g < points_; ++g) {
+        const std::size_t p = element * points_ + g;
+        d_epsilon_[p] = strain_of(current.B[g], d_u);
+        const Matrix2 L = Eigen::Map<const Corners>(d_u.data()) * gradients.dN[g].transpose();
+        const Matrix2 half = 0.5 * L;
+        const Matrix2 F = (Matrix2::Identity() - half).inverse() * (Matrix2::Identity() + half);
+        half_angle_[p] = 0.5 * mechanics::rotation_angle(F);
+    }
+    return evaluate_element(element, end);
+}
+
+/// Gradients and quadrature on the moving mesh.
+Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) {
+    Gradients& gradients = gradients_[element];
+    evaluate_gradients(x, model_.thickness_of(element), gradients);
+    for (const double weight : gradients.weight) {
+        if (!(weight > 0.0)) return Geometry::degenerate;
+    }
+    if (hourglass_.empty()) {
+        evaluate_quadrature(gradients, current_[element]);
+    } else {
+        evaluate_ssp(x, model_.thickness_of(element), hourglass_[element]);
+        use_centre_only(hourglass_[element], gradients, current_[element]);
+    }
+    return Geometry::sound;
+}
+
+template <typename Law>
+Geometry InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
+                                       Motion& trial) {
+    const std::size_t end = (zone.first + zone.count) * points_;
+    const bool turns = !half_angle_.empty();
+    for (std::size_t p = zone.first * points_; p < end; ++p) {
+        if (!turns) {
+            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
+            continue;
+        }
+        State turned = old.points[p];
+        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+        turned = materials::integrate(law, turned, d_epsilon_[p]).state;
+        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+        trial.points[p] = turned;
+    }
+    return Geometry::sound;
+}
+
+template <typename Law>
+Geometry InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone,
+                                                    const Motion& old, Motion& trial) {
+    const std::size_t end = (zone.first + zone.count) * points_;
+    const bool turns = !half_angle_.empty();
+    Matrix4 D;
+    for (std::size_t p = zone.first * points_; p < end; ++p) {
+        State start = old.points[p];
+        if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
+        State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
+        if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
+        trial.points[p] = reached;
+        tangent_[p] = in_plane(D);
+    }
+    return Geometry::sound;
+}
+
+Geometry InternalForce::integrate_zone(const materials::PM4Sand& law, const Zone& zone,
+                                       const Motion& old, Motion& trial) {
+    const std::span all(d_epsilon_);
+    const std::span d_epsilon = all.subspan(zone.first * points_, zone.count * points_);
+    return sand_.integrate(law, zone, d_epsilon, old, trial) == SandPass::Answer::done
+               ? Geometry::sound
+               : Geometry::degenerate;
+}
+
+/// The elastic tangent of whichever end of the step is stiffer: symmetric positive definite, which
+/// keeps the matrix quasi-definite, and too stiff rather than too soft, so that iterations approach
+/// instead of swinging about when soil near zero mean stress is pressed again.
+Geometry InternalForce::integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
+                                                    const Motion& old, Motion& trial) {
+    if (integrate_zone(law, zone, old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    const std::size_t begin = zone.first * points_;
+    for (std::size_t i = 0; i < zone.count * points_; ++i) {
+        const auto& start = old.sand[zone.first_sand + i];
+        const auto& end = trial.sand[zone.first_sand + i];
+        tangent_[begin + i] =
+            in_plane(materials::pm4sand::elastic_tangent(law.ready, end.G > start.G ? end : start));
+    }
+    return Geometry::sound;
+}
+
+Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const Motion& old,
+                                 Motion& trial, Wanted wanted) {
+    const Stopwatch watch(seconds_, &Seconds::law);
+    for (std::size_t z = 0; z < model_.zones.size(); ++z) {
+        const auto pass = [&](const auto& law) {
+            return wanted == Wanted::stress
+                       ? integrate_zone(law, model_.zones[z], old, trial)
+                       : integrate_zone_with_tangent(law, model_.zones[z], old, trial);
+        };
+        if (std::visit(pass, laws[z]) == Geometry::degenerate) return Geometry::degenerate;
+    }
+    return Geometry::sound;
+}
+
+void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
+    if (half_angle_.empty()) {
+        for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
+            trial.strain[p] = old.strain[p] + d_epsilon_[p];
+        }
+        return;
+    }
+    for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
+        const double half = half_angle_[p];
+        const Voigt turned = rotated_strain(old.strain[p], half) + d_epsilon_[p];
+        trial.strain[p] = rotated_strain(turned, half);
+    }
+}
+
+/// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
+/// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
+/// element. H of the end configuration stands for that of the middle, as in the tangent.
+void InternalForce::hourglass_pass(const Motion& old, Motion& trial) const {
+    for (std::size_t e = 0; e < d_q_.size(); ++e) {
+        const Hourglass& before = old.hourglass[e];
+        Hourglass& after = trial.hourglass[e];
+        Matrix2 half = Matrix2::Identity();
+        if (!half_angle_.empty()) half = Eigen::Rotation2Dd(half_angle_[e]).toRotationMatrix();
+        const Vec2 start = half * before.force;
+        const Vec2 end = start + before.c_s * (hourglass(e).H * d_q_[e]);
+        after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
+        after.force = half * end;
+        after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
+    }
+}
+
+/// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stresses s
+/// = (s_xx - s_yy, 2 s_xy) that go with it. A step without shear tells nothing and keeps the
+/// modulus. A floor of 2 % of the elastic one keeps the modes controlled in flowing soil.
+double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Motion& old,
+                                             const Motion& trial) const {
+    if (model_.hourglass_modulus == HourglassModulus::elastic) return now;
+    constexpr double floor = 0.02, no_strain = 1e-12;
+    const Vec2 d(d_epsilon_[e][0] - d_epsilon_[e][1], d_epsilon_[e][3]);
+    if (d.squaredNorm() < no_strain * no_strain) return now;
+    Voigt d_sigma = trial.points[e].sigma - old.points[e].sigma;
+    if (!half_angle_.empty()) {
+        d_sigma = mechanics::rotated_stress(trial.points[e].sigma, -half_angle_[e]) -
+                  mechanics::rotated_stress(old.points[e].sigma, half_angle_[e]);
+    }
+    const Vec2 s(d_sigma[0] - d_sigma[1], 2.0 * d_sigma[3]);
+    const double elastic = elastic_c_s_[e];
+    return std::clamp(2.0 * s.dot(d) / d.squaredNorm(), floor * elastic, elastic);
+}
+
+void InternalForce::force_pass(Motion& trial) const {
+    trial.force.setZero();
+    for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
+        const Quadrature& q = quadrature(e);
+        Dofs8 f = Dofs8::Zero();
+        for (std::size_t g = 0; g < points_; ++g) {
+            const Voigt& s = trial.points[e * points_ + g].sigma;
+            const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
+            f.noalias() += q.B[g].transpose() * sigma;
+        }
+        if (!d_q_.empty()) f += hourglass_forces(hourglass(e), trial.hourglass[e].force);
+        for (int k = 0; k < 4; ++k) {
+            const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
+            trial.force.segment<2>(d) += f.segment<2>(2 * k);
+        }
+    }
+}
+
+void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
+    const bool symmetric = A.symmetry() == Symmetry::symmetric;
+    for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
+        const Quadrature& q = quadrature(e);
+        Stiffness K = Stiffness::Zero();
+        for (std::size_t g = 0; g < points_; ++g) {
+            const std::size_t p = e * points_ + g;
+            Tangent C = q.weight[g] * tangent_[p];
+            if (symmetric) C = (0.5 * (C + C.transpose())).eval();
+            const StrainOperator CB = C * q.B[g];
+            K.noalias() += q.B[g].transpose() * CB;
+            if (current_.empty()) continue;
+            const Voigt& s = trial.points[p].sigma;
+            Matrix2 sigma;
+            sigma << s[0], s[3], s[3], s[1];
+            const Gradient& dN = gradients_[e].dN[g];
+            const Eigen::Matrix4d initial = q.weight[g] * dN.transpose() * sigma * dN;
+            for (int j = 0; j < 4; ++j) {
+                for (int i = 0; i < 4; ++i) {
+                    K(2 * i, 2 * j) += initial(i, j);
+                    K(2 * i + 1, 2 * j + 1) += initial(i, j);
+                }
+            }
+        }
+        if (!d_q_.empty()) K += hourglass_stiffness(hourglass(e), old.hourglass[e].c_s);
+        A.add_element(e, K);
+    }
+}
+
+Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const Motion& old,
+                                 Motion& trial) {
+    {
+        const Stopwatch watch(seconds_, &Seconds::assembly);
+        if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    }
+    if (law_pass(laws, old, trial, Wanted::stress) == Geometry::degenerate) {
+        return Geometry::degenerate;
+    }
+    const Stopwatch watch(seconds_, &Seconds::assembly);
+    accumulate_strain(old, trial);
+    hourglass_pass(old, trial);
+    force_pass(trial);
+    return Geometry::sound;
+}
+
+Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const Motion& old,
+                                 Motion& trial, LinearSystem& A) {
+    {
+        const Stopwatch watch(seconds_, &Seconds::assembly);
+        if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    }
+    if (law_pass(laws, old, trial, Wanted::stress_and_tangent) == Geometry::degenerate) {
+        return Geometry::degenerate;
+    }
+    const Stopwatch watch(seconds_, &Seconds::assembly);
+    accumulate_strain(old, trial);
+    hourglass_pass(old, trial);
+    force_pass(trial);
+    stiffness_pass(old, trial, A);
+    return Geometry::sound;
+}
+
+Stiffness elastic_stiffness(const Quadrature& quadrature, const mechanics::Elasticity& elasticity) {
+    const Eigen::Matrix3d C = in_plane(mechanics::elastic_stiffness(elasticity));
+    Stiffness K = Stiffness::Zero();
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+        K += quadrature.weight[g] * quadrature.B[g].transpose() * C * quadrature.B[g];
+    }
+    return K;
+}
+
+Stiffness elastic_stiffness(const Model& model, std::size_t element,
+                            const mechanics::Elasticity& elasticity) {
+    Stiffness K = elastic_stiffness(model.reference[element], elasticity);
+    if (!model.hourglass.empty()) {
+        K += hourglass_stiffness(model.hourglass[element], 4.0 * elasticity.shear_modulus());
+    }
+    return K;
+}
+
+void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const {
+    for (const Zone& zone : model_.zones) {
+        const mechanics::Elasticity& elasticity = materials::elasticity(zone.law);
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            A.add_element(e, factor * elastic_stiffness(model_, e, elasticity));
+        }
+    }
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,82 @@
+// From displacements to stresses to nodal forces, and the tangent: strain pass, law pass, force
+// pass. Small strains on the undeformed mesh, or updated Lagrangian on the moving one.
+#pragma once
+
+#include <vector>
+
+#include "fem_solver/solve/linear_system.hpp"
+#include "fem_solver/solve/profile.hpp"
+#include "fem_solver/solve/sand.hpp"
+
+namespace breach::fem {
+
+enum class Geometry {
+    sound,
+    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh, or a point of PM4Sand that
+                 ///< refused its strain increment: no forces were computed
+};
+
+class InternalForce {
+  public:
+    InternalForce(const Model& model, Seconds& seconds);
+
+    /// Stresses, strains and nodal forces of `trial` (points, strain, force) at displacement
+    /// trial.u, coming from `old`.
+    Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial);
+    /// The same, and adds the consistent tangent (symmetrised if A is symmetric) to A.
+    Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
+                      LinearSystem& A);
+    /// What PM4Sand's calls cost so far.
+    const materials::pm4sand::Counts& sand_counts() const { return sand_.counts(); }
+    /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
+    void add_elastic_stiffness(double factor, LinearSystem& A) const;
+
+  private:
+    using Tangent = Eigen::Matrix3d;  ///< rows and columns xx, yy, xy
+
+    Geometry strain_pass(const Motion& old, const Motion& trial);
+    Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
+    Geometry evaluate_element(std::size_t element, const Corners& x);
+    enum class Wanted { stress, stress_and_tangent };
+    Geometry law_pass(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
+                      Wanted wanted);
+    template <typename Law>
+    Geometry integrate_zone(const Law& law, const Zone& zone, const Motion& old, Motion& trial);
+    template <typename Law>
+    Geometry integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
+                                         Motion& trial);
+    Geometry integrate_zone(const materials::PM4Sand& law, const Zone& zone, const Motion& old,
+                            Motion& trial);
+    Geometry integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
+                                         const Motion& old, Motion& trial);
+    void accumulate_strain(const Motion& old, Motion& trial) const;
+    void hourglass_pass(const Motion& old, Motion& trial) const;
+    double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
+                                  const Motion& trial) const;
+    void force_pass(Motion& trial) const;
+    void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
+    const Quadrature& quadrature(std::size_t element) const;
+    const SspGeometry& hourglass(std::size_t element) const;
+
+    const Model& model_;
+    const std::size_t points_;  ///< per element
+    Seconds& seconds_;
+    std::vector<Voigt> d_epsilon_;  ///< [points]
+    std::vector<Tangent> tangent_;  ///< [points]
+    SandPass sand_;
+    std::vector<double>
+        half_angle_;  ///< updated Lagrangian: [points] half the rotation of the step [rad]
+    std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]
+    std::vector<Gradients> gradients_;    ///< updated Lagrangian: [elements]
+    std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
+    std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
+    std::vector<Vec2> d_q_;               ///< single point: [elements] amplitude of the step [m]
+};
+
+/// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].
+Stiffness elastic_stiffness(const Quadrature& quadrature, const mechanics::Elasticity& elasticity);
+/// The same with the hourglass part of a single-point quad.
+Stiffness elastic_stiffness(const Model& model, std::size_t element,
+                            const mechanics::Elasticity& elasticity);
+
+}  // namespace breach::fem

@@ -1,0 +1,354 @@
+#include "fem_solver/solve/newton.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace breach::fem {
+namespace {
+
+/// A new factorisation costs about as much as this many iterations with the old one.
+constexpr double worth_of_matrix = 4.0;
+constexpr double round_off = 1e-15;
+
+Unknowns displacements_only(Unknowns unknowns) {
+    unknowns.of_pressure.clear();
+    unknowns.count = unknowns.displacements;
+    return unknowns;
+}
+
+/// Body over own thickness of what each dof belongs to, the thickest first: otherwise the forces of
+/// free-field columns would decide alone what counts as balanced.
+Eigen::VectorXd shares_of_dofs(const Model& model, const Unknowns& unknowns) {
+    std::vector<double> largest(static_cast<std::size_t>(unknowns.count), 1.0);
+    for (std::size_t e = model.body.elements; e < model.mesh.quads.size(); ++e) {
+        const double times = model.thickness_of(e) / model.thickness;
+        for (const std::int32_t node : model.mesh.quads[e]) {
+            for (std::size_t d = 0; d < 2; ++d) {
+                const std::int32_t i = unknowns.of_dof[2 * static_cast<std::size_t>(node) + d];
+                if (i >= 0) largest[i] = std::max(largest[i], times);
+            }
+            if (unknowns.of_pressure.empty() || unknowns.of_pressure[node] < 0) continue;
+            double& of_p = largest[unknowns.of_pressure[node]];
+            of_p = std::max(of_p, times);
+        }
+    }
+    Eigen::VectorXd share(unknowns.count);
+    for (std::int32_t i = 0; i < unknowns.count; ++i) share[i] = 1.0 / largest[i];
+    return share;
+}
+
+/// PM4Sand jumps where a reversal is just seen or just not seen (by up to 0.3 % of the mean stress,
+/// measured): there no displacement has a vanishing residual. Such a step is accepted up to this
+/// many times the tolerance; what is out of balance enters the next step, it does not add up.
+constexpr double worst_jump = 100.0;
+
+/// The residuals of one step: tells when they no longer fall.
+class Progress {
+  public:
+    void note(double residual) {
+        best_ = std::min(best_, residual);
+        earlier_[noted_++ % window] = best_;
+    }
+    bool stalled() const { return noted_ > least && best_ > 0.5 * earlier_[noted_ % window]; }
+    double best() const { return best_; }
+
+  private:
+    static constexpr std::size_t window = 4, least = 6;
+    double best_ = std::numeric_limits<double>::infinity();
+    std::array<double, window> earlier_{};
+    std::size_t noted_ = 0;
+};
+
+}  // namespace
+
+Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symmetry symmetry,
+               Seconds& seconds)
+    : model_(model),
+      settings_(settings),
+      seconds_(seconds),
+      internal_force_(model, seconds),
+      matrix_(model, model.unknowns(solved), symmetry) {
+    const Unknowns& unknowns = matrix_.unknowns();
+    if (model.rayleigh.stiffness > 0.0) {
+        elastic_.emplace(model, displacements_only(unknowns), Symmetry::symmetric);
+        elastic_->clear();
+        internal_force_.add_elastic_stiffness(1.0, *elastic_);
+    }
+    R_u_ = Eigen::VectorXd::Zero(model.dofs());
+    R_p_ = exchanged_ = Eigen::VectorXd::Zero(model.water.prescribed.size());
+    share_ = shares_of_dofs(model, unknowns);
+    if (model.body.elements < model.mesh.quads.size()) {
+        share_of_dof_ = Eigen::VectorXd::Zero(model.dofs());
+        for (std::size_t d = 0; d < unknowns.of_dof.size(); ++d) {
+            const std::int32_t i = unknowns.of_dof[d];
+            if (i >= 0) share_of_dof_[static_cast<Eigen::Index>(d)] = share_[i];
+        }
+    }
+    residual_ = metric_ = correction_ = plain_ = last_plain_ = last_correction_ =
+        Eigen::VectorXd::Zero(unknowns.count);
+    for (int k = 0; k < depth; ++k) d_plain_[k] = d_x_[k] = residual_;
+}
+
+NewtonMemory Newton::memory() const {
+    NewtonMemory copy = memory_;
+    const auto values = matrix_.values();
+    copy.values.assign(values.begin(), values.end());
+    return copy;
+}
+
+void Newton::restore(const NewtonMemory& memory) {
+    memory_ = memory;
+    if (!memory.has_matrix) return;
+    const Stopwatch watch(seconds_, &Seconds::factor);
+    std::ranges::copy(memory.values, matrix_.values().begin());
+    memory_.has_matrix = matrix_.factorise() == Factorisation::done;
+    matrix_.copy_diagonal(metric_);
+    metric_.array() *= share_.array();
+}
+
+void Newton::add_inertia_and_water(const TimeRule& rule) {
+    const double of_mass = rule.c_a + rule.c_v * model_.rayleigh.mass;
+    if (of_mass > 0.0) matrix_.add_diagonal(of_mass, model_.mass);
+    if (rule.c_v == 0.0) return;
+    if (model_.base.any()) matrix_.add_diagonal(rule.c_v, model_.base.dashpot);
+    if (elastic_) {
+        internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);
+    }
+    matrix_.add_water(rule);
+}
+
+/// Factorises the assembled tangent; one that is not positive definite would lead uphill, then the
+/// elastic one is used.
+bool Newton::factorise(const TimeRule& rule) {
+    const Stopwatch watch(seconds_, &Seconds::factor);
+    ++counts_.factorisations;
+    Factorisation result = matrix_.factorise();
+    if (result != Factorisation::done) {
+        ++counts_.elastic_fallbacks;
+        ++counts_.factorisations;
+        matrix_.clear();
+        internal_force_.add_elastic_stiffness(1.0, matrix_);
+        add_inertia_and_water(rule);
+        result = matrix_.factorise();
+    }
+    matrix_.copy_diagonal(metric_);
+    metric_.array() *= share_.array();
+    memory_.has_matrix = result == Factorisation::done;
+    memory_.rule = rule;
+    remembered_ = next_ = 0;
+    has_last_ = false;
+    return memory_.has_matrix;
+}
+
+Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matrix) {
+    if (matrix == Matrix::keep) {
+        return internal_force_.evaluate(problem.laws, problem.old, trial);
+    }
+    matrix_.clear();
+    const Geometry geometry = internal_force_.evaluate(problem.laws, problem.old, trial, matrix_);
+    if (geometry == Geometry::degenerate) {
+        memory_.has_matrix = false;
+        return geometry;
+    }
+    {
+        const Stopwatch watch(seconds_, &Seconds::assembly);
+        add_inertia_and_water(problem.rule);
+    }
+    if (!factorise(problem.rule)) return Geometry::degenerate;
+    return geometry;
+}
+
+/// R_u = f_ext - f_int - M a - C v + Q p;  R_p = flux - Q^T v - S p' - H p.
+void Newton::set_residual(const StepProblem& problem, Motion& trial) {
+    const TimeRule& rule = problem.rule;
+    trial.a = rule.c_a * (trial.u - problem.u_predicted);
+    trial.v = problem.v_predicted + rule.c_v * (trial.u - problem.u_predicted);
+    R_u_ = problem.external - trial.force;
+    if (rule.c_a > 0.0) {
+        R_u_.array() -=
+            model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());
+        if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_u_);
+        if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();
+    }
+    if (unknowns().pressures() > 0) add_water(problem, trial);
+    gather_residual(problem);
+}
+
+void Newton::add_water(const StepProblem& problem, Motion& trial) {
+    const TimeRule& rule = problem.rule;
+    const double gamma_dt = rule.gamma_dt();
+    trial.p_rate = problem.p_rate_predicted + (trial.p - problem.old.p) / gamma_dt;
+    R_p_.setZero();
+    exchanged_.setZero();
+    double rounding = 0.0;
+    for (const PorousElement& each : model_.water.elements) {
+        const Quad& quad = model_.mesh.quads[each.element];
+        Eigen::Vector4d p, p_rate;
+        for (int i = 0; i < 4; ++i) {
+            p[i] = trial.p[quad[i]];
+            p_rate[i] = trial.p_rate[quad[i]];
+        }
+        const double share = model_.thickness / model_.thickness_of(each.element);
+        const Dofs8 v = gather(quad, trial.v), force = each.Q * p;
+        const Eigen::Vector4d expansion = each.Q.transpose() * v;
+        const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
+        const double of_u =
+            rule.c_v * each.Q.col(0).cwiseAbs().dot(gather(quad, trial.u).cwiseAbs());
+        const double of_p =
+            (each.S.row(0).cwiseAbs() / gamma_dt + each.H.row(0).cwiseAbs()).dot(p.cwiseAbs());
+        rounding += share * share * (of_u + of_p) * (of_u + of_p);
+        for (int i = 0; i < 4; ++i) {
+            R_u_.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) += force.segment<2>(2 * i);
+            R_p_[quad[i]] += each.flux[i] - expansion[i] - stored[i] - conducted[i];
+            exchanged_[quad[i]] += share * (std::abs(each.flux[i]) + std::abs(expansion[i]) +
+                                            std::abs(stored[i]) + std::abs(conducted[i]));
+        }
+    }
+    water_rounding_ = round_off * std::sqrt(rounding);
+}
+
+/// Sums over ties; held dofs drop out. The balance of mass is divided by -c_v, as its rows are.
+void Newton::gather_residual(const StepProblem& problem) {
+    residual_.setZero();
+    if (model_.row_weight.size() > 0) R_u_.array() *= model_.row_weight.array();
+    const Unknowns& n = unknowns();
+    for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
+        if (n.of_dof[d] >= 0) residual_[n.of_dof[d]] += R_u_[static_cast<Eigen::Index>(d)];
+    }
+    const double c_v = problem.rule.c_v;
+    for (std::size_t i = 0; i < n.of_pressure.size(); ++i) {
+        const std::int32_t row = n.of_pressure[i];
+        if (row >= 0) residual_[row] -= R_p_[static_cast<Eigen::Index>(i)] / c_v;
+    }
+}
+
+double Newton::norm_of(const Eigen::VectorXd& per_dof) const {
+    if (share_of_dof_.size() == 0) return per_dof.norm();
+    return (share_of_dof_.array() * per_dof.array()).matrix().norm();
+}
+
+/// Out-of-balance force over the weight, or over the internal forces where they are larger (no
+/// gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
+/// asks for less than round-off: M a is c_a M (u - u_predicted).
+double Newton::residual_measure(const StepProblem& problem, const Motion& trial) const {
+    const std::int32_t n_u = unknowns().displacements, n_p = unknowns().pressures();
+    const double inertia =
+        problem.rule.c_a > 0.0
+            ? problem.rule.c_a * (model_.mass.array() * trial.u.array()).matrix().norm()
+            : 0.0;
+    const double reference =
+        std::max({norm_of(problem.external), norm_of(trial.force), norm_of(problem.old.force),
+                  round_off * inertia / settings_.tolerance});
+    const double force = residual_.head(n_u).cwiseProduct(share_.head(n_u)).norm();
+    const double of_force = reference > 0.0 ? force / reference : force;
+    if (n_p == 0) return of_force;
+    const double exchange = std::max(exchanged_.norm(), water_rounding_ / settings_.tolerance);
+    const double volume =
+        problem.rule.c_v * residual_.tail(n_p).cwiseProduct(share_.tail(n_p)).norm();
+    return std::max(of_force, exchange > 0.0 ? volume / exchange : 0.0);
+}
+
+/// Combines the plain correction g = A^-1 R with the last ones so that the combination's own g is
+/// least (Anderson 1965, in the form of Walker & Ni 2011, Eq. 2.2), measured by the matrix's
+/// diagonal: with an exact tangent it changes nothing.
+void Newton::accelerate() {
+    correction_ = plain_;
+    if (has_last_) {
+        d_plain_[next_] = plain_ - last_plain_;
+        d_x_[next_] = last_correction_;
+        next_ = (next_ + 1) % depth;
+        remembered_ = std::min(remembered_ + 1, depth);
+    }
+    has_last_ = true;
+    last_plain_ = plain_;
+    if (remembered_ == 0) return;
+    const auto dot = [this](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+        return (metric_.array() * a.array() * b.array()).sum();
+    };
+    Eigen::Matrix<double, depth, depth> gram = Eigen::Matrix<double, depth, depth>::Identity();
+    Eigen::Matrix<double, depth, 1> right = Eigen::Matrix<double, depth, 1>::Zero();
+    for (int i = 0; i < remembered_; ++i) {
+        for (int j = 0; j <= i; ++j) gram(i, j) = gram(j, i) = dot(d_plain_[i], d_plain_[j]);
+        right[i] = dot(d_plain_[i], plain_);
+    }
+    double largest = 0.0;
+    for (int i = 0; i < remembered_; ++i) largest = std::max(largest, gram(i, i));
+    for (int i = 0; i < remembered_; ++i) gram(i, i) += 1e-14 * largest;
+    const Eigen::Matrix<double, depth, 1> share = gram.ldlt().solve(right);
+    if (!share.allFinite()) return;
+    for (int i = 0; i < remembered_; ++i) correction_ -= share[i] * (d_x_[i] + d_plain_[i]);
+}
+
+void Newton::correct(Motion& trial) {
+    const Stopwatch watch(seconds_, &Seconds::solve);
+    matrix_.solve(residual_, plain_);
+    accelerate();
+    last_correction_ = correction_;
+    const Unknowns& n = unknowns();
+    for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
+        if (n.of_dof[d] >= 0) trial.u[static_cast<Eigen::Index>(d)] += correction_[n.of_dof[d]];
+    }
+    for (std::size_t i = 0; i < n.of_pressure.size(); ++i) {
+        const std::int32_t row = n.of_pressure[i];
+        if (row >= 0) trial.p[static_cast<Eigen::Index>(i)] += correction_[row];
+    }
+}
+
+double Newton::balance(const StepProblem& problem, Motion& trial) {
+    const Stopwatch watch(seconds_, &Seconds::assembly);
+    set_residual(problem, trial);
+    return residual_measure(problem, trial);
+}
+
+NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
+    using End = NewtonOutcome::End;
+    const TimeRule& rule = problem.rule;
+    const bool same_rule = rule.c_a == memory_.rule.c_a && rule.c_v == memory_.rule.c_v;
+    const bool serves = memory_.has_matrix && same_rule &&
+                        memory_.last_iterations <= static_cast<int>(2.0 * worth_of_matrix);
+    remembered_ = next_ = 0;
+    has_last_ = false;
+    Matrix matrix = serves ? Matrix::keep : Matrix::renew;
+    double first = 0.0, before = 0.0, residual = 0.0;
+    // PM4Sand's matrix is that of the step's ends: a second renewal would give the same again.
+    const bool sand = !problem.old.sand.empty();
+    int renewals_left = sand ? 1 : settings_.largest_iterations;
+    Progress progress;
+    for (int iteration = 0;; ++iteration) {
+        if (evaluate(problem, trial, matrix) == Geometry::degenerate) {
+            return {End::degenerate, iteration, residual};
+        }
+        residual = balance(problem, trial);
+        if (residual <= settings_.tolerance) {
+            memory_.last_iterations = iteration;
+            return {End::converged, iteration, residual};
+        }
+        progress.note(residual);
+        if (sand && progress.stalled() && residual <= 2.0 * progress.best() &&
+            residual <= worst_jump * settings_.tolerance) {
+            ++counts_.stalled;
+            return {End::converged, iteration, residual};
+        }
+        if (iteration == 0) first = std::max(residual, settings_.tolerance);
+        const bool lost = !std::isfinite(residual) || residual > 1e4 * first;
+        if (lost || iteration >= settings_.largest_iterations) {
+            memory_.has_matrix = false;
+            return {End::not_converged, iteration, residual};
+        }
+        // Iterations that the present rate of convergence would still need.
+        // Before the first correction nothing is known about it.
+        const double rate = iteration == 0 ? 0.0 : residual / before;
+        const double wanted = std::log(settings_.tolerance / residual);
+        const bool slow =
+            rate >= 1.0 || (rate > 0.0 && wanted / std::log(rate) > 2.0 * worth_of_matrix);
+        const bool worth = slow && (!sand || residual > worst_jump * settings_.tolerance);
+        matrix = worth && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
+        before = residual;
+        ++counts_.iterations;
+        correct(trial);
+    }
+}
+
+}  // namespace breach::fem

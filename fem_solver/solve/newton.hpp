@@ -1,0 +1,113 @@
+// Equilibrium and mass balance at the end of a step,
+//   M a + C v + f_int(u) - Q p = f_ext,   Q^T v + S p' + H p = flux,
+// by Newton's method with a factorisation that is kept as long as it serves, accelerated (Anderson
+// 1965) over the last few corrections. Without unknown pressures the second line is not there.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "fem_solver/solve/internal_force.hpp"
+
+namespace breach::fem {
+
+struct NewtonSettings {
+    double tolerance;  ///< out-of-balance over reference [-]
+    int largest_iterations;
+};
+
+struct NewtonOutcome {
+    enum class End { converged, not_converged, degenerate };
+    End end;
+    int iterations;
+    double residual;  ///< the larger of out-of-balance force over reference force and unbalanced
+                      ///< volume over exchanged volume [-]
+};
+
+/// Counts over a whole run.
+struct NewtonCounts {
+    std::int64_t iterations = 0;
+    std::int64_t factorisations = 0;
+    std::int64_t elastic_fallbacks = 0;  ///< tangents that had a pivot of the wrong sign
+    std::int64_t stalled = 0;  ///< steps accepted at a jump of PM4Sand, above the tolerance
+};
+
+/// What the next step inherits from the last one: saved in a checkpoint so that a resumed run does
+/// the same.
+struct NewtonMemory {
+    bool has_matrix = false;
+    TimeRule rule;  ///< of the matrix
+    int last_iterations = 0;
+    std::vector<double> values;  ///< assembled matrix
+};
+
+/// What a step starts from and where it goes.
+struct StepProblem {
+    const std::vector<materials::Law>& laws;
+    const Motion& old;
+    TimeRule rule;
+    const Eigen::VectorXd& external;          ///< force at the end of the step, per dof [N]
+    const Eigen::VectorXd& u_predicted;       ///< per dof [m]
+    const Eigen::VectorXd& v_predicted;       ///< per dof [m/s]
+    const Eigen::VectorXd& p_rate_predicted;  ///< per node [Pa/s]; empty without pressures
+};
+
+class Newton {
+  public:
+    Newton(const Model& model, Solved solved, NewtonSettings settings, Symmetry symmetry,
+           Seconds& seconds);
+
+    /// Finds trial.u and trial.p (starting from the values they have), fills the rest of trial.
+    NewtonOutcome solve(const StepProblem& problem, Motion& trial);
+    /// The next solve starts with a new factorisation.
+    void forget_matrix() { memory_.has_matrix = false; }
+
+    const Unknowns& unknowns() const { return matrix_.unknowns(); }
+    const NewtonCounts& counts() const { return counts_; }
+    void set_counts(const NewtonCounts& counts) { counts_ = counts; }
+    NewtonMemory memory() const;
+    void restore(const NewtonMemory& memory);
+    InternalForce& internal_force() { return internal_force_; }
+
+  private:
+    static constexpr int depth = 5;  ///< corrections remembered by the acceleration
+    enum class Matrix { keep, renew };
+
+    Geometry evaluate(const StepProblem& problem, Motion& trial, Matrix matrix);
+    bool factorise(const TimeRule& rule);
+    void add_inertia_and_water(const TimeRule& rule);
+    double balance(const StepProblem& problem, Motion& trial);
+    void set_residual(const StepProblem& problem, Motion& trial);
+    void add_water(const StepProblem& problem, Motion& trial);
+    void gather_residual(const StepProblem& problem);
+    double residual_measure(const StepProblem& problem, const Motion& trial) const;
+    double norm_of(const Eigen::VectorXd& per_dof) const;
+    void correct(Motion& trial);
+    void accelerate();
+
+    const Model& model_;
+    NewtonSettings settings_;
+    Seconds& seconds_;
+    InternalForce internal_force_;
+    LinearSystem matrix_;
+    std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping
+    NewtonMemory memory_;                  ///< values stay in matrix_
+    NewtonCounts counts_;
+    Eigen::VectorXd R_u_;           ///< out-of-balance force, per dof [N]
+    Eigen::VectorXd R_p_;           ///< unbalanced volume, per node [m3/s]
+    Eigen::VectorXd exchanged_;     ///< sum of the magnitudes in that balance [m3/s]
+    double water_rounding_ = 0.0;   ///< what its terms lose in differences of large numbers [m3/s]
+    Eigen::VectorXd share_of_dof_;  ///< only with thick columns: 1 / thickness, per dof [-]
+    Eigen::VectorXd share_;         ///< the same per unknown; ones without columns
+    Eigen::VectorXd residual_;      ///< right side over the unknowns
+    Eigen::VectorXd metric_;        ///< makes displacements and pressures comparable
+    Eigen::VectorXd correction_, plain_, last_plain_, last_correction_;
+    std::array<Eigen::VectorXd, depth> d_plain_, d_x_;
+    int remembered_ = 0;
+    int next_ = 0;
+    bool has_last_ = false;
+};
+
+}  // namespace breach::fem

@@ -1,0 +1,100 @@
+#include "fem_solver/solve/sand.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breach::fem {
+
+namespace pm4sand = materials::pm4sand;
+
+void check_sand(const scene::Scene& scene) {
+    const bool any = std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
+        return std::holds_alternative<materials::PM4Sand>(scene.materials[region.material].law);
+    });
+    if (!any) return;
+    const scene::Fem& fem = scene::fem_of(scene);
+    std::vector<fault::Fault> faults;
+    if (fem.kinematics == scene::Kinematics::updated_lagrangian) {
+        faults.push_back({"/fem/kinematics", "is updated_lagrangian, where PM4Sand cannot follow",
+                          "use small_strain"});
+    }
+    bool began = false;
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const bool elastic = fem.stages[i].laws == scene::StageLaws::elastic;
+        if (began && elastic) {
+            faults.push_back({"/fem/stages/" + std::to_string(i) + "/laws",
+                              "is elastic after PM4Sand has begun",
+                              "put elastic stages first: the sand's memory would be lost"});
+        }
+        began = began || !elastic;
+    }
+    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
+}
+
+bool has_sand(const Model& model) {
+    return std::ranges::any_of(model.zones, [](const Zone& zone) {
+        return std::holds_alternative<materials::PM4Sand>(zone.law);
+    });
+}
+
+StressBias stress_bias(const Motion& motion) {
+    StressBias bias;
+    for (const pm4sand::State& each : motion.sand) {
+        const auto& b = each.sigma_b;
+        const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});
+        // A stress that fits leaves the round-off of its own split into mean and deviator.
+        if (size <= 1e-9 * each.p) continue;
+        ++bias.points;
+        bias.largest = std::max(bias.largest, size);
+    }
+    return bias;
+}
+
+StressBias begin_sand(const Model& model, Motion& motion) {
+    if (!motion.sand.empty()) return stress_bias(motion);
+    for (const Zone& zone : model.zones) {
+        const auto* law = std::get_if<materials::PM4Sand>(&zone.law);
+        if (law == nullptr) continue;
+        const std::size_t begin = zone.first * model.points_per_element;
+        const std::size_t end = begin + zone.count * model.points_per_element;
+        for (std::size_t p = begin; p < end; ++p) {
+            const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
+            motion.sand.push_back(
+                pm4sand::initialise(law->ready, motion.points[p].sigma, epsilon_v));
+            motion.points[p].sigma = pm4sand::stress(law->ready, motion.sand.back());
+        }
+    }
+    return stress_bias(motion);
+}
+
+SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
+    std::size_t largest = 0;
+    for (const Zone& zone : model.zones) {
+        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        largest = std::max(largest, zone.count * points_);
+    }
+    updates_.resize(largest);
+}
+
+SandPass::Answer SandPass::integrate(const materials::PM4Sand& law, const Zone& zone,
+                                     std::span<const Voigt> d_epsilon, const Motion& old,
+                                     Motion& trial) {
+    for (const Voigt& d : d_epsilon) {
+        if (!(d.cwiseAbs().maxCoeff() <= largest_strain)) return Answer::refused;
+    }
+    trial.sand.resize(old.sand.size());
+    const std::span from = std::span(old.sand).subspan(zone.first_sand, d_epsilon.size());
+    const std::span to = std::span(updates_).first(d_epsilon.size());
+    pm4sand::integrate(law.ready, from, d_epsilon, law.options, to);
+    State* point = &trial.points[zone.first * points_];
+    pm4sand::State* sand = &trial.sand[zone.first_sand];
+    for (const pm4sand::Update& each : to) {
+        if (each.outcome != pm4sand::Outcome::done) return Answer::refused;
+        counts_ += each.counts;
+        *sand++ = each.state;
+        (point++)->sigma = pm4sand::stress(law.ready, each.state);
+    }
+    return Answer::done;
+}
+
+}  // namespace breach::fem

@@ -1,0 +1,83 @@
+#include "fem_solver/solve/step.hpp"
+
+namespace breach::fem {
+
+Prediction prediction_for(const Model& model) {
+    Prediction prediction;
+    prediction.u = prediction.v = prediction.external = Eigen::VectorXd::Zero(model.dofs());
+    prediction.p_rate = Eigen::VectorXd::Zero(model.water.prescribed.size());
+    return prediction;
+}
+
+NewtonOutcome static_step(Newton& newton, const Model& model,
+                          const std::vector<materials::Law>& laws, double load,
+                          const Eigen::VectorXd& start, const Motion& old, Prediction& prediction,
+                          Motion& trial) {
+    trial.u = old.u;
+    trial.p = old.p;
+    trial.p_rate = old.p_rate;
+    prediction.external = model.external_force;
+    add_pressure_force(model, old.p, prediction.external);
+    prediction.external = load * prediction.external + (1.0 - load) * start;
+    return newton.solve({laws, old, TimeRule{}, prediction.external, old.u, old.v, old.p_rate},
+                        trial);
+}
+
+void set_external_force(const Model& model, const Beginning& beginning, double time,
+                        Eigen::VectorXd& force) {
+    force = model.external_force;
+    if (beginning.base_reaction.size() > 0) force += beginning.base_reaction;
+    if (model.base.any()) model.base.add_force(time, force);
+}
+
+NewtonOutcome dynamic_step(Newton& newton, const Model& model,
+                           const std::vector<materials::Law>& laws, const Newmark& newmark,
+                           const Beginning& beginning, double dt, double end, const Motion& old,
+                           Prediction& prediction, Motion& trial) {
+    const auto [beta, gamma] = newmark;
+    prediction.u = old.u + dt * old.v + dt * dt * (0.5 - beta) * old.a;
+    prediction.v = old.v + dt * (1.0 - gamma) * old.a;
+    prediction.p_rate = -(1.0 - gamma) / gamma * old.p_rate;
+    set_external_force(model, beginning, end, prediction.external);
+    trial.u = prediction.u + beta * dt * dt * old.a;  // first guess: acceleration and pressure rate
+    trial.p = old.p + dt * old.p_rate;                // go on
+    const TimeRule rule{1.0 / (beta * dt * dt), gamma / (beta * dt)};
+    return newton.solve(
+        {laws, old, rule, prediction.external, prediction.u, prediction.v, prediction.p_rate},
+        trial);
+}
+
+void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Motion& motion,
+                     Motion& scratch) {
+    scratch = motion;
+    newton.internal_force().evaluate(laws, motion, scratch);
+    motion.points = scratch.points;
+    motion.sand = scratch.sand;
+    motion.force = scratch.force;
+}
+
+void set_acceleration(const Newton& newton, const Model& model, const Beginning& beginning,
+                      double time, Prediction& prediction, Motion& motion) {
+    Eigen::VectorXd& R = prediction.external;
+    set_external_force(model, beginning, time, R);
+    add_pressure_force(model, motion.p, R);
+    R -= motion.force;
+    R.array() -= model.rayleigh.mass * model.mass.array() * motion.v.array();
+    if (model.base.any()) R.array() -= model.base.dashpot.array() * motion.v.array();
+    const Unknowns& n = newton.unknowns();
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(n.displacements), mass = force;
+    for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
+        if (n.of_dof[d] < 0) continue;
+        const auto i = static_cast<Eigen::Index>(d);
+        const double weight = model.row_weight.size() > 0 ? model.row_weight[i] : 1.0;
+        force[n.of_dof[d]] += weight * R[i];
+        mass[n.of_dof[d]] += weight * model.mass[i];
+    }
+    motion.a.setZero();
+    for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
+        const std::int32_t i = n.of_dof[d];
+        if (i >= 0) motion.a[static_cast<Eigen::Index>(d)] = force[i] / mass[i];
+    }
+}
+
+}  // namespace breach::fem

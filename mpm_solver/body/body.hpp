@@ -1,0 +1,85 @@
+// What a time step works on: the soil's points and zones, the grid, and everything that was
+// resolved from the scene before the first step. Also the sums that the step keeps: dissipation,
+// fastest point, lost points.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "mpm_solver/body/grid.hpp"
+#include "mpm_solver/body/points.hpp"
+#include "mpm_solver/body/strips.hpp"
+#include "mpm_solver/body/team.hpp"
+
+namespace breach::mpm {
+
+struct Tally {
+    double plastic = 0.0;    ///< work dissipated by plastic strain so far [J]
+    double friction = 0.0;   ///< work dissipated by the floor's friction so far [J]
+    double viscous = 0.0;    ///< work dissipated by viscosity so far [J]
+    double pushed_in = 0.0;  ///< work that the overlap correction put in so far [J]
+    double kinetic =
+        0.0;  ///< of the points at the end of the step; not finite when any velocity is not [J]
+    double fastest = 0.0;  ///< largest speed of a point [m/s]
+    double strayed = 0.0;  ///< no point is farther from where it was last sorted, per axis [cells]
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::size_t lost = none;  ///< a point that left the grid or is nowhere (NaN)
+};
+
+/// Which build of the inner loops runs: every one gives the same answers up to round-off.
+enum class InstructionSet { plain, avx2, avx512 };
+
+/// The widest that this CPU has.
+InstructionSet best_instruction_set();
+
+/// How a body is computed; the answers do not depend on the threads.
+struct Computing {
+    int threads = 1;
+    InstructionSet instructions = best_instruction_set();
+};
+
+struct Body {
+    Grid grid;
+    Points points;
+    std::vector<Zone> zones;
+    Vec2 gravity;           ///< [m/s2]
+    double gimp_half_size;  ///< [cells]
+    double blending_rate;   ///< beta [1/s]
+    double overlap_rate;    ///< of the overlap correction [1/s]
+    /// Volume of the four cells about a point [m3]: what has opened that far has no neighbours
+    /// left, and its gradient, which nothing then contradicts, would open it without end.
+    double widest;
+    KernelKind kernel;
+    Order order;
+    /// Anti-locking (A3 of mpm.md): the points of a zone in a cell share their volumetric strain
+    /// rate and mean stress. Per zone, then per cell; empty where the zone does not average.
+    std::vector<std::vector<CellSum>> averages;
+    std::vector<double> drift_x,
+        drift_y;               ///< MUSL: velocity that moves the points [m/s]; empty otherwise
+    std::vector<Loops> loops;  ///< per zone
+    Strips strips;
+    std::shared_ptr<Team> team;
+    std::vector<Totals> sums;  ///< of every zone of every strip
+    Tally tally;
+};
+
+/// Everything resolved; `points` are where they are. Throws BadInput (naming `file`) if a point
+/// lies outside the grid.
+Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
+               const Computing& computing = {});
+
+/// Throws BadInput (naming `file`) if a point lies below the terrain.
+void refuse_buried_points(const Body& body, const std::string& file);
+
+/// Wave speed of the stiffest zone at the density that the force uses [m/s].
+double wave_speed(const Body& body);
+
+/// What viscosity adds to the wave speed in the Courant step, 16 eta / (3 rho h) [m/s]: a lagged
+/// damping of eigenvalue (4/3) eta 8 / (rho h^2) is stable up to half its period.
+double viscous_speed(const Zone& zone, double h);
+
+/// Largest step at this Courant number: cfl h / (c + |v|) [s].
+double courant_step(const Body& body, double cfl);
+
+}  // namespace breach::mpm

@@ -1,0 +1,190 @@
+#include "mpm_solver/body/fill.hpp"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "mpm_solver/body/overburden.hpp"
+
+namespace breach::mpm {
+
+using scene::Box;
+using scene::Polygon;
+using scene::Vec2;
+
+namespace {
+
+/// Keeps the side of a simple polygon where sign * (x_axis - at) >= 0 (Sutherland & Hodgman 1974).
+/// Parts that fall apart stay joined by edges of no width, so areas and moments are exact.
+Polygon cut(const Polygon& polygon, int axis, double at, double sign) {
+    Polygon kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec2& from = polygon[k];
+        const Vec2& to = polygon[(k + 1) % polygon.size()];
+        const double from_in = sign * (from[axis] - at);
+        const double to_in = sign * (to[axis] - at);
+        if (from_in >= 0.0) kept.push_back(from);
+        if ((from_in > 0.0 && to_in < 0.0) || (from_in < 0.0 && to_in > 0.0)) {
+            kept.push_back(from + (to - from) * (from_in / (from_in - to_in)));
+        }
+    }
+    return kept;
+}
+
+/// Area and centroid of a counter-clockwise polygon.
+struct Patch {
+    double area;
+    Vec2 centroid;
+};
+
+Patch patch_of(const Polygon& polygon) {
+    if (polygon.size() < 3) return {0.0, Vec2::Zero()};
+    const Vec2 base = polygon[0];
+    double area = 0.0;
+    Vec2 moment = Vec2::Zero();
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+        const Vec2 a = polygon[k] - base;
+        const Vec2 b = polygon[k + 1] - base;
+        const double part = 0.5 * (a.x() * b.y() - a.y() * b.x());
+        area += part;
+        moment += part * (a + b) / 3.0;
+    }
+    if (area <= 0.0) return {0.0, base};
+    return {area, base + moment / area};
+}
+
+using Place = std::pair<int, int>;  ///< square (column, row) of the sampling lattice
+using Patches = std::map<Place, Patch>;
+
+Patch joined(const Patch& a, const Patch& b) {
+    const double area = a.area + b.area;
+    return {area, (a.area * a.centroid + b.area * b.centroid) / area};
+}
+
+/// A point of very little mass would be thrown about: parts below a quarter square join the largest
+/// neighbour.
+void join_slivers(Patches& patches, double square) {
+    for (auto sliver = patches.begin(); sliver != patches.end();) {
+        Patch* best = nullptr;
+        if (sliver->second.area < 0.25 * square) {
+            for (const Place& step : {Place{-1, 0}, Place{1, 0}, Place{0, -1}, Place{0, 1}}) {
+                const auto next = patches.find(
+                    {sliver->first.first + step.first, sliver->first.second + step.second});
+                if (next != patches.end() && (!best || next->second.area > best->area)) {
+                    best = &next->second;
+                }
+            }
+        }
+        if (!best) {
+            ++sliver;
+            continue;
+        }
+        *best = joined(*best, sliver->second);
+        sliver = patches.erase(sliver);
+    }
+}
+
+Patches sample(const Polygon& polygon, const Vec2& origin, double spacing) {
+    const Box box = scene::bounding_box(polygon);
+    const auto first = [&](int axis) {
+        return static_cast<int>(std::floor((box.low[axis] - origin[axis]) / spacing));
+    };
+    const auto last = [&](int axis) {
+        return static_cast<int>(std::ceil((box.high[axis] - origin[axis]) / spacing));
+    };
+    Patches patches;
+    for (int i = first(0); i < last(0); ++i) {
+        const Polygon column = cut(cut(polygon, 0, origin.x() + i * spacing, 1.0), 0,
+                                   origin.x() + (i + 1) * spacing, -1.0);
+        for (int j = first(1); j < last(1); ++j) {
+            const Patch patch = patch_of(cut(cut(column, 1, origin.y() + j * spacing, 1.0), 1,
+                                             origin.y() + (j + 1) * spacing, -1.0));
+            if (patch.area > 1e-9 * spacing * spacing) patches[{i, j}] = patch;
+        }
+    }
+    join_slivers(patches, spacing * spacing);
+    return patches;
+}
+
+mechanics::Voigt stress_at(const scene::Scene& scene, const Vec2& place,
+                           const mechanics::Elasticity& soil) {
+    if (scene::mpm_of(scene).fill_stress == scene::FillStress::none) {
+        return mechanics::Voigt::Zero();
+    }
+    return column_stress(overburden(scene, place), soil.nu);
+}
+
+void add_point(const scene::Scene& scene, std::size_t region, const Patch& patch,
+               exchange::ParticleState& state) {
+    const scene::Material& material = scene.materials[scene.section.regions[region].material];
+    const mechanics::Elasticity soil = materials::elasticity(material.law);
+    const mechanics::Voigt sigma = stress_at(scene, patch.centroid, soil);
+    const double sigma_m = (sigma[0] + sigma[1] + sigma[2]) / 3.0;
+    const double volume = patch.area * state.thickness;
+    state.position.push_back(patch.centroid);
+    state.velocity.emplace_back(0.0, 0.0);
+    state.velocity_gradient.emplace_back(mechanics::Matrix2::Zero());
+    state.mass.push_back(material.density * volume);
+    state.volume_0.push_back(volume / (1.0 + sigma_m / soil.bulk_modulus()));
+    state.volume.push_back(volume);
+    state.stress.push_back(sigma);
+    state.epsilon_q.push_back(0.0);
+    state.epsilon_q_plastic.push_back(0.0);
+    state.gap.push_back(0.0);
+    state.region.push_back(static_cast<std::int32_t>(region));
+}
+
+}  // namespace
+
+FilledSection fill_section(const scene::Scene& scene) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    const Vec2 origin{mpm.domain_x[0], mpm.floor.level};
+    FilledSection filled;
+    filled.state.thickness = scene.thickness;
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        const scene::Region& region = scene.section.regions[r];
+        filled.state.regions.push_back(region.name);
+        filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
+        for (const auto& [place, patch] :
+             sample(region.polygon, origin, mpm.cell_size / mpm.fill_points)) {
+            add_point(scene, r, patch, filled.state);
+        }
+    }
+    filled.regions = sampling_of(scene, filled.state);
+    return filled;
+}
+
+bool is_faithful(const SampledRegion& region) {
+    constexpr double tolerance = 0.01;
+    return std::abs(region.sampled_area - region.polygon_area) <= tolerance * region.polygon_area &&
+           std::abs(region.sampled_level - region.polygon_level) <= tolerance * region.height;
+}
+
+std::vector<SampledRegion> sampling_of(const scene::Scene& scene,
+                                       const exchange::ParticleState& state) {
+    std::vector<SampledRegion> result;
+    for (const scene::Region& region : scene.section.regions) {
+        const Box box = scene::bounding_box(region.polygon);
+        const Patch drawn = patch_of(region.polygon);
+        SampledRegion sampled{.name = region.name,
+                              .polygon_area = scene::area(region.polygon),
+                              .sampled_area = 0.0,
+                              .polygon_level = drawn.centroid.y(),
+                              .sampled_level = 0.0,
+                              .height = box.high.y() - box.low.y(),
+                              .points = 0};
+        for (std::size_t p = 0; p < state.size(); ++p) {
+            if (state.regions[state.region[p]] != region.name) continue;
+            const double area = state.volume[p] / state.thickness;
+            sampled.sampled_area += area;
+            sampled.sampled_level += area * state.position[p].y();
+            ++sampled.points;
+        }
+        if (sampled.points == 0) continue;
+        sampled.sampled_level /= sampled.sampled_area;
+        result.push_back(sampled);
+    }
+    return result;
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,68 @@
+// The square background grid: places, walls, nodal arrays and the list of nodes that are in use.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+#include "mpm_solver/body/terrain.hpp"
+#include "mpm_solver/loops/kernel.hpp"
+
+namespace breach::mpm {
+
+/// Four numbers of a node that are scattered and gathered together.
+using Lane = Eigen::Array4d;
+
+/// What a node must obey; interior nodes carry 0.
+namespace condition {
+constexpr std::uint8_t hold_x = 1;
+constexpr std::uint8_t hold_y = 2;
+constexpr std::uint8_t floor = 4;    ///< unilateral in y, Coulomb friction in x
+constexpr std::uint8_t terrain = 8;  ///< a Contact
+}  // namespace condition
+
+/// Nodes are stored column by column (y fastest), with one ghost row around the domain.
+struct Grid {
+    double h;      ///< edge of a cell [m]
+    double per_h;  ///< 1 / h [1/m]
+    Vec2 origin;   ///< of the first ghost node [m]
+    std::int32_t columns;
+    std::int32_t rows;
+    Vec2 low;  ///< walls and floor; a point outside [low, high] has left the grid [m]
+    Vec2 high;
+    WallRows walls_x;
+    WallRows walls_y;
+    std::vector<std::uint8_t> conditions;  ///< per node
+    std::vector<double> friction;          ///< coefficient of the floor per column [-]
+    std::optional<Terrain> terrain;
+    std::vector<Contact> contacts;         ///< of the nodes that feel the terrain
+    std::vector<std::int32_t> contact_of;  ///< per node, index into contacts; empty without terrain
+
+    // scattered by particle_to_grid
+    std::vector<double> mass;  ///< [kg]
+    /// After particle_to_grid: momentum [kg m/s] and internal force [N]; after update_momentum:
+    /// velocity at the end of the step [m/s] and its change over the step [m/s].
+    std::vector<Lane> motion;
+
+    /// Nodes that points may reach before they are sorted again, ascending.
+    std::vector<std::int32_t> active;
+
+    std::int32_t nodes() const { return columns * rows; }
+    double xi(double x) const { return (x - origin.x()) * per_h; }
+    double eta(double y) const { return (y - origin.y()) * per_h; }
+    /// Cell that holds (xi, eta), numbered as its lower left node.
+    std::int32_t cell(double xi, double eta) const {
+        return static_cast<std::int32_t>(xi) * rows + static_cast<std::int32_t>(eta);
+    }
+    bool holds(double x, double y) const {
+        return x >= low.x() && x <= high.x() && y >= low.y() && y <= high.y();
+    }
+};
+
+Grid make_grid(const scene::Mpm& mpm);
+
+/// Forgets the last step: zeroes the active nodes.
+void clear(Grid& grid);
+
+}  // namespace breach::mpm

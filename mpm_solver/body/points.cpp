@@ -1,0 +1,240 @@
+#include "mpm_solver/body/points.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace breach::mpm {
+
+namespace {
+
+mechanics::Elasticity scaled(mechanics::Elasticity elasticity, double scale) {
+    elasticity.E *= scale;
+    return elasticity;
+}
+
+/// A band of shear is about a cell wide: with strains in proportion to 1 / h it dissipates the same
+/// whatever the cells.
+void scale_softening(materials::MohrCoulomb& law, const scene::Mpm& mpm) {
+    if (!law.softening || !mpm.softening_length) return;
+    const double scale = *mpm.softening_length / mpm.cell_size;
+    law.softening->epsilon_q_start *= scale;
+    law.softening->epsilon_q_end *= scale;
+}
+void scale_softening(materials::LinearElastic&, const scene::Mpm&) {}
+
+template <class Law>
+ReadyLaw ready_law(Law law, const scene::Mpm& mpm) {
+    law.elasticity = scaled(law.elasticity, mpm.stiffness_scale);
+    scale_softening(law, mpm);
+    return materials::ready(law);
+}
+
+ReadyLaw ready_law(const scene::Material& soil, const scene::Mpm& mpm) {
+    if (std::holds_alternative<materials::PM4Sand>(soil.law)) {
+        throw fault::BadInput("scene", {{"/materials/" + soil.name + "/law/type",
+                                         "is pm4sand, which particles cannot have",
+                                         "give them a material with mohr_coulomb"}});
+    }
+    if (const auto* elastic = std::get_if<materials::LinearElastic>(&soil.law)) {
+        return ready_law(*elastic, mpm);
+    }
+    return ready_law(std::get<materials::MohrCoulomb>(soil.law), mpm);
+}
+
+double largest_specific_volume(const Points& points, const Zone& zone) {
+    double largest = 0.0;
+    for (std::size_t p = zone.begin; p < zone.end; ++p) {
+        largest = std::max(largest, points.V[p] / points.m[p]);
+    }
+    return largest;
+}
+
+Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t material,
+             std::size_t begin, std::size_t end) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    const scene::Material& soil = scene.materials[material];
+    const bool opens = std::holds_alternative<materials::MohrCoulomb>(soil.law);
+    Zone zone{
+        .material = soil.name,
+        .law = ready_law(soil, mpm),
+        .elasticity = scaled(materials::elasticity(soil.law), mpm.stiffness_scale),
+        .volume_rule = opens && mpm.gap_closure ? VolumeRule::from_stress : VolumeRule::tracked,
+        .viscosity = soil.viscosity,
+        .begin = begin,
+        .end = end};
+    zone.largest_specific_volume = largest_specific_volume(points, zone);
+    return zone;
+}
+
+/// Index into the scene's soils of each region of the state: by its name and material; by its name
+/// alone where no such soil exists, which is then the region's own.
+std::vector<std::int32_t> match_soils(const scene::Scene& scene,
+                                      const std::vector<scene::Soil>& soils,
+                                      const exchange::ParticleState& state,
+                                      const std::string& file) {
+    std::vector<std::int32_t> match;
+    std::vector<fault::Fault> faults;
+    for (std::size_t r = 0; r < state.regions.size(); ++r) {
+        const auto same_region = [&](const scene::Soil& soil) {
+            return scene.section.regions[soil.region].name == state.regions[r];
+        };
+        auto found = std::find_if(soils.begin(), soils.end(), [&](const scene::Soil& soil) {
+            return same_region(soil) &&
+                   scene.materials[soil.material].name == state.materials_of_regions[r];
+        });
+        if (found == soils.end()) found = std::find_if(soils.begin(), soils.end(), same_region);
+        if (found == soils.end()) {
+            faults.push_back(
+                {"/section/regions",
+                 "has no region \"" + state.regions[r] + "\", to which points of the input belong",
+                 "use the scene that the points were made with"});
+        }
+        match.push_back(static_cast<std::int32_t>(found - soils.begin()));
+    }
+    if (!faults.empty()) throw fault::BadInput(file, faults);
+    return match;
+}
+
+/// The pore pressure beside an effective stress would be lost here, and with it the balance.
+void refuse_water(const exchange::ParticleState& state, const std::string& file) {
+    if (state.pore_pressure.empty()) return;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        const auto measure = state.stress_of_regions.empty()
+                                 ? exchange::StressMeasure::effective
+                                 : state.stress_of_regions[state.region[p]];
+        if (measure == exchange::StressMeasure::total || state.pore_pressure[p] == 0.0) continue;
+        throw fault::BadInput(file, {{"/VTKHDF/PointData/pore_pressure",
+                                      "points with effective stress and pore pressure",
+                                      "transfer total stress (/transfer/stress \"total\")"}});
+    }
+}
+
+void copy_point(Points& points, std::size_t p, const exchange::ParticleState& state,
+                std::size_t from) {
+    points.x[p] = state.position[from].x();
+    points.y[p] = state.position[from].y();
+    points.vx[p] = state.velocity[from].x();
+    points.vy[p] = state.velocity[from].y();
+    const mechanics::Matrix2& L = state.velocity_gradient[from];
+    points.Lxx[p] = L(0, 0);
+    points.Lxy[p] = L(0, 1);
+    points.Lyx[p] = L(1, 0);
+    points.Lyy[p] = L(1, 1);
+    points.m[p] = state.mass[from];
+    points.V_0[p] = state.volume_0[from];
+    points.V[p] = state.volume[from];
+    points.volume[p] = state.volume[from];
+    const mechanics::Voigt& sigma = state.stress[from];
+    points.sxx[p] = sigma[0];
+    points.syy[p] = sigma[1];
+    points.szz[p] = sigma[2];
+    points.sxy[p] = sigma[3];
+    points.epsilon_q[p] = state.epsilon_q[from];
+    points.epsilon_q_plastic[p] = state.epsilon_q_plastic[from];
+    points.gap[p] = state.gap[from];
+    points.number[p] = static_cast<std::int32_t>(from);
+}
+
+/// V_0 and V that belong to the stress under the zone's own (scaled) K.
+void settle_volumes(Points& points, Zone& zone, double stiffness_scale) {
+    const double K = zone.elasticity.bulk_modulus();
+    for (std::size_t p = zone.begin; p < zone.end; ++p) {
+        const double sigma_m = (points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0;
+        const double elastic = 1.0 + sigma_m / K;
+        if (stiffness_scale != 1.0) {
+            points.V_0[p] *= (1.0 + sigma_m * stiffness_scale / K) / elastic;
+        }
+        if (zone.volume_rule == VolumeRule::from_stress) points.V[p] = points.V_0[p] * elastic;
+    }
+    zone.largest_specific_volume = largest_specific_volume(points, zone);
+}
+
+}  // namespace
+
+void Points::resize(std::size_t n) {
+    for_each_real(*this, [n](const char*, std::vector<double>& values) { values.resize(n); });
+    for_each_integer(*this,
+                     [n](const char*, std::vector<std::int32_t>& values) { values.resize(n, -1); });
+}
+
+std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points) {
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    const auto material_of = [&](std::size_t p) { return soils[points.region[p]].material; };
+    std::vector<Zone> zones;
+    std::size_t begin = 0;
+    for (std::size_t p = 1; p <= points.size(); ++p) {
+        const std::size_t material = material_of(begin);
+        if (p < points.size() && material_of(p) == material) continue;
+        zones.push_back(zone_of(scene, points, material, begin, p));
+        begin = p;
+    }
+    return zones;
+}
+
+ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleState& state,
+                         const std::string& file) {
+    if (state.size() == 0) {
+        throw fault::BadInput(file, {{"/", "holds no points", "give at least one"}});
+    }
+    refuse_water(state, file);
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    const std::vector<std::int32_t> match = match_soils(scene, soils, state, file);
+    std::vector<std::size_t> order(state.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto material = [&](std::size_t p) { return soils[match[state.region[p]]].material; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return material(a) < material(b); });
+
+    ZonedPoints result;
+    Points& points = result.points;
+    points.resize(state.size());
+    for (std::size_t p = 0; p < order.size(); ++p) {
+        copy_point(points, p, state, order[p]);
+        points.region[p] = match[state.region[order[p]]];
+    }
+    points.carried.r_u = state.r_u;
+    if (!state.stress_of_regions.empty()) {
+        points.carried.stress_of_soils.assign(soils.size(), exchange::StressMeasure::effective);
+        for (std::size_t r = 0; r < match.size(); ++r) {
+            points.carried.stress_of_soils[match[r]] = state.stress_of_regions[r];
+        }
+    }
+    result.zones = zones_of(scene, points);
+    for (Zone& zone : result.zones) {
+        settle_volumes(points, zone, scene::mpm_of(scene).stiffness_scale);
+    }
+    return result;
+}
+
+exchange::ParticleState particle_state(const scene::Scene& scene, const Points& points) {
+    const std::size_t n = points.size();
+    exchange::ParticleState state;
+    state.thickness = scene.thickness;
+    state.stress_of_regions = points.carried.stress_of_soils;
+    state.r_u = points.carried.r_u;
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        state.regions.push_back(scene.section.regions[soil.region].name);
+        state.materials_of_regions.push_back(scene.materials[soil.material].name);
+    }
+    state.position.resize(n), state.velocity.resize(n), state.velocity_gradient.resize(n);
+    state.mass.resize(n), state.volume_0.resize(n), state.volume.resize(n), state.stress.resize(n);
+    state.epsilon_q.resize(n), state.epsilon_q_plastic.resize(n), state.gap.resize(n);
+    state.region.resize(n);
+    for (std::size_t p = 0; p < n; ++p) {
+        const auto to = static_cast<std::size_t>(points.number[p]);
+        state.position[to] = {points.x[p], points.y[p]};
+        state.velocity[to] = {points.vx[p], points.vy[p]};
+        state.velocity_gradient[to] << points.Lxx[p], points.Lxy[p], points.Lyx[p], points.Lyy[p];
+        state.mass[to] = points.m[p];
+        state.volume_0[to] = points.V_0[p];
+        state.volume[to] = points.volume[p];
+        state.stress[to] = {points.sxx[p], points.syy[p], points.szz[p], points.sxy[p]};
+        state.epsilon_q[to] = points.epsilon_q[p];
+        state.epsilon_q_plastic[to] = points.epsilon_q_plastic[p];
+        state.gap[to] = points.gap[p];
+        state.region[to] = points.region[p];
+    }
+    return state;
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,100 @@
+// The material points as structure of arrays, in the order of the zones; a zone is the range of
+// points that obey one law.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/exchange/particle_state.hpp"
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
+#include "core/scene/scene.hpp"
+#include "mpm_solver/loops/loops.hpp"
+
+namespace breach::mpm {
+
+/// What no step reads and the outputs carry on.
+struct Carried {
+    std::vector<exchange::StressMeasure> stress_of_soils;  ///< by soils_of(scene); empty: effective
+    std::vector<double> r_u;  ///< at the transfer, in the order of the input; empty without water
+};
+
+struct Points {
+    std::vector<double> x, y;                ///< [m]
+    std::vector<double> vx, vy;              ///< [m/s]
+    std::vector<double> Lxx, Lxy, Lyx, Lyy;  ///< velocity gradient, row = component [1/s]
+    std::vector<double> m;                   ///< [kg]
+    std::vector<double> V_0;                 ///< volume at zero mean stress [m3]
+    std::vector<double> V;                   ///< volume that the force uses [m3]
+    std::vector<double> volume;  ///< volume followed through every strain increment [m3]
+    std::vector<double> sxx, syy, szz, sxy;  ///< effective stress [Pa], tension positive
+    std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
+    std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
+    std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
+    std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-];
+                                       ///< empty unless the body corrects it
+    std::vector<std::int32_t> region;  ///< index into soils_of(scene)
+    std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
+    std::vector<std::int32_t> home;    ///< cell when the points were last sorted
+    std::vector<std::int32_t> cell;    ///< cell at the start of the step; anti-locking only
+
+    Carried carried;
+
+    std::size_t size() const { return x.size(); }
+    void resize(std::size_t n);
+};
+
+/// Calls visit(name, array) for every array of reals: what checkpoints store and sorting permutes.
+template <class AnyPoints, class Visit>
+void for_each_real(AnyPoints& points, Visit&& visit) {
+    visit("x", points.x), visit("y", points.y);
+    visit("vx", points.vx), visit("vy", points.vy);
+    visit("Lxx", points.Lxx), visit("Lxy", points.Lxy);
+    visit("Lyx", points.Lyx), visit("Lyy", points.Lyy);
+    visit("m", points.m), visit("V_0", points.V_0), visit("V", points.V);
+    visit("volume", points.volume);
+    visit("sxx", points.sxx), visit("syy", points.syy);
+    visit("szz", points.szz), visit("sxy", points.sxy);
+    visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
+    visit("gap", points.gap);
+    if (!points.excess.empty()) visit("excess", points.excess);
+}
+
+template <class AnyPoints, class Visit>
+void for_each_integer(AnyPoints& points, Visit&& visit) {
+    visit("region", points.region), visit("number", points.number), visit("home", points.home);
+}
+
+using ReadyLaw = std::variant<materials::LinearElastic, materials::ReadyMohrCoulomb>;
+
+/// Points [begin, end) of one material.
+struct Zone {
+    std::string material;
+    ReadyLaw law;  ///< E already scaled
+    mechanics::Elasticity elasticity;
+    VolumeRule volume_rule;
+    double viscosity;  ///< eta [Pa s]
+    std::size_t begin;
+    std::size_t end;
+    double largest_specific_volume = 0.0;  ///< max V / m, for the wave speed [m3/kg]
+};
+
+struct ZonedPoints {
+    Points points;
+    std::vector<Zone> zones;
+};
+
+/// Points of a particle state, grouped by material; regions are matched by name. The stiffness
+/// scale enters K, so V_0 is set anew where it is not 1: the volume stays. Throws BadInput naming
+/// `file`.
+ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleState& state,
+                         const std::string& file);
+
+/// The zones alone, for points that are grouped already (a checkpoint).
+std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points);
+
+/// Back to the exchange's form, in the order of the input.
+exchange::ParticleState particle_state(const scene::Scene& scene, const Points& points);
+
+}  // namespace breach::mpm

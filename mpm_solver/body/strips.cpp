@@ -1,0 +1,97 @@
+#include "mpm_solver/body/strips.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace breach::mpm {
+
+namespace {
+
+template <class Value>
+void permute(std::vector<Value>& values, const std::vector<std::int32_t>& order,
+             std::vector<Value>& scratch) {
+    scratch.resize(values.size());
+    for (std::size_t p = 0; p < order.size(); ++p) scratch[p] = values[order[p]];
+    values.swap(scratch);
+}
+
+/// Counting sort by home; stable, so the order depends on the points alone. `starts`: scratch.
+void order_zone(const Grid& grid, const Points& points, const Zone& zone,
+                std::vector<std::int32_t>& starts, std::vector<std::int32_t>& order) {
+    starts.assign(static_cast<std::size_t>(grid.nodes()) + 1, 0);
+    for (std::size_t p = zone.begin; p < zone.end; ++p) ++starts[points.home[p] + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    for (std::size_t p = zone.begin; p < zone.end; ++p) {
+        order[zone.begin + starts[points.home[p]]++] = static_cast<std::int32_t>(p);
+    }
+}
+
+}  // namespace
+
+void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.home[p] = grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]));
+    }
+    // Scratch of its own: a sort is due once in some hundred steps.
+    std::vector<std::int32_t> starts;
+    std::vector<std::int32_t> order(points.size());
+    for (const Zone& zone : zones) order_zone(grid, points, zone, starts, order);
+    if (!std::is_sorted(order.begin(), order.end())) {
+        std::vector<double> reals;
+        for_each_real(points, [&](const char*, auto& values) { permute(values, order, reals); });
+        std::vector<std::int32_t> integers;
+        for_each_integer(points,
+                         [&](const char*, auto& values) { permute(values, order, integers); });
+    }
+    cut(grid, points, zones);
+}
+
+void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
+    zones_ = zones.size();
+    count_ = static_cast<std::size_t>((grid.columns + width - 1) / width);
+    spans_.assign(count_ * zones_, {0, 0});
+    std::vector<std::uint8_t> holds_points(count_, 0);
+    for (std::size_t z = 0; z < zones_; ++z) {
+        std::size_t p = zones[z].begin;
+        while (p < zones[z].end) {
+            const std::int32_t strip = points.home[p] / grid.rows / width;
+            const std::size_t begin = p;
+            while (p < zones[z].end && points.home[p] / grid.rows / width == strip) ++p;
+            spans_[strip * zones_ + z] = {begin, p};
+            holds_points[strip] = 1;
+        }
+    }
+    all_.clear();
+    for (std::size_t colour = 0; colour < apart_.size(); ++colour) {
+        apart_[colour].clear();
+        for (std::size_t strip = colour; strip < count_; strip += apart_.size()) {
+            if (holds_points[strip]) apart_[colour].push_back(strip);
+        }
+        all_.insert(all_.end(), apart_[colour].begin(), apart_[colour].end());
+    }
+    std::sort(all_.begin(), all_.end());
+    find_active_nodes(grid, points);
+}
+
+/// The 4 x 4 nodes about every home: what a point can reach from at most half a cell away.
+void Strips::find_active_nodes(Grid& grid, const Points& points) {
+    clear(grid);
+    std::vector<std::uint8_t> is_active(static_cast<std::size_t>(grid.nodes()), 0);
+    std::int32_t last = -1;
+    for (const std::int32_t home : points.home) {
+        if (home == last) continue;
+        last = home;
+        const std::int32_t i = home / grid.rows;
+        const std::int32_t j = home % grid.rows;
+        for (std::int32_t k = i - 1; k <= std::min(i + 2, grid.columns - 1); ++k) {
+            const auto column = is_active.begin() + k * grid.rows;
+            std::fill(column + (j - 1), column + std::min(j + 3, grid.rows), std::uint8_t{1});
+        }
+    }
+    grid.active.clear();
+    for (std::int32_t node = 0; node < grid.nodes(); ++node) {
+        if (is_active[node]) grid.active.push_back(node);
+    }
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,46 @@
+// The order of the points: by zone, then by cell, column by column, so that points that share nodes
+// are neighbours in memory. Columns are cut into strips; while no point has strayed far from the
+// cell where it was sorted, every second strip shares no node with another, and the active nodes
+// are known. So strips are the unit of work of a thread, and what they add up does not depend on
+// how many threads there are.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mpm_solver/body/grid.hpp"
+#include "mpm_solver/body/points.hpp"
+
+namespace breach::mpm {
+
+class Strips {
+  public:
+    /// Columns of cells in a strip: of two strips that are a strip apart none reaches the same
+    /// node.
+    static constexpr std::int32_t width = 4;
+    /// Points may stray this far from their home before they have to be sorted again [cells].
+    static constexpr double largest_stray = 0.5;
+
+    /// Puts the points in order, gives them new homes and cuts.
+    void sort(Grid& grid, Points& points, const std::vector<Zone>& zones);
+    /// Cuts points that stand in the order of their homes, and finds the active nodes.
+    void cut(Grid& grid, const Points& points, const std::vector<Zone>& zones);
+
+    std::size_t count() const { return count_; }
+    /// Points of a zone in a strip.
+    Span span(std::size_t strip, std::size_t zone) const { return spans_[strip * zones_ + zone]; }
+    /// Strips that share no node with one another: the even ones, the odd ones.
+    const std::array<std::vector<std::size_t>, 2>& apart() const { return apart_; }
+    const std::vector<std::size_t>& all() const { return all_; }
+
+  private:
+    void find_active_nodes(Grid& grid, const Points& points);
+
+    std::size_t count_ = 0;
+    std::size_t zones_ = 0;
+    std::vector<Span> spans_;
+    std::array<std::vector<std::size_t>, 2> apart_;
+    std::vector<std::size_t> all_;
+};
+
+}  // namespace breach::mpm

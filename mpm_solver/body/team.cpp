@@ -1,0 +1,61 @@
+#include "mpm_solver/body/team.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+constexpr std::uint32_t members_mask = 0xffff;
+constexpr std::uint32_t open = 0x10000;
+constexpr std::uint32_t one_round = 0x20000;
+
+std::uint32_t round_of(std::uint32_t state) { return state / one_round; }
+
+}  // namespace
+
+Team::Team(int threads) {
+    for (int n = 1; n < threads; ++n) members_.emplace_back([this] { serve(); });
+}
+
+Team::~Team() {
+    closing_ = true;
+    state_ += one_round;
+    state_.notify_all();
+    for (std::thread& member : members_) member.join();
+}
+
+void Team::share_out(std::size_t tasks, Call call, const void* work) {
+    call_ = call;
+    work_ = work;
+    tasks_ = tasks;
+    next_ = 0;
+    state_ += one_round + open;  // publishes all of the above
+    state_.notify_all();
+    take_tasks();
+    state_ -= open;
+    for (std::uint32_t state = state_; (state & members_mask) != 0; state = state_) {
+        state_.wait(state);
+    }
+}
+
+void Team::take_tasks() {
+    for (std::size_t task = next_++; task < tasks_; task = next_++) call_(work_, task);
+}
+
+void Team::serve() {
+    std::uint32_t last = 0;
+    for (std::uint32_t state = state_;;) {
+        if (closing_) return;
+        if ((state & open) == 0 || round_of(state) == last) {
+            state_.wait(state);
+            state = state_;
+            continue;
+        }
+        if (!state_.compare_exchange_weak(state, state + 1)) continue;
+        last = round_of(state);
+        take_tasks();
+        state = --state_;
+        if ((state & (members_mask | open)) == 0) state_.notify_all();
+    }
+}
+
+}  // namespace breach::mpm

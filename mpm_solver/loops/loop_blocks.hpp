@@ -1,0 +1,121 @@
+// Points in blocks as wide as the registers. Compiled once per instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+#include "mpm_solver/loops/lane_memory.hpp"
+#include "mpm_solver/loops/loops.hpp"
+
+namespace breach::mpm {
+
+/// A block's place: `arrays` + p are its points, `first` is the number of its first one; `count` of
+/// its lanes hold points of their own.
+struct Block {
+    const PointArrays& arrays;
+    std::size_t p;
+    std::size_t first;
+    int count;
+};
+
+/// The last points of a span, fewer than a block, in arrays of their own; the lanes left over
+/// repeat the last point.
+template <class Isa>
+class Tail {
+  public:
+    [[gnu::noinline]] void read(const PointArrays& points, std::size_t first, int count) {
+        double* to = values_[0];
+        for_each(
+            points, [&](double* from, double*& place) __attribute__((always_inline)) {
+                if (!from) return;
+                for (int k = 0; k < N; ++k) to[k] = from[first + (k < count ? k : count - 1)];
+                place = to;
+                to += N;
+            });
+        for (int k = 0; k < N; ++k) {
+            cells_[k] = points.cell[first + (k < count ? k : count - 1)];
+        }
+        arrays_.cell = cells_;
+    }
+    [[gnu::noinline]] void write_back(const PointArrays& points, std::size_t first, int count) {
+        for_each(
+            points, [&](double* to, double*& place) __attribute__((always_inline)) {
+                if (!to) return;
+                for (int k = 0; k < count; ++k) to[first + k] = place[k];
+            });
+        for (int k = 0; k < count; ++k) points.cell[first + k] = cells_[k];
+    }
+    [[gnu::always_inline]] const PointArrays& arrays() const { return arrays_; }
+
+  private:
+    template <class Visit>
+    [[gnu::always_inline]] void for_each(const PointArrays& p, Visit&& visit) {
+        PointArrays& t = arrays_;
+        visit(p.x, t.x), visit(p.y, t.y), visit(p.vx, t.vx), visit(p.vy, t.vy);
+        visit(p.Lxx, t.Lxx), visit(p.Lxy, t.Lxy), visit(p.Lyx, t.Lyx), visit(p.Lyy, t.Lyy);
+        visit(p.m, t.m), visit(p.V_0, t.V_0), visit(p.V, t.V), visit(p.volume, t.volume);
+        visit(p.sxx, t.sxx), visit(p.syy, t.syy), visit(p.szz, t.szz), visit(p.sxy, t.sxy);
+        visit(p.epsilon_q, t.epsilon_q), visit(p.epsilon_q_plastic, t.epsilon_q_plastic);
+        visit(p.gap, t.gap), visit(p.excess, t.excess);
+        visit(p.drift_x, t.drift_x), visit(p.drift_y, t.drift_y);
+    }
+
+    static constexpr int N = Isa::lanes;
+    static constexpr int arrays_of_reals = 22;
+    double values_[arrays_of_reals][N];
+    std::int32_t cells_[N];
+    PointArrays arrays_{};
+};
+
+/// Calls each(Block) for all points of the span, as many at a time as the registers hold.
+template <class Isa, class Each>
+[[gnu::always_inline]] inline void for_each_block(const PointArrays& points, Span span,
+                                                  Each&& each) {
+    constexpr std::size_t N = Isa::lanes;
+    Tail<Isa> tail;
+    for (std::size_t p = span.begin; p < span.end; p += N) {
+        const bool whole = p + N <= span.end;
+        const int count = whole ? static_cast<int>(N) : static_cast<int>(span.end - p);
+        if (!whole) tail.read(points, p, count);
+        each(Block{whole ? points : tail.arrays(), whole ? p : 0, p, count});
+        if (!whole) tail.write_back(points, p, count);
+    }
+}
+
+/// 1 in the lanes that hold points of their own.
+template <class Real>
+[[gnu::always_inline]] inline materials::MaskOf<Real> own_lanes(const Block& block) {
+    return counting<materials::LaneTraits<Real>::count>() < Real(block.count);
+}
+
+/// The weights of a block's points on their 3 x 3 nodes, ready to be read one by one.
+template <int N>
+struct Weights {
+    double Nx[3][N];
+    double dNx[3][N];
+    double Ny[3][N];
+    double dNy[3][N];
+    std::int32_t node[N];  ///< first of the 3 x 3
+
+    [[gnu::always_inline]] Weights(const Stencil<Lanes<N>>& sx, const Stencil<Lanes<N>>& sy,
+                                   std::int32_t rows) {
+        for (int i = 0; i < 3; ++i) {
+            store(Nx[i], sx.N[i]);
+            store(dNx[i], sx.dN[i]);
+            store(Ny[i], sy.N[i]);
+            store(dNy[i], sy.dN[i]);
+        }
+        store<N>(node, integers(sx.first * Lanes<N>(rows) + sy.first));
+    }
+};
+
+template <class Kernel>
+[[gnu::always_inline]] inline Kernel kernel_of(const ZoneWork& work) {
+    if constexpr (std::is_same_v<Kernel, GimpKernel>) {
+        return GimpKernel(work.gimp_half_size);
+    } else {
+        return {};
+    }
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,122 @@
+// The inner loops over points and what they see: bare arrays and numbers. They are compiled once
+// per instruction set, so nothing here may contain a type or an inline function whose layout or
+// code depends on compiler flags (no Eigen, no containers). Which loop does a zone's work is chosen
+// before the first step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/materials/mohr_coulomb/lanes.hpp"
+#include "mpm_solver/loops/kernel.hpp"
+
+namespace breach::mpm {
+
+/// Points [begin, end).
+struct Span {
+    std::size_t begin;
+    std::size_t end;
+};
+
+/// The arrays of Points; see there.
+struct PointArrays {
+    double *x, *y, *vx, *vy, *Lxx, *Lxy, *Lyx, *Lyy, *m, *V_0, *V, *volume, *sxx, *syy, *szz, *sxy,
+        *epsilon_q, *epsilon_q_plastic, *gap, *excess;
+    double *drift_x, *drift_y;  ///< null unless MUSL
+    std::int32_t* cell;
+};
+
+/// The arrays of Grid; see there.
+struct GridArrays {
+    double* mass;
+    double* motion;  ///< four per node
+    std::int32_t rows;
+    double h, per_h;
+    double x_0, y_0;  ///< of the first ghost node [m]
+    double low_x, high_x, low_y, high_y;
+    WallRows walls_x;
+    WallRows walls_y;
+};
+
+/// Volume-weighted sums over the points of one zone in a cell; see Body::averages.
+struct CellSum {
+    double V = 0.0;        ///< [m3]
+    double trD = 0.0;      ///< sum of V tr D, then its average [1/s]
+    double sigma_m = 0.0;  ///< sum of V sigma_m, then its average [Pa]
+};
+
+/// All that one zone's loops need in one step.
+struct ZoneWork {
+    PointArrays points;
+    GridArrays grid;
+    CellSum* cells;  ///< null when nothing is averaged
+    materials::MohrCoulombNumbers law;
+    double eta;  ///< viscosity [Pa s]
+    double gimp_half_size;
+    double dt;
+    double blend;         ///< beta dt, at most 1 [-]
+    double overlap_rate;  ///< [1/s]
+    double widest;        ///< volume beyond which a point opens no further [m3]
+};
+
+/// What a loop adds up over its points.
+struct Totals {
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    double kinetic = 0.0;  ///< [J]
+    double fastest_squared = 0.0;
+    double farthest = 0.0;  ///< largest step of a point along an axis [m]
+    std::size_t lost = none;
+    double plastic = 0.0;
+    double viscous = 0.0;
+    double pushed_in = 0.0;
+    double largest_specific_volume = 0.0;
+};
+
+using Loop = void (*)(const ZoneWork&, Span, Totals&);
+
+/// One zone's loops in the order of the step; null where the scheme has none.
+struct Loops {
+    Loop scatter = nullptr;   ///< mass, momentum and (unless USF) force
+    Loop gradient = nullptr;  ///< USF: velocity gradient before the stress
+    Loop scatter_force = nullptr;
+    Loop gather = nullptr;
+    Loop scatter_again = nullptr;  ///< MUSL: momentum
+    Loop gradient_again = nullptr;
+    Loop stress = nullptr;
+    Loop settle = nullptr;     ///< cell averages of mean stress, and volumes
+    Loop dissipate = nullptr;  ///< work of viscosity
+};
+
+enum class KernelKind { gimp, b_spline, linear };
+enum class Order { usl, musl, usf };
+enum class LawKind {
+    elastic,
+    mohr_coulomb,
+    softens_with_plastic_strain,
+    softens_with_total_strain
+};
+enum class Averages { none, per_cell };
+enum class Overlap { left_alone, corrected };
+enum class Viscosity { none, newtonian };
+/// How the volume of the force follows the soil.
+enum class VolumeRule {
+    tracked,      ///< V = volume: laws that never open, or gap closure switched off
+    from_stress,  ///< V = V_0 (1 + sigma_m / K): opened gaps carry no stress (mpm.md, section 0)
+};
+
+/// What decides a zone's loops.
+struct Choice {
+    KernelKind kernel;
+    Order order;
+    LawKind law;
+    Averages averages;
+    Overlap overlap;
+    Viscosity viscosity;
+    VolumeRule volume_rule;
+};
+
+Loops plain_loops(const Choice& choice);
+Loops avx2_loops(const Choice& choice);
+Loops avx512_loops(const Choice& choice);
+
+}  // namespace breach::mpm

@@ -1,0 +1,104 @@
+// The choice of a zone's loops for one instruction set. Included by one source per set, which is
+// compiled with that set's flags; `Isa` makes every function its own.
+#pragma once
+
+#include <type_traits>
+
+#include "mpm_solver/loops/gather_loop.hpp"
+#include "mpm_solver/loops/scatter_loop.hpp"
+#include "mpm_solver/loops/stress_loop.hpp"
+
+namespace breach::mpm {
+
+template <class Isa, class Kernel, Averages averages>
+void choose_mappings(const Choice& choice, Loops& loops) {
+    const bool flows = choice.viscosity == Viscosity::newtonian;
+    using enum Scattered;
+    constexpr Viscosity none = Viscosity::none;
+    constexpr Viscosity newtonian = Viscosity::newtonian;
+    switch (choice.order) {
+        case Order::usl:
+        case Order::musl:
+            loops.scatter = flows ? scatter<Isa, Kernel, momentum_and_force, newtonian>
+                                  : scatter<Isa, Kernel, momentum_and_force, none>;
+            break;
+        case Order::usf:
+            loops.scatter = scatter<Isa, Kernel, momentum, none>;
+            loops.scatter_force =
+                flows ? scatter<Isa, Kernel, force, newtonian> : scatter<Isa, Kernel, force, none>;
+            break;
+    }
+    switch (choice.order) {
+        case Order::usl:
+            loops.gather = gather<Isa, Kernel, Order::usl, averages>;
+            break;
+        case Order::musl:
+            loops.gather = gather<Isa, Kernel, Order::musl, averages>;
+            loops.scatter_again = scatter<Isa, Kernel, momentum_alone, none>;
+            loops.gradient_again = gradient<Isa, Kernel, Order::musl, averages>;
+            break;
+        case Order::usf:
+            loops.gradient = gradient<Isa, Kernel, Order::usf, averages>;
+            loops.gather = gather<Isa, Kernel, Order::usf, averages>;
+            break;
+    }
+}
+
+template <class Isa, Averages averages, VolumeRule rule, LawKind law>
+void choose_stress(const Choice& choice, Loops& loops) {
+    loops.stress = choice.overlap == Overlap::corrected
+                       ? stress<Isa, law, averages, Overlap::corrected, rule>
+                       : stress<Isa, law, averages, Overlap::left_alone, rule>;
+}
+
+template <class Isa, Averages averages, VolumeRule rule>
+void choose_law(const Choice& choice, Loops& loops) {
+    switch (choice.law) {
+        case LawKind::elastic:
+            return choose_stress<Isa, averages, rule, LawKind::elastic>(choice, loops);
+        case LawKind::mohr_coulomb:
+            return choose_stress<Isa, averages, rule, LawKind::mohr_coulomb>(choice, loops);
+        case LawKind::softens_with_plastic_strain:
+            return choose_stress<Isa, averages, rule, LawKind::softens_with_plastic_strain>(choice,
+                                                                                            loops);
+        case LawKind::softens_with_total_strain:
+            return choose_stress<Isa, averages, rule, LawKind::softens_with_total_strain>(choice,
+                                                                                          loops);
+    }
+}
+
+template <class Isa, Averages averages>
+void choose_all(const Choice& choice, Loops& loops) {
+    switch (choice.kernel) {
+        case KernelKind::gimp:
+            choose_mappings<Isa, GimpKernel, averages>(choice, loops);
+            break;
+        case KernelKind::b_spline:
+            choose_mappings<Isa, BSplineKernel, averages>(choice, loops);
+            break;
+        case KernelKind::linear:
+            choose_mappings<Isa, LinearKernel, averages>(choice, loops);
+            break;
+    }
+    if (choice.volume_rule == VolumeRule::from_stress) {
+        choose_law<Isa, averages, VolumeRule::from_stress>(choice, loops);
+        loops.settle = settle<Isa, averages, VolumeRule::from_stress>;
+    } else {
+        choose_law<Isa, averages, VolumeRule::tracked>(choice, loops);
+        loops.settle = settle<Isa, averages, VolumeRule::tracked>;
+    }
+}
+
+template <class Isa>
+Loops loops_of(const Choice& choice) {
+    Loops loops;
+    if (choice.averages == Averages::per_cell) {
+        choose_all<Isa, Averages::per_cell>(choice, loops);
+    } else {
+        choose_all<Isa, Averages::none>(choice, loops);
+    }
+    if (choice.viscosity == Viscosity::newtonian) loops.dissipate = dissipate<Isa>;
+    return loops;
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,48 @@
+#include "mpm_solver/measure/energy.hpp"
+
+namespace breach::mpm {
+
+Energy energy_of(const Body& body) {
+    const Points& points = body.points;
+    Energy energy{.kinetic = body.tally.kinetic,
+                  .plastic = body.tally.plastic,
+                  .friction = body.tally.friction,
+                  .viscous = body.tally.viscous};
+    for (const Zone& zone : body.zones) {
+        for (std::size_t p = zone.begin; p < zone.end; ++p) {
+            const mechanics::Voigt sigma{points.sxx[p], points.syy[p], points.szz[p],
+                                         points.sxy[p]};
+            energy.elastic +=
+                points.V[p] * mechanics::elastic_energy_density(zone.elasticity, sigma);
+            energy.gravitational -=
+                points.m[p] * (body.gravity.x() * points.x[p] + body.gravity.y() * points.y[p]);
+        }
+    }
+    return energy;
+}
+
+double released(const Energy& start, const Energy& now) {
+    return start.kinetic + start.gravitational - now.gravitational;
+}
+
+double numerical_loss(const Energy& start, const Energy& now) {
+    const double gone = start.kinetic - now.kinetic + start.gravitational - now.gravitational +
+                        start.elastic - now.elastic;
+    return gone - (now.plastic - start.plastic) - (now.friction - start.friction) -
+           (now.viscous - start.viscous);
+}
+
+double numerical_share(const Energy& start, const Energy& now) {
+    const double available = released(start, now);
+    return available > 0.0 ? numerical_loss(start, now) / available : 0.0;
+}
+
+double volume_of(const Points& points, const std::vector<std::uint8_t>& counts) {
+    double volume = 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (counts[points.region[p]]) volume += points.volume[p];
+    }
+    return volume;
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,118 @@
+#include "mpm_solver/measure/flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm_solver/measure/runout.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+/// Volume, mass and momentum, weighted.
+struct Sums {
+    double V = 0.0;
+    double m = 0.0;
+    double mv = 0.0;
+
+    void add(const Points& points, std::size_t p, double weight) {
+        V += weight * points.volume[p];
+        m += weight * points.m[p];
+        mv += weight * points.m[p] * points.vx[p];
+    }
+    Flow over(double area) const { return {V / area, m > 0.0 ? mv / m : 0.0}; }
+};
+
+/// Integral of the hat about x over what of its width lies inside the grid [m].
+double hat_width(const FlowView& view, double x) {
+    const auto half = [&](double room) {
+        const double s = std::clamp(room / view.width, 0.0, 1.0);
+        return view.width * s * (1.0 - 0.5 * s);
+    };
+    return half(x - view.low) + half(view.high - x);
+}
+
+std::size_t columns(const FlowView& view) {
+    return static_cast<std::size_t>(std::lround((view.high - view.low) / view.width)) + 1;
+}
+
+}  // namespace
+
+FlowView flow_view(const scene::Scene& scene, const Grid& grid) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    return {mobile_regions(scene), grid.h, scene.thickness, mpm.domain_x[0], mpm.domain_x[1]};
+}
+
+Flow flow_at(const Points& points, const FlowView& view, double x) {
+    Sums sums;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double weight = 1.0 - std::abs(points.x[p] - x) / view.width;
+        if (weight > 0.0 && view.mobile[points.region[p]]) sums.add(points, p, weight);
+    }
+    return sums.over(hat_width(view, x) * view.thickness);
+}
+
+std::vector<Flow> flow_profile(const Points& points, const FlowView& view) {
+    std::vector<Sums> sums(columns(view));
+    const double last = static_cast<double>(sums.size() - 1);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (!view.mobile[points.region[p]]) continue;
+        const double xi = std::clamp((points.x[p] - view.low) / view.width, 0.0, last);
+        const auto left = std::min(static_cast<std::size_t>(xi), sums.size() - 2);
+        const double to_right = xi - static_cast<double>(left);
+        sums[left].add(points, p, 1.0 - to_right);
+        sums[left + 1].add(points, p, to_right);
+    }
+    const std::vector<double> places = profile_places(view);
+    std::vector<Flow> profile;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        profile.push_back(sums[k].over(hat_width(view, places[k]) * view.thickness));
+    }
+    return profile;
+}
+
+std::vector<double> profile_places(const FlowView& view) {
+    std::vector<double> places(columns(view));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        places[k] = view.low + static_cast<double>(k) * view.width;
+    }
+    return places;
+}
+
+double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth) {
+    for (std::size_t k = profile.size(); k-- > 0;) {
+        if (profile[k].depth < depth) continue;
+        const double x = view.low + static_cast<double>(k) * view.width;
+        if (k + 1 == profile.size()) return x;
+        return x +
+               view.width * (profile[k].depth - depth) / (profile[k].depth - profile[k + 1].depth);
+    }
+    return view.low;
+}
+
+void Profiles::add(double time, const std::vector<Flow>& profile) {
+    times.push_back(time);
+    for (const Flow& flow : profile) {
+        depths.push_back(flow.depth);
+        velocities.push_back(flow.velocity);
+    }
+}
+
+void store(const Profiles& profiles, const FlowView& view, const std::string& prefix,
+           exchange::Archive& archive) {
+    const auto put = [&](const char* name, const char* unit, const std::vector<double>& values) {
+        archive.reals[prefix + "profile." + name] = values;
+        archive.units[prefix + "profile." + name] = unit;
+    };
+    put("x", "m", profile_places(view));
+    put("times", "s", profiles.times);
+    put("depths", "m", profiles.depths);
+    put("velocities", "m/s", profiles.velocities);
+}
+
+Profiles load_profiles(const exchange::Archive& archive, const std::string& prefix) {
+    return {archive.reals.at(prefix + "profile.times"), archive.reals.at(prefix + "profile.depths"),
+            archive.reals.at(prefix + "profile.velocities")};
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,57 @@
+// The soil as a flow: depth and mean velocity over x, at places (gauges) and as the deposit's
+// profile.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/exchange/archive.hpp"
+#include "mpm_solver/body/grid.hpp"
+#include "mpm_solver/body/points.hpp"
+
+namespace breach::mpm {
+
+/// Which soil flows, and the width that its depth is averaged over.
+struct FlowView {
+    std::vector<std::uint8_t> mobile;  ///< per soil of the scene
+    double width;                      ///< one cell [m]
+    double thickness;                  ///< of the section [m]
+    double low;                        ///< ends of the grid [m]
+    double high;
+};
+
+FlowView flow_view(const scene::Scene& scene, const Grid& grid);
+
+struct Flow {
+    double depth = 0.0;     ///< volume over the plan area [m]
+    double velocity = 0.0;  ///< mass-weighted mean of v_x; 0 where there is no soil [m/s]
+};
+
+/// Mean with the hat function of half width `width` about x, cut at the ends of the grid.
+Flow flow_at(const Points& points, const FlowView& view, double x);
+
+/// flow_at every column of the grid's nodes, in one pass over the points.
+std::vector<Flow> flow_profile(const Points& points, const FlowView& view);
+
+/// x of the columns of a profile [m].
+std::vector<double> profile_places(const FlowView& view);
+
+/// Farthest x where the flow is `depth` deep, between columns by straight lines; `low` when it is
+/// nowhere [m].
+double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth);
+
+/// Profiles at several times, one after the other.
+struct Profiles {
+    std::vector<double> times;
+    std::vector<double> depths;
+    std::vector<double> velocities;
+
+    void add(double time, const std::vector<Flow>& profile);
+};
+
+/// "<prefix>profile.x", "<prefix>profile.times" and so on, and back.
+void store(const Profiles& profiles, const FlowView& view, const std::string& prefix,
+           exchange::Archive& archive);
+Profiles load_profiles(const exchange::Archive& archive, const std::string& prefix);
+
+}  // namespace breach::mpm

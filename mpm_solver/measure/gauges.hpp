@@ -1,0 +1,35 @@
+// What the scene's gauges saw: one depth and velocity per row of the history.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm_solver/measure/flow.hpp"
+
+namespace breach::mpm {
+
+struct GaugeRecord {
+    std::vector<double> depth;     ///< [m]
+    std::vector<double> velocity;  ///< [m/s]
+};
+
+/// In the order of Mpm::gauges.
+using GaugeRecords = std::vector<GaugeRecord>;
+
+/// Adds what every gauge sees now.
+void read_gauges(const std::vector<scene::Gauge>& gauges, const Points& points,
+                 const FlowView& view, GaugeRecords& records);
+
+/// First time at which the depth reached `arrival_depth`, between readings by a straight line; none
+/// when it never did.
+std::optional<double> arrival_time(const std::vector<double>& times,
+                                   const std::vector<double>& depth, double arrival_depth);
+
+/// "<prefix>gauge.<name>.depth" and so on, and back.
+void store(const std::vector<scene::Gauge>& gauges, const GaugeRecords& records,
+           const std::string& prefix, exchange::Archive& archive);
+GaugeRecords load_gauges(const std::vector<scene::Gauge>& gauges, const exchange::Archive& archive,
+                         const std::string& prefix);
+
+}  // namespace breach::mpm

@@ -1,0 +1,102 @@
+#include "mpm_solver/measure/overlap.hpp"
+
+#include <algorithm>
+
+namespace breach::mpm {
+
+namespace {
+
+/// Calls visit(kernel) with the body's own kernel.
+template <class Visit>
+auto with_kernel(const Body& body, Visit&& visit) {
+    switch (body.kernel) {
+        case KernelKind::gimp:
+            return visit(GimpKernel(body.gimp_half_size));
+        case KernelKind::b_spline:
+            return visit(BSplineKernel{});
+        default:
+            return visit(LinearKernel{});
+    }
+}
+
+/// Integral of every node's weight over the places a point can take, by the midpoint rule.
+std::vector<double> capacities(const Body& body, const WallRows& walls, std::int32_t rows) {
+    constexpr int samples = 200;  // per cell; the weights are quadratic
+    std::vector<double> capacity(rows, 0.0);
+    with_kernel(body, [&](const auto& kernel) {
+        for (std::int32_t cell = 1; cell < rows - 2; ++cell) {
+            for (int k = 0; k < samples; ++k) {
+                const auto s = kernel(cell + (k + 0.5) / samples, walls);
+                double* node = &capacity[static_cast<std::size_t>(s.first)];
+                for (int i = 0; i < 3; ++i) node[i] += s.N[i] * body.grid.h / samples;
+            }
+        }
+    });
+    return capacity;
+}
+
+/// Calls visit(p, i, j, weight) for every point and each of its nodes.
+template <class Visit>
+void for_each_weight(const Body& body, Visit&& visit) {
+    const Grid& grid = body.grid;
+    with_kernel(body, [&](const auto& kernel) {
+        for (std::size_t p = 0; p < body.points.size(); ++p) {
+            const auto sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
+            const auto sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);
+            const auto first_i = static_cast<std::int32_t>(sx.first);
+            const auto first_j = static_cast<std::int32_t>(sy.first);
+            for (int i = 0; i < 3; ++i) {
+                for (int j = 0; j < 3; ++j) {
+                    visit(p, first_i + i, first_j + j, sx.N[i] * sy.N[j]);
+                }
+            }
+        }
+    });
+}
+
+}  // namespace
+
+OverlapMeter::OverlapMeter(const Body& body, double thickness)
+    : capacity_x_(capacities(body, body.grid.walls_x, body.grid.columns)),
+      capacity_y_(capacities(body, body.grid.walls_y, body.grid.rows)),
+      thickness_(thickness) {}
+
+void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& filled) {
+    filled.assign(body.grid.nodes(), 0.0);
+    const Points& points = body.points;
+    const std::int32_t rows = body.grid.rows;
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        filled[i * rows + j] += points.V[p] * N;
+    });
+}
+
+double OverlapMeter::fill_at(const std::vector<double>& filled, std::int32_t i,
+                             std::int32_t j) const {
+    const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
+    const auto rows = static_cast<std::int32_t>(capacity_y_.size());
+    return capacity > 0.0 ? filled[i * rows + j] / capacity : 0.0;
+}
+
+double OverlapMeter::measure(const Body& body) const {
+    std::vector<double> filled;
+    fill_nodes(body, filled);
+    const Points& points = body.points;
+    double excess = 0.0;
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(filled, i, j) - 1.0, 0.0);
+    });
+    double volume = 0.0;
+    for (const double V : points.V) volume += V;
+    return volume > 0.0 ? excess / volume : 0.0;
+}
+
+void OverlapMeter::mark(Body& body, double tolerance) {
+    fill_nodes(body, filled_);
+    std::fill(body.points.excess.begin(), body.points.excess.end(), 0.0);
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        if (N > 0.0)
+            body.points.excess[p] += N * std::max(fill_at(filled_, i, j) - 1.0 - tolerance, 0.0);
+    });
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,37 @@
+// Overlap: soil that lies on top of soil. Points may clump although every tracked volume is right
+// (mpm.md, section 10), so a run reports it.
+#pragma once
+
+#include <vector>
+
+#include "mpm_solver/body/body.hpp"
+
+namespace breach::mpm {
+
+/// Steps between two marks of the correction: soil crosses a small part of a cell in them.
+constexpr std::int64_t steps_between_marks = 8;
+
+class OverlapMeter {
+  public:
+    explicit OverlapMeter(const Body& body, double thickness);
+
+    /// Volume-weighted mean over the points' cells of max(0, fill - 1), fill_i = sum_p V_p N_i /
+    /// capacity_i [-].
+    double measure(const Body& body) const;
+
+    /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
+    void mark(Body& body, double tolerance);
+
+  private:
+    /// Volume at each node [m3].
+    static void fill_nodes(const Body& body, std::vector<double>& filled);
+    double fill_at(const std::vector<double>& filled, std::int32_t i, std::int32_t j) const;
+
+    std::vector<double>
+        capacity_x_;  ///< integral of the nodal weight over the domain, per column [m]
+    std::vector<double> capacity_y_;
+    double thickness_;
+    std::vector<double> filled_;  ///< of the marks; empty in runs that never mark [m3]
+};
+
+}  // namespace breach::mpm

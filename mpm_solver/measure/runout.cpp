@@ -1,0 +1,53 @@
+#include "mpm_solver/measure/runout.hpp"
+
+#include <algorithm>
+
+namespace breach::mpm {
+
+std::vector<std::uint8_t> mobile_regions(const scene::Scene& scene) {
+    const auto& names = scene::mpm_of(scene).runout.regions;
+    std::vector<std::uint8_t> mobile;
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        const std::string& region = scene.section.regions[soil.region].name;
+        const bool counts =
+            names.empty() || std::find(names.begin(), names.end(), region) != names.end();
+        mobile.push_back(counts ? 1 : 0);
+    }
+    return mobile;
+}
+
+double percentile(std::span<const std::pair<double, double>> x_and_mass, double share) {
+    if (x_and_mass.empty()) return 0.0;
+    double whole = 0.0;
+    for (const auto& [x, mass] : x_and_mass) whole += mass;
+    double below = 0.0;
+    for (const auto& [x, mass] : x_and_mass) {
+        below += mass;
+        if (below >= share * whole) return x;
+    }
+    return x_and_mass.back().first;
+}
+
+Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, double toe_x) {
+    std::vector<std::pair<double, double>> all;
+    double volume_beyond = 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (!mobile[points.region[p]]) continue;
+        const double distance = points.x[p] - toe_x;
+        all.emplace_back(distance, points.m[p]);
+        if (distance > 0.0) volume_beyond += points.volume[p];
+    }
+    if (all.empty()) return {};
+    std::sort(all.begin(), all.end());
+    const auto first_beyond =
+        std::find_if(all.begin(), all.end(), [](const auto& each) { return each.first > 0.0; });
+    const std::span beyond(first_beyond, all.end());
+    return {.all = percentile(all, 0.99),
+            .beyond = percentile(beyond, 0.99),
+            .beyond_95 = percentile(beyond, 0.95),
+            .beyond_50 = percentile(beyond, 0.5),
+            .largest = all.back().first,
+            .volume_beyond = volume_beyond};
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,40 @@
+// The cache: a ready task whose question was answered before takes that answer instead of running.
+// The question is the task's recipe and the SHA-256 of its input file; the answer is the output of
+// a task that succeeded, or that broke down (exit code 70) as this one would. Every file of the
+// answer is hashed again before it is served: one that is missing or altered is refused, and the
+// task runs. The looking and hashing has a thread of its own.
+#pragma once
+
+#include <functional>
+
+#include "services/orchestrator/dispatch/task_queue.hpp"
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+class Cache {
+  public:
+    /// `examined` is called on the cache's thread with each task that was looked up; its state says
+    /// whether it was answered.
+    Cache(Store& store, const DataFolder& data, std::function<void(const std::string&)> examined);
+
+    /// Quick: false when no earlier task can have the answer, so that hashing the input is not
+    /// worth while.
+    bool may_answer(const Task& task) const;
+    void examine(Task task);
+
+  private:
+    void serve(const Task& task);
+    void look_up(const Task& task);
+    /// Why the outputs of `earlier` cannot be used; nothing when they can.
+    std::optional<std::string> damage_of(const Task& earlier) const;
+    void place_outputs(const Task& earlier, const Task& task) const;
+
+    Store& store_;
+    const DataFolder& data_;
+    std::function<void(const std::string&)> examined_;
+    TaskQueue queue_;  // last: its thread stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

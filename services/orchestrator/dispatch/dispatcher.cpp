@@ -1,0 +1,400 @@
+#include "services/orchestrator/dispatch/dispatcher.hpp"
+
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "core/exchange/publish.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
+#include "services/orchestrator/records/identity.hpp"
+
+namespace breach::orchestrator {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr auto longest_wait = std::chrono::milliseconds(1000);
+constexpr auto pause_after_trouble = std::chrono::seconds(1);
+
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        names.insert(entry.path().filename());
+    return names;
+}
+
+}  // namespace
+
+Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
+                       ProgressBoard& board, DispatchSettings settings)
+    : store_(store),
+      data_(data),
+      executor_(executor),
+      board_(board),
+      settings_(std::move(settings)),
+      triggers_(store, data),
+      wake_descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+      registrar_(store, data,
+                 [this](const std::string& task) {
+                     {
+                         const std::lock_guard lock(registered_mutex_);
+                         registered_.push_back(task);
+                     }
+                     wake();
+                 }),
+      cache_(store, data, [this](const std::string& task) {
+          {
+              const std::lock_guard lock(registered_mutex_);
+              looked_up_.push_back(task);
+          }
+          wake();
+      }) {
+    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+Dispatcher::~Dispatcher() {
+    thread_.request_stop();
+    wake();
+    thread_.join();
+    close(wake_descriptor_);
+}
+
+void Dispatcher::wake() { eventfd_write(wake_descriptor_, 1); }
+
+void Dispatcher::settle_all() {
+    unsettled_ = true;
+    wake();
+}
+
+void Dispatcher::serve(const std::stop_token& stop) {
+    stop_ = stop;
+    bool reconciled = false;
+    while (!stop.stop_requested()) {
+        try {
+            if (!reconciled) reconcile();
+            reconciled = true;
+            look_around();
+            start_ready_tasks();
+            wait_for_something();
+        } catch (const std::exception& error) {
+            // A full disk or the like: nothing was half-stored, so look again when it may be
+            // better.
+            spdlog::error("dispatcher: {}", error.what());
+            std::this_thread::sleep_for(pause_after_trouble);
+        }
+    }
+    try {
+        shut_down();
+    } catch (const std::exception& error) {
+        spdlog::error("dispatcher: {}", error.what());
+    }
+}
+
+/// What the store says was going on, held against what is.
+void Dispatcher::reconcile() {
+    live_.clear();
+    constexpr auto all = static_cast<std::size_t>(1) << 30;
+    for (const TaskState state : {TaskState::starting, TaskState::running, TaskState::cancelling}) {
+        for (const Task& task : store_.tasks_in(state, all)) {
+            const std::vector<Attempt> attempts = store_.attempts_of(task.id);
+            const Attempt& last = attempts.back();
+            spdlog::info("{} ({}): attempt {} was going on", task.id, task.label, last.number);
+            Live& live = attach(task, last.number);
+            live.submission_noted = last.state != AttemptState::submitting;
+            live.start_noted = task.state == TaskState::running;
+            live.begun = last.state == AttemptState::running;
+        }
+    }
+    for (Task& task : store_.tasks_in(TaskState::finalizing, all)) registrar_.add(std::move(task));
+    for (const std::string& parent : store_.parents_of_blocked()) {
+        if (stop_.stop_requested()) return;
+        settle_children(parent);
+    }
+}
+
+void Dispatcher::look_around() {
+    const std::vector<int> changed = watch_.changes();
+    settle_after_registrar();
+    stop_cancelled();
+    const bool all = Clock::now() - looked_at_all_ >= longest_wait;
+    if (all) looked_at_all_ = Clock::now();
+    for (Live& live : live_) {
+        if (all || std::ranges::find(changed, live.output_watch) != changed.end())
+            live.outputs_changed = true;
+        observe(live);
+    }
+    forget_the_ended();
+    triggers_.look();
+    release_retries();
+    if (unsettled_.exchange(false)) {
+        for (const std::string& parent : store_.parents_of_blocked()) {
+            if (stop_.stop_requested()) return;
+            settle_children(parent);
+        }
+    }
+}
+
+void Dispatcher::wait_for_something() {
+    auto wait = longest_wait;
+    if (const auto retry = store_.next_retry()) {
+        const auto left = std::chrono::milliseconds(*retry - epoch_ms());
+        wait = std::clamp(left, std::chrono::milliseconds(0), longest_wait);
+    }
+    wait = std::min(wait, triggers_.patience());
+    pollfd wanted[] = {{watch_.descriptor(), POLLIN, 0},
+                       {triggers_.descriptor(), POLLIN, 0},
+                       {wake_descriptor_, POLLIN, 0}};
+    poll(wanted, 3, static_cast<int>(wait.count()));
+    eventfd_t count = 0;
+    eventfd_read(wake_descriptor_, &count);
+}
+
+void Dispatcher::shut_down() {
+    if (executor_.at_stop() == AtStop::leaves_them) return;
+    for (Live& live : live_) executor_.stop(live.folder, StopReason::shutdown);
+    const auto deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                           std::chrono::duration<double>(settings_.grace_seconds + 2));
+    while (!live_.empty() && Clock::now() < deadline) {
+        look_around();
+        if (!live_.empty()) wait_for_something();
+    }
+}
+
+// ---------------------------------------------------------------- starting
+
+void Dispatcher::start_ready_tasks() {
+    const std::vector<Task> tasks = tasks_that_fit();
+    if (!tasks.empty()) start(tasks);
+}
+
+/// In order of priority and age; the first that does not fit holds back those behind it, so that
+/// small tasks cannot keep a large one waiting for ever. One that asks for more than there is runs
+/// alone.
+std::vector<Task> Dispatcher::tasks_that_fit() {
+    constexpr std::size_t look_ahead = 8;  // the cache needs no slot
+    std::int64_t cores = static_cast<std::int64_t>(settings_.slots);
+    std::int64_t memory = settings_.memory_mb;
+    std::map<std::string, std::size_t> running;
+    const auto take = [&](const Task& task) {
+        cores -= task.resources.cores;
+        memory -= task.resources.memory_mb;
+        ++running[task.phase];
+    };
+    for (const Live& live : live_) take(live.task);
+    const auto is_full = [&](const std::string& phase) {
+        const auto limit = settings_.limits.find(phase);
+        return limit != settings_.limits.end() && running[phase] >= limit->second;
+    };
+    std::vector<std::string> full;
+    for (const auto& [phase, limit] : settings_.limits)
+        if (is_full(phase)) full.push_back(phase);
+
+    std::vector<Task> chosen;
+    bool held_back = false;
+    const auto most = static_cast<std::size_t>(std::max<std::int64_t>(cores, 0)) + look_ahead +
+                      in_the_cache_.size();
+    for (Task& task : store_.tasks_to_start(full, most)) {
+        if (leave_to_the_cache(task)) continue;
+        if (held_back || is_full(task.phase)) continue;
+        const bool alone = live_.empty() && chosen.empty();
+        const bool fits = task.resources.cores <= cores &&
+                          (settings_.memory_mb == 0 || task.resources.memory_mb <= memory);
+        held_back = !fits && !alone;
+        if (held_back) continue;
+        take(task);
+        chosen.push_back(std::move(task));
+    }
+    return chosen;
+}
+
+bool Dispatcher::leave_to_the_cache(const Task& task) {
+    if (in_the_cache_.contains(task.id)) return true;
+    if (not_cached_.contains(task.id) || !cache_.may_answer(task)) return false;
+    in_the_cache_.insert(task.id);
+    cache_.examine(task);
+    return true;
+}
+
+/// One commit before the processes are started and one after, for all of them.
+void Dispatcher::start(const std::vector<Task>& tasks) {
+    std::vector<std::int64_t> numbers;
+    reach(Failpoint::claim_before);
+    store_.write([&](Transaction& transaction) {
+        numbers.clear();
+        for (const Task& task : tasks) {
+            const bool claimed = transaction.try_move_task(task.id, TaskEvent::claim).has_value();
+            numbers.push_back(claimed ? transaction.add_attempt(task.id) : 0);  // 0: cancelled
+        }
+    });
+    reach(Failpoint::claim_after);
+    std::vector<Live*> started;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        not_cached_.erase(tasks[i].id);
+        if (numbers[i] == 0) continue;
+        Live& live = attach(tasks[i], numbers[i]);
+        if (!hand_over(live)) continue;
+        const Life life = executor_.probe(live.folder).life;
+        if (life == Life::alive || life == Life::ended) started.push_back(&live);
+    }
+    reach(Failpoint::start_after);
+    note_starts(started);
+    forget_the_ended();
+}
+
+/// Of those that run at once, in one commit.
+void Dispatcher::note_starts(const std::vector<Live*>& started) {
+    if (started.empty()) return;
+    store_.write([&](Transaction& transaction) {
+        for (const Live* live : started) {
+            transaction.move_attempt(live->task.id, live->number, AttemptEvent::submit);
+            transaction.move_task(live->task.id, TaskEvent::start);
+        }
+    });
+    for (Live* live : started) live->submission_noted = live->start_noted = true;
+}
+
+/// False: it cannot be started, which is noted.
+bool Dispatcher::hand_over(Live& live) {
+    const Task& task = live.task;
+    try {
+        const std::filesystem::path scene = data_.scene(task.run);
+        if (!std::filesystem::exists(scene))
+            exchange::publish_text(
+                scene, nlohmann::json::parse(*store_.scene_of(task.run)).dump(2) + "\n");
+        executor_.submit(live.folder, order_for(live));
+    } catch (const std::exception& error) {
+        note_loss(live, std::string("it cannot be started: ") + error.what());
+        return false;
+    }
+    note_latency(task);
+    spdlog::info("{} ({}): attempt {} started", task.id, task.label, live.number);
+    return true;
+}
+
+void Dispatcher::note_latency(const Task& task) {
+    const auto ready_at = store_.ready_at(task.id);
+    if (ready_at) queue_wait_.add(1e-3 * static_cast<double>(epoch_ms() - *ready_at));
+    if (task.release != Release::file_exists) return;
+    std::error_code error;
+    const auto appeared = std::filesystem::last_write_time(
+        data_.output(*store_.task(*task.parent)) / task.input, error);
+    if (error) return;
+    const auto since = std::chrono::file_clock::now() - appeared;
+    snapshot_to_start_.add(std::chrono::duration<double>(since).count());
+}
+
+Order Dispatcher::order_for(const Live& live) const {
+    const Task& task = live.task;
+    std::vector<std::string> arguments{data_.scene(task.run)};
+    if (!task.input.empty()) {
+        const Task parent = *store_.task(*task.parent);
+        arguments.insert(arguments.end(), {"--input", data_.output(parent) / task.input});
+    }
+    arguments.insert(arguments.end(), {"--output", data_.output(task)});
+    for (const std::string& each : task.overrides)
+        arguments.insert(arguments.end(), {"--set", each});
+    arguments.insert(arguments.end(),
+                     {"--progress", "json", "--threads", std::to_string(task.resources.cores)});
+    if (live.number > 1) arguments.emplace_back("--resume");
+    return {.attempt = attempt_id(task.id, live.number),
+            .program = settings_.bin / task.phase,
+            .arguments = std::move(arguments),
+            .grace_seconds = settings_.grace_seconds,
+            .cores = task.resources.cores,
+            .memory_mb = task.resources.memory_mb,
+            .priority = task.priority};
+}
+
+Dispatcher::Live& Dispatcher::attach(const Task& task, std::int64_t number) {
+    const AttemptFolder folder = data_.attempt(task, number);
+    std::error_code error;  // a folder that cannot be made shows when the attempt is started
+    std::filesystem::create_directories(folder.root, error);
+    std::filesystem::create_directories(data_.output(task), error);
+    live_.push_back({.task = task,
+                     .number = number,
+                     .folder = folder,
+                     .attempt_watch = watch_.add(folder.root, Notice::every_change),
+                     .output_watch = watch_.add(data_.output(task), Notice::published_files)});
+    return live_.back();
+}
+
+// ---------------------------------------------------------------- releasing
+
+void Dispatcher::stop_cancelled() {
+    if (live_.empty()) return;
+    for (const Task& task : store_.tasks_in(TaskState::cancelling, live_.size())) {
+        for (Live& live : live_) {
+            if (live.task.id != task.id || live.asked_to_stop) continue;
+            executor_.stop(live.folder, StopReason::cancel);
+            live.asked_to_stop = true;
+        }
+    }
+}
+
+void Dispatcher::release_retries() {
+    for (const std::string& task : store_.due_retries(epoch_ms())) {
+        store_.write([&](Transaction& transaction) {
+            transaction.try_move_task(task, TaskEvent::wait_over);
+        });
+    }
+}
+
+void Dispatcher::settle_children(const std::string& parent_id) {
+    const std::vector<BlockedTask> children = store_.blocked_children(parent_id);
+    if (children.empty()) return;
+    const Task parent = *store_.task(parent_id);
+    const bool succeeded =
+        parent.state == TaskState::succeeded || parent.state == TaskState::cached;
+    // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
+    const std::set<std::string> files = names_in(data_.output(parent));
+    std::vector<std::string> released;
+    std::vector<std::string> skipped;
+    for (const BlockedTask& child : children) {
+        const bool delivered =
+            child.release == Release::file_exists ? files.contains(child.input) : succeeded;
+        if (delivered) {
+            released.push_back(child.id);
+        } else if (is_final(parent.state)) {
+            skipped.push_back(child.id);
+        }
+    }
+    if (released.empty() && skipped.empty()) return;
+    const std::string why =
+        parent.label + " " + std::string(name_of(parent.state)) + " before it gave ";
+    store_.write([&](Transaction& transaction) {
+        for (const std::string& each : released)
+            transaction.try_move_task(each, TaskEvent::release);
+        for (const BlockedTask& child : children) {
+            if (!std::ranges::binary_search(skipped, child.id)) continue;
+            transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
+        }
+    });
+    for (const std::string& each : skipped) settle_children(each);
+}
+
+void Dispatcher::settle_after_registrar() {
+    std::vector<std::string> tasks;
+    std::vector<std::string> looked_up;
+    {
+        const std::lock_guard lock(registered_mutex_);
+        tasks.swap(registered_);
+        looked_up.swap(looked_up_);
+    }
+    for (const std::string& task : tasks) settle_children(task);
+    for (const std::string& task : looked_up) {
+        in_the_cache_.erase(task);
+        if (store_.task(task)->state == TaskState::ready) {
+            not_cached_.insert(task);
+        } else {
+            settle_children(task);
+        }
+    }
+}
+
+}  // namespace breach::orchestrator

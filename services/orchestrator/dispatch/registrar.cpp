@@ -1,0 +1,112 @@
+#include "services/orchestrator/dispatch/registrar.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/exchange/provenance.hpp"
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+/// Everything below the output folder, in order of name.
+std::vector<Artifact> hashed_outputs(const Task& task, const std::filesystem::path& output) {
+    std::vector<Artifact> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(output)) {
+        if (!entry.is_regular_file() || entry.is_symlink()) continue;
+        found.push_back({.task = task.id,
+                         .name = std::filesystem::relative(entry.path(), output).string(),
+                         .sha256 = exchange::sha256_of_file(entry.path()),
+                         .bytes = static_cast<std::int64_t>(entry.file_size())});
+    }
+    std::ranges::sort(found, {}, &Artifact::name);
+    return found;
+}
+
+/// The facts of result.json; its plan and provenance stay in the file.
+json facts_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    json result = json::parse(stream);
+    if (!result.is_object()) throw fault::IoError(file.string() + ": is not a JSON object");
+    result.erase("provenance");
+    result.erase("plan");
+    return result;
+}
+
+}  // namespace
+
+Registrar::Registrar(Store& store, const DataFolder& data,
+                     std::function<void(const std::string&)> done)
+    : store_(store),
+      data_(data),
+      done_(std::move(done)),
+      queue_([this](const Task& task) { return serve(task); }) {}
+
+void Registrar::add(Task task) { queue_.add(std::move(task)); }
+
+Handled Registrar::serve(const Task& task) {
+    try {
+        finalize(task);
+    } catch (const StoreError& error) {
+        spdlog::error("{}: {}; trying again", task.id, error.what());
+        return Handled::again_later;
+    }
+    done_(task.id);
+    return Handled::done;
+}
+
+/// What the task read; the key of the cache needs it. Empty: it reads no file.
+std::string Registrar::input_sha256(const Task& task) const {
+    if (task.input.empty()) return {};
+    return exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
+}
+
+/// The outputs of a task that failed or was stopped can be looked at, too.
+void Registrar::keep_remains(const Task& task) {
+    std::vector<Artifact> artifacts;
+    std::string input;
+    try {
+        input = input_sha256(task);
+        artifacts = hashed_outputs(task, data_.output(task));
+    } catch (const std::exception& error) {
+        spdlog::warn("{}: its outputs cannot be read: {}", task.id, error.what());
+        return;
+    }
+    store_.write(
+        [&](Transaction& transaction) { transaction.keep_remains(task.id, artifacts, input); });
+}
+
+void Registrar::finalize(const Task& task) {
+    if (store_.task(task.id)->state != TaskState::finalizing) return keep_remains(task);
+    const std::filesystem::path output = data_.output(task);
+    json result;
+    std::vector<Artifact> artifacts;
+    std::string trouble;
+    std::string input;
+    try {
+        input = input_sha256(task);
+        result = facts_of(output / "result.json");
+        artifacts = hashed_outputs(task, output);
+    } catch (const json::exception&) {
+        trouble = "the phase ended with exit code 0 but left no readable result.json";
+    } catch (const std::exception& error) {
+        trouble = std::string("the outputs cannot be read: ") + error.what();
+    }
+    reach(Failpoint::outputs_before);
+    store_.write([&](Transaction& transaction) {
+        if (trouble.empty()) {
+            transaction.finish_task(task.id, result, artifacts, input);
+        } else {
+            transaction.fail_task(task.id, TaskEvent::refuse_outputs, {std::nullopt, trouble});
+        }
+    });
+    reach(Failpoint::outputs_after);
+}
+
+}  // namespace breach::orchestrator

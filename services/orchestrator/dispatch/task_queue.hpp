@@ -1,0 +1,34 @@
+// Tasks that a thread of their own works through, in the order of their arrival.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+enum class Handled { done, again_later };
+
+class TaskQueue {
+  public:
+    /// `handle` is called on the queue's thread; a task to be handled `again_later` goes to the
+    /// end, after a pause. An exception that leaves `handle` ends the program.
+    explicit TaskQueue(std::function<Handled(const Task&)> handle);
+
+    void add(Task task);
+
+  private:
+    void serve(std::stop_token stop);
+
+    std::function<Handled(const Task&)> handle_;
+    std::mutex mutex_;
+    std::condition_variable_any arrived_;
+    std::deque<Task> waiting_;
+    std::jthread thread_;  // last: stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

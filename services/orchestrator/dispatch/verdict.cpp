@@ -1,0 +1,39 @@
+#include "services/orchestrator/dispatch/verdict.hpp"
+
+#include <cstring>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+using fault::ExitCode;
+
+Verdict judge(const ExitRecord& record) {
+    const bool ours = record.stopped == StopReason::shutdown;
+    if (!record.exit_code) return ours ? Verdict::interrupted : Verdict::retryable;
+    switch (static_cast<ExitCode>(*record.exit_code)) {
+        case ExitCode::done:
+            return Verdict::well;
+        case ExitCode::try_again:
+            return Verdict::retryable;
+        case ExitCode::interrupted:
+        case ExitCode::terminated:  // a checkpoint was saved, so that going on costs little
+            return ours ? Verdict::interrupted : Verdict::retryable;
+        case ExitCode::usage:
+        case ExitCode::bad_input:
+        case ExitCode::breakdown:
+        case ExitCode::io:
+            break;
+    }
+    return Verdict::badly;
+}
+
+std::string in_words(const ExitRecord& record) {
+    if (record.exit_code) return "exit code " + std::to_string(*record.exit_code);
+    if (record.signal)
+        return "killed by signal " + std::to_string(*record.signal) + " (" +
+               strsignal(*record.signal) + ")";
+    return "no exit code";
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,55 @@
+#include "services/orchestrator/files/data_folder.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+std::filesystem::path made(const std::filesystem::path& root) {
+    std::error_code error;
+    std::filesystem::create_directories(root / "runs", error);
+    if (!error) std::filesystem::create_directories(root / "scratch", error);
+    if (error) throw fault::IoError(root.string() + ": cannot be made: " + error.message());
+    return std::filesystem::canonical(root);
+}
+
+FileLock owned(const std::filesystem::path& root) {
+    // A service that was killed while it started a supervisor leaves the lock to it for a moment.
+    constexpr auto pause = std::chrono::milliseconds(50);
+    for (int i = 0; i < 20; ++i) {
+        auto lock = FileLock::try_take(root / "instance.lock");
+        if (lock) return std::move(*lock);
+        std::this_thread::sleep_for(pause);
+    }
+    throw fault::IoError(
+        root.string() +
+        ": another breachline service is running on this data folder; stop it first, or "
+        "choose another folder with --data");
+}
+
+}  // namespace
+
+DataFolder::DataFolder(const std::filesystem::path& root)
+    : root_(made(root)), lock_(owned(root_)) {}
+
+std::filesystem::path DataFolder::scene(const std::string& run) const {
+    return root_ / "runs" / run / "scene.json";
+}
+
+std::filesystem::path DataFolder::task(const Task& task) const {
+    return root_ / "runs" / task.run / task.label;
+}
+
+std::filesystem::path DataFolder::output(const Task& task) const {
+    return this->task(task) / "output";
+}
+
+AttemptFolder DataFolder::attempt(const Task& task, std::int64_t number) const {
+    return {this->task(task) / "attempts" / std::to_string(number)};
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,53 @@
+// Where the service keeps its files.
+//
+//     <data>/breachline.sqlite         the store
+//     <data>/instance.lock             held by the one service that owns the folder
+//     <data>/runs/<run>/scene.json     the completed scene
+//     <data>/runs/<run>/<label>/output            what the phase writes; all attempts share it
+//                                      (checkpoints)
+//     <data>/runs/<run>/<label>/attempts/fence    held by the one attempt whose phase may run
+//     <data>/runs/<run>/<label>/attempts/<n>/     order.json lock heartbeat stdout.jsonl log.txt
+//                                      exit.json [stop] [slurm.json]
+#pragma once
+
+#include <filesystem>
+
+#include "services/orchestrator/files/file_lock.hpp"
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+/// The files of one attempt.
+struct AttemptFolder {
+    std::filesystem::path root;
+    std::filesystem::path order() const { return root / "order.json"; }
+    std::filesystem::path lock() const { return root / "lock"; }
+    std::filesystem::path lines() const { return root / "stdout.jsonl"; }
+    std::filesystem::path log() const { return root / "log.txt"; }
+    std::filesystem::path exit_record() const { return root / "exit.json"; }
+    std::filesystem::path stop() const { return root / "stop"; }
+    std::filesystem::path heartbeat() const { return root / "heartbeat"; }
+    std::filesystem::path slurm_job() const { return root / "slurm.json"; }
+    /// One for all attempts of the task.
+    std::filesystem::path fence() const { return root.parent_path() / "fence"; }
+};
+
+class DataFolder {
+  public:
+    /// Makes the folder and takes its lock. Throws IoError, naming the folder, when another service
+    /// has it.
+    explicit DataFolder(const std::filesystem::path& root);
+
+    std::filesystem::path database() const { return root_ / "breachline.sqlite"; }
+    std::filesystem::path scene(const std::string& run) const;
+    std::filesystem::path output(const Task& task) const;
+    AttemptFolder attempt(const Task& task, std::int64_t number) const;
+    std::filesystem::path scratch() const { return root_ / "scratch"; }
+
+  private:
+    std::filesystem::path task(const Task& task) const;
+    std::filesystem::path root_;
+    FileLock lock_;
+};
+
+}  // namespace breach::orchestrator

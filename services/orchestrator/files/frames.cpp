@@ -1,0 +1,172 @@
+#include "services/orchestrator/files/frames.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <regex>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/exchange/particle_state.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "the arrays are sent as they lie in memory");
+
+constexpr const char* extension = ".vtkhdf";
+
+std::string kind_of(const std::string& phase) {
+    return phase == "fem_solver" ? "mesh" : "particles";
+}
+
+/// The number at the end of "snapshot_0.500000.vtkhdf". Files without one ("final.vtkhdf") repeat a
+/// numbered frame.
+std::optional<double> time_in(const std::string& name) {
+    static const std::regex number(R"(_([0-9]+(\.[0-9]+)?)\.vtkhdf$)");
+    std::smatch found;
+    if (!std::regex_search(name, found, number)) return std::nullopt;
+    return std::stod(found[1]);
+}
+
+/// The transfer's only frame: the material points at the beginning of their own clock.
+bool is_transferred(const std::string& name) { return name == "particles.vtkhdf"; }
+
+struct Cloud {
+    double time = 0.0;
+    std::vector<std::string> regions, materials;
+    std::vector<float> x, y, speed, epsilon_q, region;
+    std::vector<float> r_u, pore_pressure;  ///< empty when the file has none
+    std::vector<std::uint32_t> quads;
+
+    void add(const mechanics::Vec2& position, const mechanics::Vec2& velocity, double strain,
+             std::int32_t region_index) {
+        x.push_back(static_cast<float>(position[0]));
+        y.push_back(static_cast<float>(position[1]));
+        speed.push_back(static_cast<float>(std::hypot(velocity[0], velocity[1])));
+        epsilon_q.push_back(static_cast<float>(strain));
+        region.push_back(static_cast<float>(region_index));
+    }
+};
+
+template <class Number>
+void append(std::string& bytes, const std::vector<Number>& numbers) {
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+}
+
+std::string packed(const Cloud& cloud) {
+    std::vector<std::pair<std::string, const std::vector<float>*>> fields{
+        {"x", &cloud.x},
+        {"y", &cloud.y},
+        {"speed", &cloud.speed},
+        {"epsilon_q", &cloud.epsilon_q},
+        {"region", &cloud.region}};
+    if (!cloud.r_u.empty()) fields.emplace_back("r_u", &cloud.r_u);
+    if (!cloud.pore_pressure.empty()) fields.emplace_back("pore_pressure", &cloud.pore_pressure);
+    json head{{"time", cloud.time},
+              {"count", cloud.x.size()},
+              {"fields", json::array()},
+              {"regions", cloud.regions},
+              {"materials", cloud.materials}};
+    for (const auto& [name, values] : fields) head["fields"].push_back(name);
+    if (!cloud.quads.empty()) head["quads"] = cloud.quads.size() / 4;
+    std::string bytes = head.dump();
+    while ((bytes.size() + 1) % 4 != 0) bytes += ' ';
+    bytes += '\n';
+    for (const auto& [name, values] : fields) append(bytes, *values);
+    append(bytes, cloud.quads);
+    return bytes;
+}
+
+Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
+    const auto state = exchange::read_particle_state(file).state;
+    Cloud cloud;
+    cloud.time = state.time;
+    cloud.regions = state.regions;
+    cloud.materials = state.materials_of_regions;
+    for (std::size_t p = 0; p < state.size(); p += stride) {
+        cloud.add(state.position[p], state.velocity[p], state.epsilon_q[p], state.region[p]);
+        if (!state.r_u.empty()) cloud.r_u.push_back(static_cast<float>(state.r_u[p]));
+        if (!state.pore_pressure.empty())
+            cloud.pore_pressure.push_back(static_cast<float>(state.pore_pressure[p]));
+    }
+    return cloud;
+}
+
+/// u and r_u = (u - u_0) / sigma'_v0 of a node, where the snapshot has them. Ground without
+/// effective stress before the shaking has no r_u: not a number, which the page draws grey.
+void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh, std::size_t node) {
+    if (mesh.pore_pressure.empty()) return;
+    cloud.pore_pressure.push_back(static_cast<float>(mesh.pore_pressure[node]));
+    if (mesh.sigma_v0.empty()) return;
+    const double rise = mesh.pore_pressure[node] - mesh.pore_pressure_0[node];
+    const double ratio = mesh.sigma_v0[node] > 0.0 ? rise / mesh.sigma_v0[node]
+                                                   : std::numeric_limits<double>::quiet_NaN();
+    cloud.r_u.push_back(static_cast<float>(ratio));
+}
+
+/// Nodes at their displaced places; a node's strain is the mean of its elements' Gauss values, its
+/// region the last one that touches it.
+Cloud nodes_of(const std::filesystem::path& file) {
+    const auto mesh = exchange::read_mesh_snapshot(file).snapshot;
+    const std::size_t n_nodes = mesh.position_0.size();
+    const auto per_element = static_cast<std::size_t>(mesh.gauss_per_element);
+    std::vector<double> strain(n_nodes, 0.0);
+    std::vector<double> touched(n_nodes, 0.0);
+    std::vector<std::int32_t> region(n_nodes, 0);
+    Cloud cloud;
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        double sum = 0.0;
+        for (std::size_t g = 0; g < per_element; ++g) sum += mesh.epsilon_q[e * per_element + g];
+        for (const std::int32_t node : mesh.quads[e]) {
+            const auto i = static_cast<std::size_t>(node);
+            strain[i] += sum / static_cast<double>(per_element);
+            touched[i] += 1.0;
+            region[i] = mesh.region_of_element[e];
+            cloud.quads.push_back(static_cast<std::uint32_t>(node));
+        }
+    }
+    cloud.time = mesh.time;
+    cloud.regions = mesh.regions;
+    cloud.materials = mesh.materials_of_regions;
+    for (std::size_t i = 0; i < n_nodes; ++i) {
+        const mechanics::Vec2 position = mesh.position_0[i] + mesh.displacement[i];
+        cloud.add(position, mesh.velocity[i], strain[i] / std::max(1.0, touched[i]), region[i]);
+        add_water(cloud, mesh, i);
+    }
+    return cloud;
+}
+
+}  // namespace
+
+bool is_frame_name(const std::string& name) {
+    static const std::regex plain(R"([A-Za-z0-9_-][A-Za-z0-9_.-]{0,120}\.vtkhdf)");
+    return std::regex_match(name, plain);
+}
+
+std::vector<Frame> frames_in(const std::filesystem::path& output, const std::string& phase) {
+    std::vector<Frame> frames;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(output, error)) {
+        const std::string name = entry.path().filename();
+        if (entry.path().extension() != extension || !is_frame_name(name)) continue;
+        const auto time = is_transferred(name) ? 0.0 : time_in(name);
+        if (time) frames.push_back({*time, name, kind_of(phase)});
+    }
+    std::ranges::sort(frames, {},
+                      [](const Frame& frame) { return std::pair(frame.time, frame.name); });
+    return frames;
+}
+
+std::string FrameReader::points(const std::filesystem::path& file, const std::string& phase,
+                                std::size_t stride) {
+    const std::lock_guard lock(mutex_);
+    return packed(kind_of(phase) == "mesh" ? nodes_of(file) : particles_of(file, stride));
+}
+
+}  // namespace breach::orchestrator

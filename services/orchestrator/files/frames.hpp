@@ -1,0 +1,50 @@
+// Snapshots of a task as the dashboard draws them: which there are, and their points as flat
+// float32 arrays.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+struct Frame {
+    double time;  ///< from the file's name [s]
+    std::string name;
+    std::string kind;  ///< "particles" or "mesh"
+};
+
+/// Whole snapshot files in a phase's output folder, ascending in time; also while the phase still
+/// writes.
+std::vector<Frame> frames_in(const std::filesystem::path& output, const std::string& phase);
+
+/// A frame's name as it may come from outside: a plain .vtkhdf file name without any path.
+bool is_frame_name(const std::string& name);
+
+/// Reads snapshots for drawing. HDF5's serial library is not safe in two threads: one reader at a
+/// time.
+class FrameReader {
+  public:
+    /// One JSON line padded with spaces to a multiple of 4 bytes, then little-endian float32
+    /// arrays, then the quads of a mesh as uint32 (rest_contract: frames/{name}/points). Every
+    /// stride-th particle; a mesh is never thinned. Throws IoError (the file vanished) or BadInput
+    /// (it is damaged).
+    std::string points(const std::filesystem::path& file, const std::string& phase,
+                       std::size_t stride);
+
+    /// With HDF5 to itself.
+    void alone(const std::function<void()>& work) {
+        const std::lock_guard lock(mutex_);
+        work();
+    }
+
+  private:
+    std::mutex mutex_;
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,22 @@
+// The shapes that the API answers with: records as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/dispatch/progress_board.hpp"
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+nlohmann::json as_json(const Run& run, const ProgressBoard& board);
+nlohmann::json as_json(const Task& task, const std::vector<Attempt>& attempts,
+                       const std::vector<Artifact>& artifacts, const ProgressBoard& board);
+nlohmann::json as_json(const Event& event);
+nlohmann::json as_json(const SweepRow& row);
+nlohmann::json as_json(const std::vector<fault::Fault>& faults);
+
+/// RFC 4180, one line per transfer time, the names of the JSON answer in the first line.
+std::string as_csv(const std::vector<SweepRow>& rows);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,26 @@
+// What the HTTP layer may use of the service.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "services/orchestrator/dispatch/dispatcher.hpp"
+#include "services/orchestrator/dispatch/progress_board.hpp"
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/files/frames.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+struct Service {
+    Store& store;
+    const DataFolder& data;
+    Dispatcher& dispatcher;
+    const ProgressBoard& board;
+    FrameReader& frames;
+    std::filesystem::path bin;        ///< the phase executables
+    std::filesystem::path web;        ///< the dashboard's files
+    std::filesystem::path workflows;  ///< the studies that are shipped, and their scenes
+};
+
+}  // namespace breach::orchestrator

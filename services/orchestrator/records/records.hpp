@@ -1,0 +1,186 @@
+// What the store keeps, as plain data: runs, tasks, attempts, artifacts, events. No behaviour, no
+// SQL.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/records/lifecycle.hpp"
+#include "services/orchestrator/records/trigger.hpp"
+
+namespace breach::orchestrator {
+
+/// What lets a blocked task go: an input file that exists, or a parent that succeeded.
+enum class Release { at_once, file_exists, parent_succeeded };
+
+/// What a phase's result depends on besides its input file; equal recipes give equal results.
+struct Recipe {
+    std::string hash;  ///< SHA-256 of the three below
+    std::string phase;
+    std::int64_t cache_version;
+    std::string part;  ///< of the completed scene, as far as the phase reads it, JSON
+};
+
+/// What a task occupies while it runs.
+struct Resources {
+    std::int64_t cores = 1;
+    std::int64_t memory_mb = 0;
+};
+
+/// A task before it is stored: one phase execution in a study's graph.
+struct TaskPlan {
+    std::string phase;                    ///< executable: "fem_solver", ...
+    std::string label;                    ///< unique in the run; its folder's name
+    std::optional<double> transfer_time;  ///< t_T [s]
+    std::optional<std::size_t> parent;  ///< index in the plan of the task whose output is the input
+    Release release = Release::at_once;
+    std::string input;                   ///< file name in the parent's output folder; empty: none
+    std::vector<std::string> overrides;  ///< "/json/pointer=value" beside those of the study
+    std::string variant = {};            ///< empty: serves all variants
+    Resources resources = {};
+    std::string recipe = {};  ///< hash of one of the run's recipes; empty: never reused
+};
+
+struct NewRun {
+    std::string id;
+    std::string name;
+    std::string title;
+    std::string study;  ///< the completed study without its scene, JSON
+    std::string scene;  ///< the completed scene, JSON
+    std::vector<TaskPlan> tasks;
+    std::vector<Recipe> recipes = {};
+    std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
+    std::string firing_plan = {};            ///< tasks of one more transfer, JSON (graph.hpp)
+    std::int64_t priority = 0;               ///< higher goes first
+    bool sweep = false;                      ///< several points, or asked for as a sweep
+};
+
+struct Run {
+    std::string id;
+    std::string name;
+    std::string title;
+    std::string
+        state;  ///< derived from the tasks: queued running succeeded partial failed cancelled
+    std::string created;
+    std::optional<std::string> started;
+    std::optional<std::string> finished;
+    std::int64_t tasks_total = 0;
+    std::int64_t tasks_done = 0;    ///< succeeded or cached
+    std::int64_t tasks_ended = 0;   ///< in a final state, good or bad
+    std::int64_t tasks_failed = 0;  ///< failed or skipped
+    std::string message;            ///< why it is not simply fine
+    bool paused = false;            ///< nothing new of it is started
+};
+
+/// Which runs a list shows: newest first, after the place where the last page ended.
+struct RunFilter {
+    std::optional<std::string> state;
+    std::optional<std::string> name;
+    std::optional<std::pair<std::string, std::string>> before;  ///< (created, id)
+    bool sweeps_only = false;
+};
+
+/// Why a task failed or was skipped.
+struct TaskFault {
+    std::optional<std::int64_t> exit_code;
+    std::string summary;
+};
+
+struct Task {
+    std::string id;
+    std::string run;
+    std::string phase;
+    std::string label;
+    std::optional<double> transfer_time;
+    TaskState state;
+    std::optional<std::string> parent;
+    Release release;
+    std::string input;
+    std::vector<std::string> overrides;
+    std::int64_t tries = 0;  ///< attempts that ended by the task's own fault
+    std::optional<std::string> started;
+    std::optional<std::string> finished;
+    std::optional<nlohmann::json> result;
+    std::optional<TaskFault> fault;
+    std::string variant;
+    Resources resources;
+    std::optional<std::string> recipe;
+    std::optional<std::string> input_sha256;   ///< known once it succeeded
+    std::optional<std::string> same_as;        ///< the task whose result it took
+    std::optional<std::string> cache_refusal;  ///< why a fitting entry of the cache was not served
+    std::int64_t priority = 0;
+};
+
+/// As much of a blocked task as its release needs.
+struct BlockedTask {
+    std::string id;
+    Release release;
+    std::string input;
+};
+
+struct Attempt {
+    std::string task;
+    std::int64_t number;
+    AttemptState state;
+    std::string created;
+    std::optional<std::string> started;
+    std::optional<std::string> finished;
+    std::optional<std::int64_t> exit_code;
+    std::optional<std::int64_t> signal;
+    std::optional<double> wall_seconds;
+    std::optional<double> cpu_seconds;
+};
+
+struct Artifact {
+    std::string task;
+    std::string name;  ///< path below the task's output folder
+    std::string sha256;
+    std::int64_t bytes;
+};
+
+struct Event {
+    std::int64_t seq;
+    std::string time;
+    std::string run;
+    std::optional<std::string> task;
+    std::string kind;  ///< "run", "task", "attempt"
+    nlohmann::json detail;
+};
+
+/// One row of the sweep's table. Numbers are absent until the runout is done.
+struct SweepRow {
+    std::string variant;  ///< empty: the study has none
+    double transfer_time;
+    std::string state;
+    std::optional<double> runout;
+    std::optional<double> runout_beyond_toe;
+    std::optional<double> runout_largest;
+    std::optional<double> volume_ratio;
+    std::optional<double> numerical_share;  ///< energy made or lost by the numerics [-]
+    std::optional<double> overlap;          ///< area of soil that lies in other soil, of all [-]
+    std::optional<double> cpu_seconds;
+    bool reused = false;  ///< taken from an earlier, equal task
+    std::string reason;
+    std::string transfer_task;
+    std::string mpm_task;
+    std::string trigger = "at_time";  ///< names of those that made the transfer
+};
+
+/// A firing and how long it took from the line that met its trigger [ms].
+struct FiringRow {
+    Firing firing;
+    std::int64_t fired_ms;                 ///< to the stored firing
+    std::optional<std::int64_t> start_ms;  ///< to the start of the transfer's process
+};
+
+/// What a bisect knows of one of its transfers.
+struct Sample {
+    double transfer_time;
+    bool ended;
+    std::optional<double> runout;  ///< empty when it failed
+};
+
+}  // namespace breach::orchestrator

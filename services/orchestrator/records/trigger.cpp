@@ -1,0 +1,209 @@
+#include "services/orchestrator/records/trigger.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace breach::orchestrator {
+
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+using S = TriggerState;
+using E = TriggerEvent;
+
+struct TriggerRule {
+    S from;
+    E event;
+    S to;
+};
+
+constexpr std::array table{
+    TriggerRule{S::armed, E::cross, S::holding},    TriggerRule{S::armed, E::fire, S::fired},
+    TriggerRule{S::armed, E::expire, S::expired},   TriggerRule{S::armed, E::disarm, S::disarmed},
+    TriggerRule{S::holding, E::uncross, S::armed},  TriggerRule{S::holding, E::fire, S::fired},
+    TriggerRule{S::holding, E::expire, S::expired}, TriggerRule{S::holding, E::disarm, S::disarmed},
+};
+constexpr std::array<std::string_view, 5> states{"armed", "holding", "fired", "expired",
+                                                 "disarmed"};
+constexpr std::array<std::string_view, 5> events{"cross", "uncross", "fire", "expire", "disarm"};
+
+constexpr double default_within_share = 0.05;    // of the dynamic stages
+constexpr double default_window_shares = 100.0;  // snapshots over the dynamic stages
+
+/// The entries a kind must and may have, besides "kind" and "name".
+struct KindRule {
+    std::string_view kind;
+    std::vector<std::string> needs;
+    std::vector<std::string> takes;
+};
+
+const std::vector<KindRule>& kind_rules() {
+    static const std::vector<KindRule> rules{
+        {"at_time", {"times"}, {}},
+        {"manual", {}, {"within_s"}},
+        {"criterion", {"when"}, {"hold_s", "within_s", "snapshot_interval_s"}},
+        {"window", {"lower", "upper"}, {"hold_s", "pick", "snapshot_interval_s", "within_s"}},
+        {"bisect", {}, {"share", "tolerance_s", "from", "to", "seeds", "most_runs"}}};
+    return rules;
+}
+
+void check_entries(const json& entry, const KindRule& rule, const std::string& pointer,
+                   std::vector<Fault>& faults) {
+    for (const std::string& each : rule.needs) {
+        if (!entry.contains(each))
+            faults.push_back({pointer + "/" + each,
+                              "a trigger of kind \"" + std::string(rule.kind) + "\" needs this",
+                              "add \"" + each + "\""});
+    }
+    for (const auto& [key, value] : entry.items()) {
+        const auto in = [&](const std::vector<std::string>& list) {
+            return std::ranges::find(list, key) != list.end();
+        };
+        if (key == "kind" || key == "name" || in(rule.needs) || in(rule.takes)) continue;
+        faults.push_back({pointer + "/" + key,
+                          "has no meaning in a trigger of kind \"" + std::string(rule.kind) + "\"",
+                          "remove it"});
+    }
+}
+
+void check_condition(const json& spec, const char* key, const std::string& pointer,
+                     std::vector<Fault>& faults) {
+    if (!spec.contains(key)) return;
+    try {
+        criteria::parse(spec[key].get<std::string>(), criteria::Kind::condition,
+                        pointer + "/" + key, telemetry_fields());
+    } catch (const fault::BadInput& error) {
+        faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+}
+
+/// What was left out, so that the stored trigger says all it means.
+json completed(json spec, double span) {
+    const std::string kind = spec["kind"];
+    const auto otherwise = [&](const char* key, const json& value) {
+        if (!spec.contains(key)) spec[key] = value;
+    };
+    if (kind != "bisect") otherwise("within_s", default_within_share * span);
+    if (kind == "criterion" || kind == "window") otherwise("hold_s", 0.0);
+    if (kind == "window") {
+        otherwise("pick", "midpoint");
+        otherwise("snapshot_interval_s", span / default_window_shares);
+    }
+    if (kind == "bisect") {
+        otherwise("share", 0.75);
+        otherwise("tolerance_s", span / default_window_shares);
+        otherwise("from", 0.0);
+        otherwise("to", span);
+        otherwise("seeds", 4);
+        otherwise("most_runs", 100);
+    }
+    return spec;
+}
+
+criteria::Expression condition(const json& spec, const char* key) {
+    return criteria::parse(spec.at(key).get<std::string>(), criteria::Kind::condition, "");
+}
+
+}  // namespace
+
+std::optional<TriggerState> next(TriggerState from, TriggerEvent event) {
+    const auto found = std::ranges::find_if(
+        table, [&](const TriggerRule& rule) { return rule.from == from && rule.event == event; });
+    if (found == table.end()) return std::nullopt;
+    return found->to;
+}
+
+bool is_final(TriggerState state) { return state != S::armed && state != S::holding; }
+std::string_view name_of(TriggerState state) { return states[static_cast<std::size_t>(state)]; }
+std::string_view name_of(TriggerEvent event) { return events[static_cast<std::size_t>(event)]; }
+
+TriggerState trigger_state_named(std::string_view name) {
+    return static_cast<TriggerState>(std::ranges::find(states, name) - states.begin());
+}
+
+const std::vector<std::string>& telemetry_fields() {
+    static const std::vector<std::string> fields{
+        "step",
+        "time",
+        "dt",
+        "iterations",
+        "residual",
+        "crest_displacement",
+        "crest_dx",
+        "crest_dy",
+        "kinetic_energy",
+        "external_work",
+        "internal_work",
+        "jacobian_ratio_avg",
+        "jacobian_ratio_min",
+        "jacobian_centre_avg",
+        "jacobian_least_avg",
+        "jacobian_least_min",
+        "epsilon_q_avg",
+        "epsilon_q_max",
+        "strained_share",
+        "softened_share",
+        "liquefaction_depth",
+        "failure_surfaces",
+        "r_u_max",
+        "critical_depth",  // not of the FEM: the stability analysis of the same run
+    };
+    return fields;
+}
+
+Work work_of(const TriggerPlan& plan) {
+    const json& spec = plan.spec;
+    if (plan.kind == "manual") return Manual{spec.value("after", 0.0)};
+    if (plan.kind == "criterion")
+        return When{criteria::Criterion(condition(spec, "when"), spec.at("hold_s"))};
+    if (plan.kind == "window") {
+        return Between{
+            criteria::Window(condition(spec, "lower"), condition(spec, "upper"), spec.at("hold_s")),
+            *criteria::pick_named(spec.at("pick").get<std::string>())};
+    }
+    return Bisect{.share = spec.at("share"),
+                  .tolerance = spec.at("tolerance_s"),
+                  .from = spec.at("from"),
+                  .to = spec.at("to"),
+                  .seeds = spec.at("seeds"),
+                  .most_runs = spec.at("most_runs")};
+}
+
+CheckedTriggers check_triggers(const json& entries, double span, const std::string& pointer,
+                               std::vector<Fault>& faults) {
+    CheckedTriggers checked;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::string at = pointer + "/" + std::to_string(i);
+        const json& entry = entries[i];
+        const std::string kind = entry.at("kind");
+        const std::size_t before = faults.size();
+        check_entries(entry, *std::ranges::find(kind_rules(), kind, &KindRule::kind), at, faults);
+        for (const char* key : {"when", "lower", "upper"}) check_condition(entry, key, at, faults);
+        std::string name = entry.value("name", kind + "_" + std::to_string(i + 1));
+        if (!names.insert(name).second)
+            faults.push_back({at + "/name", "the name \"" + name + "\" is given twice",
+                              "give each trigger a name of its own"});
+        if (faults.size() > before) continue;
+        if (kind == "at_time") {
+            checked.at_time.push_back(entry["times"]);
+            continue;
+        }
+        json spec = completed(entry, span);
+        if (kind == "bisect" && spec["to"] <= spec["from"])
+            faults.push_back({at + "/to", "the range ends before it begins", "give to > from"});
+        const double wanted =
+            spec.value(kind == "bisect" ? "tolerance_s" : "snapshot_interval_s", 0.0);
+        if (wanted > 0.0)
+            checked.snapshot_interval = checked.snapshot_interval > 0.0
+                                            ? std::min(checked.snapshot_interval, wanted)
+                                            : wanted;
+        checked.live.push_back({std::move(name), kind, std::move(spec)});
+    }
+    return checked;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,54 @@
+#include "services/orchestrator/study/plan_question.hpp"
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "core/exchange/publish.hpp"
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/executors/command.hpp"
+#include "services/orchestrator/records/identity.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+constexpr auto longest_answer = std::chrono::seconds(20);
+
+constexpr std::array<std::pair<const char*, const char*>, 4> phases_by_part{
+    {{"lem", "lem_tool"},
+     {"fem", "fem_solver"},
+     {"transfer", "transfer_tool"},
+     {"mpm", "mpm_solver"}}};
+
+/// What the program prints until it ends.
+std::string answer_of(const std::filesystem::path& program, const std::filesystem::path& scene) {
+    const CommandResult result =
+        run_command({program.string(), scene.string(), "--plan"}, "", longest_answer);
+    if (result.exit_code != 0)
+        throw fault::IoError(program.filename().string() + " --plan did not answer");
+    return result.out;
+}
+
+struct ScratchFile {
+    std::filesystem::path path;
+    ~ScratchFile() {
+        std::error_code error;
+        std::filesystem::remove(path, error);
+    }
+};
+
+}  // namespace
+
+nlohmann::json plans_of(const nlohmann::json& scene, const std::filesystem::path& bin,
+                        const std::filesystem::path& scratch) {
+    const ScratchFile file{scratch / (new_run_id() + ".json")};
+    exchange::publish_text(file.path, scene.dump());
+    nlohmann::json plans = nlohmann::json::object();
+    for (const auto& [part, phase] : phases_by_part) {
+        if (scene.contains(part)) plans[phase] = answer_of(bin / phase, file.path);
+    }
+    return plans;
+}
+
+}  // namespace breach::orchestrator

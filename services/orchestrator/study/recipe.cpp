@@ -1,0 +1,131 @@
+#include "services/orchestrator/study/recipe.hpp"
+
+#include <cassert>
+#include <map>
+
+#include "core/exchange/provenance.hpp"
+#include "core/fault/fault.hpp"
+#include "core/scene/file_paths.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+enum class Regions { whole, names_and_materials };
+enum class Materials {
+    of_regions,  ///< those that a region is made of
+    all,         ///< also those that soil becomes in the transfer
+};
+
+struct Reading {
+    std::int64_t version;  ///< raised when the phase's numbers change for the same input
+    std::vector<std::string> parts;
+    Materials materials;
+    Regions regions;
+};
+
+const std::map<std::string, Reading> readings{
+    {"lem_tool", {1, {"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
+    {"fem_solver", {3, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    {"transfer_tool",
+     {2,
+      {"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
+       "/mpm/right", "/mpm/floor", "/mpm/terrain", "/mpm/kernel", "/mpm/gimp_half_size"},
+      Materials::all,
+      Regions::names_and_materials}},
+    {"mpm_solver",
+     {3, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
+};
+
+json materials_part(const json& scene, Materials wanted) {
+    if (wanted == Materials::all) return scene.at("materials");
+    json used = json::object();
+    for (const json& each : scene.at("section").at("regions")) {
+        const std::string& name = each.at("material").get_ref<const std::string&>();
+        used[name] = scene.at("materials").at(name);
+    }
+    return used;
+}
+
+json section_part(const json& scene, Regions wanted) {
+    if (wanted == Regions::whole) return scene.at("section");
+    json regions = json::array();
+    for (const json& each : scene.at("section").at("regions"))
+        regions.push_back({{"name", each.at("name")}, {"material", each.at("material")}});
+    return {{"regions", std::move(regions)}};
+}
+
+json content_of(const std::string& file) {
+    try {
+        return {{"sha256", exchange::sha256_of_file(file)}};
+    } catch (const fault::IoError&) {
+        return file;  // the phase will say what is wrong with it; such a failure is never reused
+    }
+}
+
+std::string escaped(const std::string& key) {
+    std::string text;
+    for (const char each : key) {
+        if (each == '~')
+            text += "~0";
+        else if (each == '/')
+            text += "~1";
+        else
+            text += each;
+    }
+    return text;
+}
+
+void collect(const json& a, const json& b, const std::string& at, std::vector<std::string>& found) {
+    if (a == b) return;
+    if (a.is_object() && b.is_object()) {
+        for (const auto& [key, value] : a.items()) {
+            if (b.contains(key)) {
+                collect(value, b.at(key), at + "/" + escaped(key), found);
+            } else {
+                found.push_back(at + "/" + escaped(key));
+            }
+        }
+        for (const auto& [key, value] : b.items())
+            if (!a.contains(key)) found.push_back(at + "/" + escaped(key));
+        return;
+    }
+    if (a.is_array() && b.is_array() && a.size() == b.size()) {
+        for (std::size_t i = 0; i < a.size(); ++i)
+            collect(a[i], b[i], at + "/" + std::to_string(i), found);
+        return;
+    }
+    found.push_back(at);
+}
+
+}  // namespace
+
+Recipe recipe_of(const std::string& phase, const json& scene) {
+    const Reading& reading = readings.at(phase);
+    json part{{"section", section_part(scene, reading.regions)},
+              {"materials", materials_part(scene, reading.materials)}};
+    for (const std::string& each : reading.parts) {
+        const json::json_pointer at(each);
+        if (scene.contains(at)) part[at] = scene.at(at);
+    }
+    for (const std::string& key : scene::file_entries) {
+        const json::json_pointer at(key);
+        if (part.contains(at) && part[at].is_string())
+            part[at] = content_of(part[at].get<std::string>());
+    }
+    Recipe recipe{
+        .hash = {}, .phase = phase, .cache_version = reading.version, .part = part.dump()};
+    recipe.hash = exchange::sha256_of_text(phase + "\n" + std::to_string(reading.version) + "\n" +
+                                           recipe.part);
+    return recipe;
+}
+
+std::vector<std::string> differences(const json& a, const json& b) {
+    std::vector<std::string> found;
+    collect(a, b, "", found);
+    return found;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,25 @@
+// What a phase's result depends on: the phase, the version of its numerics, and the part of the
+// completed scene that it reads. Together with the SHA-256 of its input file this is the key of the
+// cache. Never in it: threads, paths, names, titles, program versions.
+//
+//     lem_tool       /gravity /materials /section /lem
+//     fem_solver     /gravity /thickness /materials /section /fem    (with all snapshot times: the
+//                    FEM's steps end on them); and the bytes of /fem/msh_file and
+//                    /fem/motion/file
+//     transfer_tool  /gravity /materials /transfer, names and materials of /section/regions
+//     mpm_solver     /gravity /thickness /materials /mpm, names and materials of /section/regions
+//                    (the shapes come with the particles)
+#pragma once
+
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+/// `scene`: completed, all overrides applied. A file that cannot be read stands for its name.
+Recipe recipe_of(const std::string& phase, const nlohmann::json& scene);
+
+/// Pointers at which two JSON values differ, deepest first found in order of the keys: an array of
+/// another length differs as a whole.
+std::vector<std::string> differences(const nlohmann::json& a, const nlohmann::json& b);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,50 @@
+// A study at the door: checked whole, its scene completed and made immutable, its transfer times a
+// plain list.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+/// The scene with these changes; each variant is run at every transfer time.
+struct Variant {
+    std::string name;  ///< empty: the study has no variants, this is the scene itself
+    std::vector<std::string> overrides;
+    nlohmann::json scene;  ///< completed
+};
+
+struct Study {
+    std::string name;
+    std::string title;
+    nlohmann::json document;                     ///< completed, without the scene
+    nlohmann::json scene;                        ///< completed, overrides applied
+    bool stability = false;                      ///< run lem_tool
+    std::vector<double> transfer_times;          ///< ascending, distinct, in whole microseconds [s]
+    std::vector<Variant> variants;               ///< at least one
+    std::map<std::string, Resources> resources;  ///< by phase
+    std::int64_t priority = 0;
+    bool reuse = true;                  ///< equal earlier results may be taken
+    std::vector<TriggerPlan> triggers;  ///< those that watch the FEM
+    double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]
+};
+
+/// Stands in a firing plan for the time that is not known yet.
+inline constexpr double open_time = -1.0;
+inline constexpr std::string_view open_time_text = "-1.000000";
+
+/// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
+Study read_study(std::string_view text);
+
+/// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
+nlohmann::json read_whole_scene(std::string_view text);
+
+/// "0.500000": how a time is spelt in snapshot and task names.
+std::string spelt(double time);
+
+}  // namespace breach::orchestrator

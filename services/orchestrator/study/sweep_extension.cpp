@@ -1,0 +1,91 @@
+#include "services/orchestrator/study/sweep_extension.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/study/graph.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+/// The study as it was submitted, with these times.
+Study study_with(const Store& store, const std::string& run, const json& times) {
+    json document = *store.study_of(run);
+    document["scene"] = json::parse(*store.scene_of(run));
+    document["transfer_times"] = times;
+    return read_study(document.dump());
+}
+
+bool contains(const std::vector<double>& times, std::optional<double> time) {
+    return time && std::ranges::find(times, *time) != times.end();
+}
+
+/// "fem_2": the first of this stem that the run does not have.
+std::string free_label(const std::map<std::string, Task>& present, const std::string& stem) {
+    int number = 2;
+    while (present.contains(stem + "_" + std::to_string(number))) ++number;
+    return stem + "_" + std::to_string(number);
+}
+
+}  // namespace
+
+Extension plan_extension(const Store& store, const DataFolder& data, const std::string& run,
+                         const json& wanted) {
+    std::map<std::string, Task> present;
+    std::vector<double> known;
+    for (Task& each : store.tasks_of(run)) {
+        if (each.phase == "transfer_tool") known.push_back(*each.transfer_time);
+        std::string label = each.label;
+        present.emplace(std::move(label), std::move(each));
+    }
+    Extension extension;
+    for (const double time : study_with(store, run, wanted).transfer_times)
+        if (!contains(known, time)) extension.times.push_back(time);
+    std::vector<double> all = known;
+    all.insert(all.end(), extension.times.begin(), extension.times.end());
+    std::ranges::sort(all);
+    const auto repeated = std::ranges::unique(all);  // variants
+    all.erase(repeated.begin(), repeated.end());
+
+    const Study study = study_with(store, run, all);
+    extension.study = study.document;
+    TaskGraph graph = plan_tasks(study);
+    extension.recipes = std::move(graph.recipes);
+    const auto has_snapshots = [&](const Task& fem) {
+        return std::ranges::all_of(extension.times, [&](double time) {
+            return std::filesystem::exists(data.output(fem) / snapshot_name(time));
+        });
+    };
+    std::map<std::size_t, std::size_t> added;     // place in the list, by place in the graph
+    std::map<std::size_t, std::string> existing;  // task id, by place in the graph
+    for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+        TaskPlan& plan = graph.tasks[i];
+        const auto same = present.find(plan.label);
+        const bool fem_again = plan.phase == "fem_solver" && same != present.end() &&
+                               !extension.times.empty() && !has_snapshots(same->second);
+        if (same != present.end() && !fem_again) {
+            existing[i] = same->second.id;
+            continue;
+        }
+        if (fem_again) plan.label = free_label(present, plan.label);
+        AddedTask task{.plan = std::move(plan), .parent = std::nullopt};
+        if (task.plan.parent) {
+            const auto known_parent = existing.find(*task.plan.parent);
+            if (known_parent != existing.end()) {
+                task.parent = known_parent->second;
+                task.plan.parent.reset();
+            } else {
+                task.plan.parent = added.at(*task.plan.parent);
+            }
+        }
+        added[i] = extension.tasks.size();
+        extension.tasks.push_back(std::move(task));
+    }
+    return extension;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,54 @@
+// The chapters of a run's report, each from the files of its phases. A chapter that a run cannot
+// fill is left out, and why is noted; so is each figure.
+#pragma once
+
+#include "services/report/chart/document.hpp"
+#include "services/report/read/measures.hpp"
+#include "services/report/read/paper.hpp"
+#include "services/report/read/run_folder.hpp"
+
+namespace breach::report {
+
+/// What the reader chose.
+struct Choice {
+    std::vector<double> snapshot_times;  ///< of contours and meshes [s]; empty: four over the run
+    std::vector<double> transfer_times;  ///< of geometries [s]; empty: half and full runout
+    std::filesystem::path motion;        ///< file; empty: where the scene says
+    std::vector<std::filesystem::path>
+        companions;                       ///< other runs whose variants belong to this one
+    std::filesystem::path element_tests;  ///< folder of fem_solver element-test; empty: none
+};
+
+/// All that chapters read.
+struct Material {
+    const Run& run;
+    const std::optional<Paper>& paper;
+    const Measures& measures;
+    const Choice& choice;
+};
+
+/// The runouts of the first variant that are looked at closely: those nearest to the wanted
+/// transfer times; without any, the one nearest to half of the largest runout, and the largest.
+std::vector<const PhaseFolder*> chosen_runouts(const Material& from);
+/// "t_T = 13 s, softened".
+std::string of_transfer(const PhaseFolder& phase);
+/// A fact of a result as text, divided by `unit`; "-" when it is not there. Pointer:
+/// "/energy/numerical/share".
+std::string fact(const nlohmann::json& result, const std::string& pointer, double unit = 1.0);
+
+/// The section before anything moved.
+Series section_at_rest(const nlohmann::json& scene);
+
+void add_stability(const Material& from, Document& document);
+void add_element_tests(const Material& from, Document& document);
+void add_motion(const Material& from, Document& document);
+void add_shaking(const Material& from, Document& document);
+void add_mesh(const Material& from, Document& document);
+void add_transfer(const Material& from, Document& document);
+void add_runout(const Material& from, Document& document);
+void add_flow(const Material& from, Document& document);
+void add_ground(const Material& from, Document& document);
+void add_variants(const Material& from, Document& document);
+void add_numbers(const Material& from, Document& document);
+
+}  // namespace breach::report

@@ -1,0 +1,120 @@
+// The motion as the FEM took it: acceleration, velocity, Arias intensity.
+#include <cmath>
+#include <numbers>
+
+#include "core/motion/read_motion.hpp"
+#include "services/report/chapters/chapters.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double g = motion::standard_gravity;
+
+/// A motion on the disk, and whether the FEM has already scaled and corrected it.
+struct Found {
+    std::filesystem::path file;
+    enum class As { applied, recorded } as;
+};
+
+/// What the FEM kept; of an older run what the reader gives, or what lies beside the run's files
+/// where the scene says.
+std::optional<Found> motion_file(const Material& from, const PhaseFolder& fem,
+                                 const std::string& named) {
+    const std::filesystem::path kept = fem.files / "motion.csv";
+    if (std::filesystem::is_regular_file(kept)) return Found{kept, Found::As::applied};
+    if (!from.choice.motion.empty()) return Found{from.choice.motion, Found::As::recorded};
+    const std::filesystem::path file(named);
+    for (const auto& each : {fem.files / file, fem.files / file.filename()}) {
+        if (std::filesystem::is_regular_file(each)) return Found{each, Found::As::recorded};
+    }
+    return {};
+}
+
+/// Acceleration as the scene scales it; a recorded velocity is not differentiated.
+std::optional<motion::Series> acceleration_of(const motion::Recording& recording, Found::As as,
+                                              const json& wanted) {
+    if (recording.quantity != motion::Quantity::acceleration) return {};
+    if (as == Found::As::applied) return recording.series;
+    motion::Series a = recording.series;
+    if (wanted.value("baseline", "") == "corrected") a = motion::base_corrected(std::move(a));
+    if (wanted.contains("scale_to_pga_g")) {
+        a = motion::scaled_to_peak(std::move(a), wanted.at("scale_to_pga_g").get<double>() * g);
+    }
+    return a;
+}
+
+Figure figure_of(const std::string& name, const std::string& title, const std::string& label,
+                 const motion::Series& series, double unit) {
+    Series s{title, {}, {}};
+    for (std::size_t k = 0; k < series.values.size(); ++k) {
+        s.x.push_back(static_cast<double>(k) * series.dt);
+        s.y.push_back(series.values[k] / unit);
+    }
+    return {name, {title, {"time [s]"}, {label}, {s}}, "From below the mesh, horizontal."};
+}
+
+Figure velocity_figure(const motion::Series& v) {
+    return figure_of("motion_velocity", "Velocity", "velocity [cm/s]", v, 0.01);
+}
+
+/// pi / (2 g) times the integral of a^2 up to each time.
+motion::Series arias_course(const motion::Series& a) {
+    motion::Series squares = a;
+    for (double& each : squares.values) each *= each * std::numbers::pi / (2.0 * g);
+    return motion::integral(squares);
+}
+
+std::string facts_of(const motion::Series& a) {
+    const motion::StrongPart strong = motion::strong_part(a);
+    return "PGA " + rounded(motion::peak(a) / g, 3) + " g, PGV " +
+           rounded(100.0 * motion::peak(motion::integral(a)), 3) + " cm/s, Arias intensity " +
+           rounded(motion::arias_intensity(a), 3) + " m/s, strong shaking (5 to 95 % of it) from " +
+           rounded(strong.begin, 3) + " to " + rounded(strong.end, 3) + " s.";
+}
+
+std::vector<Figure> figures_of(const motion::Series& a) {
+    return {figure_of("motion_acceleration", "Acceleration", "acceleration [g]", a, g),
+            velocity_figure(motion::integral(a)),
+            figure_of("motion_arias", "Arias intensity", "Arias intensity [m/s]", arias_course(a),
+                      1.0)};
+}
+
+}  // namespace
+
+void add_motion(const Material& from, Document& document) {
+    const std::string what = "acceleration, velocity and Arias intensity of the motion";
+    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
+    const json wanted =
+        fem && fem->scene.contains("fem") ? fem->scene.at("fem").value("motion", json()) : json();
+    if (!wanted.is_object()) {
+        document.left_out.push_back({what, "the scene has no motion (/fem/motion)"});
+        return;
+    }
+    const std::string named = wanted.at("file");
+    const auto found = motion_file(from, *fem, named);
+    if (!found) {
+        document.left_out.push_back(
+            {what, "the run's folder does not hold " + named + "; give it with --motion"});
+        return;
+    }
+    const motion::Recording recording = motion::read_motion(found->file);
+    const std::string name = std::filesystem::path(named).filename();
+    Chapter chapter{"Motion"};
+    if (const auto a = acceleration_of(recording, found->as, wanted)) {
+        chapter.text = name + ", as the FEM took it: " + facts_of(*a);
+        chapter.figures = figures_of(*a);
+    } else {
+        chapter.text = name + ", a velocity: PGV " +
+                       rounded(100.0 * motion::peak(recording.series), 3) + " cm/s.";
+        chapter.figures = {velocity_figure(recording.series)};
+        document.left_out.push_back(
+            {"acceleration and Arias intensity of the motion",
+             "the scene gives its velocity (" + found->file.string() + ")"});
+    }
+    document.chapters.push_back(std::move(chapter));
+}
+
+}  // namespace breach::report

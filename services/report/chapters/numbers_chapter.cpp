@@ -1,0 +1,141 @@
+// Every number of the run with its settings, what is known of its error, and what it cost.
+#include <algorithm>
+#include <cmath>
+
+#include "services/report/chapters/chapters.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+
+namespace {
+
+/// The overrides that the phase was given, without those that only say when to write.
+std::string settings_of(const PhaseFolder& phase) {
+    const json::json_pointer at("/provenance/overrides");
+    if (!phase.result.is_object() || !phase.result.contains(at)) return "";
+    std::string text;
+    for (const json& each : phase.result.at(at)) {
+        const std::string override = each;
+        if (override.starts_with("/fem/snapshot_")) continue;
+        text += (text.empty() ? "" : "; ") + override;
+    }
+    return text.empty() ? "as in the scene" : text;
+}
+
+/// A column of a table: its head, where the number is in result.json, and its unit in SI.
+struct Column {
+    std::string head;
+    std::string pointer;
+    double unit = 1.0;
+};
+
+Table table_of(const Run& run, const std::string& phase, const std::string& title,
+               const std::vector<Column>& columns, const std::string& caption) {
+    Table table{"numbers_" + phase, title, {"run", "t_T [s]", "variant"}, {}, caption};
+    for (const Column& each : columns) table.columns.push_back(each.head);
+    table.columns.insert(table.columns.end(), {"settings", "CPU [s]", "how it ended"});
+    for (const PhaseFolder* each : phases_named(run, phase)) {
+        std::vector<std::string> row = {
+            each->label, each->transfer_time ? short_number(*each->transfer_time) : "-",
+            each->variant.empty() ? "all" : each->variant};
+        for (const Column& column : columns) {
+            row.push_back(fact(each->result, column.pointer, column.unit));
+        }
+        row.insert(row.end(), {settings_of(*each), fact(each->result, "/cpu_seconds"),
+                               each->fault.empty() ? "well" : each->fault});
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+/// Relative differences of the transfers' ledgers over the whole section: one row per transfer, one
+/// column per quantity.
+Table ledger(const Run& run) {
+    Table table{"numbers_transfer_ledger",
+                "What the transfers lost or made",
+                {"run", "t_T [s]"},
+                {},
+                "Relative differences, points minus mesh, over the whole section: the transfer's "
+                "error. What is of the nodes was the FEM's lumped mass times its nodal velocity; "
+                "its kinetic energy counts velocities that change within an element as they are "
+                "at its corners."};
+    for (const PhaseFolder* each : phases_named(run, "transfer_tool")) {
+        if (!each->result.is_object() || !each->result.contains("ledger")) continue;
+        std::vector<std::string> row = {
+            each->label, each->transfer_time ? short_number(*each->transfer_time) : "-"};
+        const bool first = table.rows.empty();
+        for (const json& kept : each->result.at("ledger")) {
+            if (kept.value("region", "") != "total") continue;
+            if (first) table.columns.push_back(kept.at("quantity"));
+            row.push_back(rounded(kept.at("relative_difference"), 2));
+        }
+        row.resize(table.columns.size(), "-");
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+}  // namespace
+
+std::string fact(const json& result, const std::string& pointer, double unit) {
+    const json::json_pointer at(pointer);
+    if (!result.is_object() || !result.contains(at) || result.at(at).is_null()) return "-";
+    const json& value = result.at(at);
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (value.is_string()) return value.get<std::string>();
+    return value.is_number() ? rounded(value.get<double>() / unit, 6) : value.dump();
+}
+
+void add_numbers(const Material& from, Document& document) {
+    Chapter chapter{"Numbers"};
+    if (from.paper) chapter.tables.push_back(comparison(*from.paper, from.measures));
+    const auto add = [&](const std::string& phase, const std::string& title,
+                         const std::vector<Column>& columns, const std::string& caption) {
+        if (phase_named(from.run, phase)) {
+            chapter.tables.push_back(table_of(from.run, phase, title, columns, caption));
+        }
+    };
+    add("lem_tool", "Limit equilibrium",
+        {{"FS Bishop", "/factor_of_safety"},
+         {"FS Spencer", "/spencer/factor_of_safety"},
+         {"FS Ordinary", "/ordinary/factor_of_safety"},
+         {"critical depth [m]", "/critical_depth"},
+         {"depth at FS = 1 [m]", "/depth_at_fs_1"},
+         {"slices", "/slices"}},
+        "Error: 50 slices leave about 1e-4 in FS; what the method itself leaves open is the "
+        "difference between Bishop and Spencer.");
+    add("fem_solver", "Finite elements",
+        {{"end [s]", "/end_time"},
+         {"steps", "/steps"},
+         {"cut steps", "/cut_steps"},
+         {"elements", "/elements"},
+         {"shortest edge [m]", "/mesh/shortest_edge"},
+         {"largest displacement [m]", "/largest_displacement"},
+         {"error: hourglass energy / internal work", "/hourglass/energy_over_internal_work"}},
+        "Softening is local: a shear band is one element wide, so the time of failure depends on "
+        "the mesh; only runs with other element sizes measure that error.");
+    add("transfer_tool", "Transfers",
+        {{"error: largest stress outside the yield surface [kPa]", "/largest_yield_excess", 1e3}},
+        "");
+    if (Table kept = ledger(from.run); !kept.rows.empty()) {
+        chapter.tables.push_back(std::move(kept));
+    }
+    add("mpm_solver", "Runouts",
+        {{"runout [m]", "/runout"},
+         {"beyond toe [m]", "/runout_beyond_toe"},
+         {"farthest point [m]", "/runout_largest"},
+         {"1 m front [m]", "/runout_front"},
+         {"area beyond toe [m2]", "/area_beyond_toe"},
+         {"at rest", "/at_rest"},
+         {"end [s]", "/end_time"},
+         {"points", "/particles"},
+         {"error: numerical energy / released", "/energy/numerical/share"},
+         {"error: volume / initial", "/volume_ratio"},
+         {"error: overlap", "/overlap"}},
+        "Errors: share of the released energy that the scheme took (positive) or made; mean volume "
+        "over initial volume; share of soil that lies in other soil.");
+    document.chapters.push_back(std::move(chapter));
+}
+
+}  // namespace breach::report

@@ -1,0 +1,192 @@
+// From the transfer to the deposit: points at t_T, runout against t_T, final geometries.
+#include <algorithm>
+#include <cmath>
+
+#include "services/report/chapters/chapters.hpp"
+#include "services/report/figures/particle_figures.hpp"
+#include "services/report/figures/transfer_figures.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+
+namespace {
+
+double time_of(const PhaseFolder* phase) { return phase->transfer_time.value_or(0.0); }
+
+const PhaseFolder* nearest_in_time(const std::vector<const PhaseFolder*>& all, double t_T) {
+    return *std::ranges::min_element(
+        all, {}, [&](const PhaseFolder* each) { return std::abs(time_of(each) - t_T); });
+}
+
+std::vector<const PhaseFolder*> chosen(const std::vector<const PhaseFolder*>& all,
+                                       const std::vector<double>& times) {
+    std::vector<const PhaseFolder*> picked;
+    const auto take = [&](const PhaseFolder* each) {
+        if (std::ranges::find(picked, each) == picked.end()) picked.push_back(each);
+    };
+    for (const double t : times) take(nearest_in_time(all, t));
+    if (times.empty()) {
+        const PhaseFolder* farthest = *std::ranges::max_element(all, {}, runout_of);
+        const double half = 0.5 * runout_of(farthest);
+        take(*std::ranges::min_element(
+            all, {}, [&](const PhaseFolder* each) { return std::abs(runout_of(each) - half); }));
+        take(farthest);
+    }
+    return picked;
+}
+
+Figure runout_against_time(const Material& from) {
+    Figure figure{"runout_against_transfer_time",
+                  {"Runout against transfer time", {"transfer time t_T [s]"}, {"runout [m]"}, {}},
+                  "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
+                  "while it lies before the toe."};
+    for (const std::string& variant : variants_of(from.run)) {
+        Series s{variant.empty() ? "runout" : variant, {}, {}, Style::line_and_points};
+        for (const PhaseFolder* each : runouts_of(from.run, variant)) {
+            if (!each->transfer_time) continue;
+            s.x.push_back(*each->transfer_time);
+            s.y.push_back(runout_of(each));
+        }
+        if (!s.x.empty()) figure.chart.series.push_back(std::move(s));
+    }
+    for (const auto& [key, label] :
+         {std::pair{"window_lower", "window opens"}, std::pair{"window_upper", "window closes"}}) {
+        if (const auto it = from.measures.find(key); it != from.measures.end()) {
+            figure.chart.marks.push_back({Mark::At::x, it->second.value, label});
+        }
+    }
+    return figure;
+}
+
+/// Before and after, from the snapshot of the run's FEM at the transfer time; without that snapshot
+/// nothing is added, and why is noted.
+void add_before_and_after(const Material& from, const PhaseFolder& transfer,
+                          const exchange::ParticleState& points, Chapter& chapter,
+                          Document& document) {
+    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
+    for (const TimedFile& each :
+         fem ? timed_files(fem->files, "snapshot_") : std::vector<TimedFile>{}) {
+        if (std::abs(each.time - points.transfer_time) > 1e-6) continue;
+        const auto mesh = exchange::read_mesh_snapshot(each.file).snapshot;
+        for (BeforeAndAfter& pair : compare(mesh, points, layers_of(transfer.scene))) {
+            chapter.figures.push_back(std::move(pair.before));
+            chapter.figures.push_back(std::move(pair.after));
+        }
+        if (points.r_u.empty()) {
+            document.left_out.push_back(
+                {"liquefied zone before and after the transfer", "the points carry no r_u: dry"});
+        }
+        return;
+    }
+    document.left_out.push_back({"fields before and after the transfer",
+                                 "the run has no snapshot at " + of_transfer(transfer)});
+}
+
+std::vector<const PhaseFolder*> first_runouts(const Run& run) {
+    for (const std::string& variant : variants_of(run)) {
+        if (auto found = runouts_of(run, variant); !found.empty()) return found;
+    }
+    return {};
+}
+
+std::string window_text(const Measures& measures) {
+    const auto lower = measures.find("window_lower"), upper = measures.find("window_upper");
+    if (lower == measures.end()) return "";
+    return "The window of transfer times opens at " + short_number(lower->second.value) +
+           " s and " +
+           (upper == measures.end() ? std::string("stays open to the end of the FEM.")
+                                    : "closes at " + short_number(upper->second.value) + " s.");
+}
+
+}  // namespace
+
+Series section_at_rest(const json& scene) {
+    Series s{"section at rest", {}, {}, Style::segments};
+    const auto add = [&](const json& point) {
+        s.x.push_back(point.at(0));
+        s.y.push_back(point.at(1));
+    };
+    for (const json& region : scene.at("section").at("regions")) {
+        const json& polygon = region.at("polygon");
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            add(polygon[k]);
+            add(polygon[(k + 1) % polygon.size()]);
+        }
+    }
+    return s;
+}
+
+std::string of_transfer(const PhaseFolder& phase) {
+    std::string text;
+    if (phase.transfer_time) text += "t_T = " + short_number(*phase.transfer_time) + " s";
+    if (!phase.variant.empty()) text += (text.empty() ? "" : ", ") + phase.variant;
+    return text.empty() ? phase.label : text;
+}
+
+std::vector<const PhaseFolder*> chosen_runouts(const Material& from) {
+    const auto all = first_runouts(from.run);
+    return all.empty() ? all : chosen(all, from.choice.transfer_times);
+}
+
+void add_transfer(const Material& from, Document& document) {
+    std::vector<const PhaseFolder*> done;
+    for (const PhaseFolder* each : phases_named(from.run, "transfer_tool")) {
+        if (std::filesystem::is_regular_file(each->files / "particles.vtkhdf"))
+            done.push_back(each);
+    }
+    if (done.empty()) {
+        document.left_out.push_back({"material points at t_T", "the run has no transfer"});
+        return;
+    }
+    double wanted = time_of(done.back());
+    if (const auto runouts = chosen_runouts(from); !runouts.empty())
+        wanted = time_of(runouts.back());
+    const PhaseFolder* shown = nearest_in_time(done, wanted);
+    const auto file = exchange::read_particle_state(shown->files / "particles.vtkhdf");
+    Chapter chapter{"Transfer",
+                    "What the mesh handed to the material points (" + of_transfer(*shown) + ")."};
+    chapter.figures = {points_by_material(file.state, "points_at_transfer",
+                                          "Material points at " + of_transfer(*shown)),
+                       points_by_strain(file.state, "points_at_transfer_epsilon_q",
+                                        "epsilon_q of the points at " + of_transfer(*shown))};
+    add_before_and_after(from, *shown, file.state, chapter, document);
+    document.chapters.push_back(std::move(chapter));
+}
+
+void add_runout(const Material& from, Document& document) {
+    const auto runouts = chosen_runouts(from);
+    if (runouts.empty()) {
+        const PhaseFolder* mpm = phase_named(from.run, "mpm_solver");
+        document.left_out.push_back(
+            {"runout against transfer time, final geometries",
+             mpm ? "no runout ended well: " + mpm->fault : "the run has no runout"});
+        return;
+    }
+    Chapter chapter{"Runout", window_text(from.measures)};
+    Figure against = runout_against_time(from);
+    if (against.chart.series.empty()) {
+        document.left_out.push_back({"runout against transfer time",
+                                     "the points fill the section: there is no transfer time"});
+    } else {
+        add_points(from.paper, against);
+        chapter.figures.push_back(std::move(against));
+    }
+    for (const PhaseFolder* each : runouts) {
+        const auto file = exchange::read_particle_state(each->files / "final.vtkhdf");
+        const std::string of =
+            each->transfer_time ? short_number(*each->transfer_time) + "s" : "filled";
+        Figure geometry = points_by_material(file.state, "final_geometry_" + of,
+                                             "Final geometry, " + of_transfer(*each));
+        geometry.chart.series.push_back(section_at_rest(each->scene));
+        geometry.caption +=
+            " Runout " + rounded(runout_of(each), 4) + " m; lines: the section at rest.";
+        chapter.figures.push_back(std::move(geometry));
+        chapter.figures.push_back(
+            points_by_strain(file.state, "final_epsilon_q_" + of,
+                             "epsilon_q of the deposit, " + of_transfer(*each)));
+    }
+    document.chapters.push_back(std::move(chapter));
+}
+
+}  // namespace breach::report

@@ -1,0 +1,38 @@
+// Limit equilibrium: section, critical surfaces, factor of safety against liquefied depth.
+#include "services/report/chapters/chapters.hpp"
+#include "services/report/figures/stability_figures.hpp"
+
+namespace breach::report {
+
+void add_stability(const Material& from, Document& document) {
+    const PhaseFolder* lem = phase_named(from.run, "lem_tool");
+    if (!lem || !lem->result.is_object()) {
+        document.left_out.push_back(
+            {"section and critical surfaces, factor of safety against liquefied depth",
+             lem ? "lem_tool: " + lem->fault
+                 : "the run has no limit equilibrium (the study's \"stability\", the scene's "
+                   "/lem)"});
+        return;
+    }
+    Chapter chapter{"Stability"};
+    chapter.figures = stability_figures(lem->files);
+    for (Figure& each : chapter.figures) {
+        add_points(from.paper, each);
+        if (each.name == "safety_against_depth") {
+            each.caption =
+                "Factor of safety of the critical surface while layers liquefy from the "
+                "top down.";
+        } else {
+            each.caption =
+                "The section as it was analysed and its critical surfaces (simplified "
+                "Bishop).";
+        }
+    }
+    if (!lem->result.contains("stages")) {
+        document.left_out.push_back({"factor of safety against liquefied depth",
+                                     "the scene liquefies no layers (/lem/liquefaction)"});
+    }
+    document.chapters.push_back(std::move(chapter));
+}
+
+}  // namespace breach::report

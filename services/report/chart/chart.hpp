@@ -1,0 +1,64 @@
+// A chart as data, and its picture as self-contained SVG. Knows nothing of soils or files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/report/chart/axis.hpp"
+
+namespace breach::report {
+
+/// segments: points 0-1, 2-3, ... are joined (meshes); dots: one small dot per point (clouds).
+enum class Style { line, points, line_and_points, area, segments, dots };
+enum class Aspect { free, equal };  ///< equal: a unit of x is as long as a unit of y
+
+struct Axis {
+    std::string label;  ///< with its unit: "shear strain [%]"
+    Scale scale = Scale::linear;
+};
+
+struct Series {
+    std::string name;
+    std::vector<double> x;
+    std::vector<double> y;
+    Style style = Style::line;
+};
+
+/// Polygons (or, with one corner each, dots) coloured by a value.
+struct Field {
+    std::string label;          ///< of the value, with its unit
+    std::size_t corners;        ///< of each polygon
+    std::vector<double> x;      ///< [n * corners], corner after corner
+    std::vector<double> y;      ///< [n * corners]
+    std::vector<double> value;  ///< [n]
+    Range range;  ///< of the colours; what lies beyond has the colour of the nearer end
+};
+
+/// A line across the chart at one value.
+struct Mark {
+    enum class At { x, y } at;
+    double value;
+    std::string label;
+};
+
+struct Chart {
+    std::string title;
+    Axis x;
+    Axis y;
+    std::vector<Series> series;
+    std::vector<Mark> marks = {};
+    Aspect aspect = Aspect::free;
+    std::optional<Field> field = {};  ///< drawn beneath the series
+};
+
+/// Axes cover all series, marks and the field. Values are finite, and positive on a logarithmic
+/// axis; columns of a series are equally long, of segments even; throws std::invalid_argument
+/// otherwise, or when there is nothing to draw. A flat chart of equal aspect is drawn with heights
+/// exaggerated by a whole number, which its y axis states.
+std::string as_svg(const Chart& chart);
+
+/// Throws std::invalid_argument when columns that belong together differ in length.
+void check_columns(const Chart& chart);
+
+}  // namespace breach::report

@@ -1,0 +1,44 @@
+// What a report consists of before it is written: chapters of figures and tables, and what is left
+// out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/report/chart/figure.hpp"
+
+namespace breach::report {
+
+struct Table {
+    std::string name;  ///< of its CSV file
+    std::string title;
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;
+    std::string caption = {};
+};
+
+struct Chapter {
+    std::string title;
+    std::string text = {};
+    std::vector<Figure> figures = {};
+    std::vector<Table> tables = {};
+};
+
+/// A figure that a full report has and this one has not.
+struct LeftOut {
+    std::string what;
+    std::string why;
+};
+
+struct Document {
+    std::string title;
+    std::vector<std::string> remarks;  ///< below the title: what everybody must know first
+    std::vector<Chapter> chapters;
+    std::vector<LeftOut> left_out;
+};
+
+/// Comma-separated, heads first; every cell quoted that is not a number. Throws
+/// std::invalid_argument when a row is not as long as the heads.
+std::string as_csv(const Table& table);
+
+}  // namespace breach::report

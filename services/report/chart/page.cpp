@@ -1,0 +1,129 @@
+#include "services/report/chart/page.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <stdexcept>
+
+#include "services/report/chart/frame.hpp"
+
+namespace breach::report {
+
+namespace {
+
+constexpr const char* style =
+    "body{font:16px/1.5 Helvetica,Arial,sans-serif;color:#222;max-width:1180px;margin:2em auto;"
+    "padding:0 1em}h1,h2{line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #ccc}"
+    "figure{margin:1.5em 0}figure svg{max-width:100%;height:auto}figcaption{font-size:14px;"
+    "color:#444}.remark{background:#fff6dd;border-left:4px solid #e69f00;padding:.4em 1em}"
+    ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px}caption{text-align:left;"
+    "font-weight:bold;padding:.4em 0}th,td{border-bottom:1px solid #ddd;padding:.2em .7em;"
+    "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
+    "right;font-variant-numeric:tabular-nums;"
+    "white-space:nowrap}nav li{display:inline;margin-right:1.2em}nav ul{padding:0}a{color:#0059a0}"
+    "@media print{body{max-width:none}figure{break-inside:avoid}}";
+
+bool is_number(const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Inside HTML an SVG needs no namespace, whose name looks like an address on the network.
+std::string inlined(const Chart& chart) {
+    std::string svg = as_svg(chart);
+    const std::string space = "xmlns=\"http://www.w3.org/2000/svg\"";
+    svg.replace(svg.find(space), space.size(),
+                "role=\"img\" aria-label=\"" + escaped(chart.title) + "\"");
+    return svg;
+}
+
+std::string link(const std::string& file, const std::string& text) {
+    std::string html = "<a href=\"";
+    return html.append(escaped(file)).append("\">").append(text).append("</a>");
+}
+
+std::string anchor_of(std::size_t chapter) {
+    std::string name = "chapter-";
+    return name.append(std::to_string(chapter + 1));
+}
+
+void write_figure(std::ostream& html, const Figure& figure, const std::string& folder) {
+    const std::string file = folder + "/" + figure.name;
+    html << "<figure id=\"" << escaped(figure.name) << "\">\n"
+         << inlined(figure.chart) << "<figcaption>" << escaped(figure.caption) << ' '
+         << link(file + ".csv", "data") << ", " << link(file + ".svg", "SVG") << ", "
+         << link(file + ".png", "PNG") << "</figcaption>\n</figure>\n";
+}
+
+void write_table(std::ostream& html, const Table& table, const std::string& folder) {
+    html << "<div class=\"wide\"><table id=\"" << escaped(table.name) << "\"><caption>"
+         << escaped(table.title) << "</caption>\n<tr>";
+    for (const std::string& each : table.columns) html << "<th>" << escaped(each) << "</th>";
+    html << "</tr>\n";
+    for (const auto& row : table.rows) {
+        html << "<tr>";
+        for (const std::string& cell : row) {
+            html << (is_number(cell) ? "<td class=\"n\">" : "<td>") << escaped(cell) << "</td>";
+        }
+        html << "</tr>\n";
+    }
+    html << "</table></div>\n<p>" << escaped(table.caption) << ' '
+         << link(folder + "/" + table.name + ".csv", "data") << "</p>\n";
+}
+
+}  // namespace
+
+std::string as_csv(const Table& table) {
+    std::string csv;
+    const auto add = [&](const std::vector<std::string>& cells) {
+        if (cells.size() != table.columns.size()) {
+            throw std::invalid_argument("a row of " + table.name + " has " +
+                                        std::to_string(cells.size()) + " cells");
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (i > 0) csv += ',';
+            csv += is_number(cells[i]) ? cells[i] : quoted(cells[i]);
+        }
+        csv += '\n';
+    };
+    add(table.columns);
+    for (const auto& row : table.rows) add(row);
+    return csv;
+}
+
+std::string as_html(const Document& document, const std::string& figures) {
+    std::ostringstream html;
+    html << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         << "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>"
+         << escaped(document.title) << "</title>\n<style>" << style << "</style>\n</head>\n<body>\n"
+         << "<h1>" << escaped(document.title) << "</h1>\n";
+    for (const std::string& each : document.remarks) {
+        html << "<p class=\"remark\">" << escaped(each) << "</p>\n";
+    }
+    html << "<nav><ul>\n";
+    for (std::size_t i = 0; i < document.chapters.size(); ++i) {
+        html << "<li>"
+             << link(std::string(1, '#').append(anchor_of(i)), escaped(document.chapters[i].title))
+             << "</li>\n";
+    }
+    html << "</ul></nav>\n";
+    for (std::size_t i = 0; i < document.chapters.size(); ++i) {
+        const Chapter& chapter = document.chapters[i];
+        html << "<h2 id=\"" << anchor_of(i) << "\">" << escaped(chapter.title) << "</h2>\n";
+        if (!chapter.text.empty()) html << "<p>" << escaped(chapter.text) << "</p>\n";
+        for (const Figure& each : chapter.figures) write_figure(html, each, figures);
+        for (const Table& each : chapter.tables) write_table(html, each, figures);
+    }
+    if (!document.left_out.empty()) {
+        html << "<h2>Left out</h2>\n<ul>\n";
+        for (const LeftOut& each : document.left_out) {
+            html << "<li>" << escaped(each.what) << ": " << escaped(each.why) << "</li>\n";
+        }
+        html << "</ul>\n";
+    }
+    html << "</body>\n</html>\n";
+    return html.str();
+}
+
+}  // namespace breach::report

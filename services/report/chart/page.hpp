@@ -1,0 +1,14 @@
+// A document as one HTML page that needs nothing else: figures are in it, no script, no network.
+#pragma once
+
+#include <string>
+
+#include "services/report/chart/document.hpp"
+
+namespace breach::report {
+
+/// `figures`: folder of the figures' and tables' files, relative to the page, for its links to
+/// them.
+std::string as_html(const Document& document, const std::string& figures);
+
+}  // namespace breach::report

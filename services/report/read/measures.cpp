@@ -1,0 +1,247 @@
+#include "services/report/read/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fault/fault.hpp"
+#include "services/report/chart/axis.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double runs_out = 1.0;   // a runout that counts as one [m]
+constexpr double same_time = 0.1;  // between a wanted transfer time and one that was run [s]
+
+std::optional<double> number_at(const json& result, const char* key) {
+    if (!result.is_object() || !result.contains(key) || !result.at(key).is_number()) return {};
+    return result.at(key).get<double>();
+}
+
+double cpu_of(const PhaseFolder& phase) {
+    return number_at(phase.result, "cpu_seconds").value_or(0.0);
+}
+
+void measure_stability(const Run& run, Measures& found) {
+    const PhaseFolder* lem = phase_named(run, "lem_tool");
+    if (!lem || !lem->result.is_object()) return;
+    const auto keep = [&](const std::string& key, std::optional<double> value) {
+        if (value) found[key] = {*value, lem->label, cpu_of(*lem), "50 slices: 1e-4 in FS"};
+    };
+    keep("factor_of_safety_intact", number_at(lem->result, "factor_of_safety"));
+    keep("depth_at_fs_1", number_at(lem->result, "depth_at_fs_1"));
+    keep("critical_depth", number_at(lem->result, "critical_depth"));
+    const json stages = lem->result.value("stages", json::array());
+    if (!stages.empty()) {
+        keep("factor_of_safety_liquefied", number_at(stages.back(), "factor_of_safety"));
+    }
+}
+
+void measure_shaking(const Run& run, Measures& found) {
+    const PhaseFolder* fem = phase_named(run, "fem_solver");
+    if (!fem || !has_telemetry(*fem)) return;
+    const Telemetry telemetry = telemetry_of(run, *fem);
+    const auto keep = [&](const std::string& key, std::optional<double> time) {
+        if (time) found[key] = {*time, fem->label, cpu_of(*fem), "telemetry interval"};
+    };
+    keep("time_liquefied_12_m", telemetry.first_time("liquefaction_depth >= 12"));
+    keep("time_liquefied_critical", telemetry.first_time("liquefaction_depth >= 18.5"));
+    keep("time_first_surface", telemetry.first_time("failure_surfaces >= 1"));
+    keep("time_second_surface", telemetry.first_time("failure_surfaces >= 2"));
+    keep("time_epsilon_q_20", telemetry.first_time("epsilon_q_avg > 0.2"));
+    keep("time_jacobian_least_97", telemetry.first_time("jacobian_least_avg < 0.97"));
+    keep("time_jacobian_centre_97", telemetry.first_time("jacobian_centre_avg < 0.97"));
+    if (fem->fault.find("entangled") != std::string::npos && !telemetry.lines().empty()) {
+        keep("time_entangled", telemetry.lines().back().at("time").get<double>());
+    }
+    const WindowEdges window = window_of(run, telemetry);
+    keep("window_lower", window.lower);
+    keep("window_upper", window.upper);
+}
+
+void measure_runout(const Run& run, const std::string& variant, Measures& found) {
+    const std::string suffix = variant.empty() ? "" : ":" + variant;
+    bool begun = false;
+    for (const PhaseFolder* each : runouts_of(run, variant)) {
+        const double runout = runout_of(each), t_T = each->transfer_time.value_or(0.0);
+        const Measure here{runout, each->label, cpu_of(*each), "see the table of runouts"};
+        if (std::abs(t_T - 13.0) < same_time) found["runout_at_13" + suffix] = here;
+        if (std::abs(t_T - 16.0) < same_time) found["runout_at_16" + suffix] = here;
+        if (!begun && runout > runs_out) {
+            begun = true;
+            found["first_runout_time" + suffix] = {t_T, each->label, cpu_of(*each),
+                                                   "spacing of t_T"};
+        }
+    }
+    const auto plateau = plateau_of(run, variant);
+    if (!plateau) return;
+    std::vector<double> runouts, released;
+    double cpu = 0.0;
+    for (const PhaseFolder* each : plateau->runouts) {
+        runouts.push_back(runout_of(each));
+        if (const auto area = number_at(each->result, "area_beyond_toe")) released.push_back(*area);
+        cpu += cpu_of(*each);
+    }
+    const auto keep_median = [&](const std::string& key, const std::vector<double>& values) {
+        if (values.empty()) return;
+        const auto [least, most] = std::ranges::minmax(values);
+        found[key + suffix] = {
+            median(values), "median of " + std::to_string(values.size()) + " runouts", cpu,
+            "they lie between " + short_number(least) + " and " + short_number(most)};
+    };
+    keep_median("plateau_runout", runouts);
+    keep_median("released_area", released);
+    const std::string of = "runouts of at least 75 % of the largest";
+    found["plateau_begin" + suffix] = {plateau->first, of, cpu, "spacing of t_T"};
+    found["plateau_end" + suffix] = {plateau->last, of, cpu, "spacing of t_T"};
+}
+
+double largest_runout(const std::vector<const PhaseFolder*>& runouts) {
+    double largest = 0.0;
+    for (const PhaseFolder* each : runouts) largest = std::max(largest, runout_of(each));
+    return largest;
+}
+
+/// Outermost transfer times around the largest runout that are on the plateau.
+Plateau edges_in(const std::vector<const PhaseFolder*>& runouts) {
+    const auto top = std::ranges::max_element(runouts, {}, runout_of);
+    const double level = plateau_share * runout_of(*top);
+    auto first = top, last = top;
+    while (first != runouts.begin() && runout_of(*(first - 1)) >= level) --first;
+    while (last + 1 != runouts.end() && runout_of(*(last + 1)) >= level) ++last;
+    return Plateau{(*first)->transfer_time.value_or(0.0), (*last)->transfer_time.value_or(0.0)};
+}
+
+}  // namespace
+
+double runout_of(const PhaseFolder* mpm) { return mpm->result.at("runout"); }
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
+                                    const std::string& variant) {
+    for (const PhaseFolder* each : phases_named(run, phase)) {
+        if (each->variant == variant || each->variant.empty()) return each;
+    }
+    return phase_named(run, phase);
+}
+
+Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {
+    const PhaseFolder* lem = phase_of_variant(run, "lem_tool", fem.variant);
+    std::map<std::string, double> beside;
+    if (const auto depth = lem ? number_at(lem->result, "critical_depth") : std::nullopt) {
+        beside["critical_depth"] = *depth;
+    }
+    return Telemetry(fem.files / "telemetry.jsonl", std::move(beside));
+}
+
+std::optional<Plateau> plateau_of(const Run& run, const std::string& variant) {
+    const PhaseFolder* fem = phase_of_variant(run, "fem_solver", variant);
+    std::optional<Plateau> plateau;
+    double farthest = 0.0;
+    for (const std::string& each : variants_of(run)) {
+        if (phase_of_variant(run, "fem_solver", each) != fem) continue;
+        const auto runouts = runouts_of(run, each);
+        const double largest = largest_runout(runouts);
+        if (largest <= farthest) continue;
+        farthest = largest;
+        plateau = edges_in(runouts);
+    }
+    if (!plateau) return {};
+    for (const PhaseFolder* each : runouts_of(run, variant)) {
+        const double t_T = each->transfer_time.value_or(0.0);
+        if (t_T >= plateau->first && t_T <= plateau->last) plateau->runouts.push_back(each);
+    }
+    return plateau;
+}
+
+std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant) {
+    std::vector<const PhaseFolder*> found;
+    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+        if (each->variant == variant && number_at(each->result, "runout")) found.push_back(each);
+    }
+    return found;
+}
+
+std::vector<std::string> variants_of(const Run& run) {
+    std::vector<std::string> names;
+    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+        if (std::ranges::find(names, each->variant) == names.end()) names.push_back(each->variant);
+    }
+    if (!run.study.is_object()) return names;
+    const json listed = run.study.value("variants", json::array());
+    std::ranges::stable_sort(names, {}, [&](const std::string& name) {
+        return std::ranges::find_if(listed, [&](const json& v) { return v.at("name") == name; }) -
+               listed.begin();
+    });
+    return names;
+}
+
+WindowEdges window_of(const Run& run, const Telemetry& fem) {
+    json spec;
+    if (run.study.is_object()) {
+        for (const json& each : run.study.value("triggers", json::array())) {
+            if (each.value("kind", "") == "window" && spec.is_null()) spec = each;
+        }
+    }
+    if (spec.is_null() && run.scene.contains("transfer")) {
+        spec = run.scene.at("transfer").value("window", json());
+    }
+    WindowEdges edges;
+    if (!spec.is_object()) return edges;
+    const auto condition = [&](const char* edge) {
+        return criteria::parse(spec.at(edge).get<std::string>(), criteria::Kind::condition,
+                               std::string("/window/") + edge);
+    };
+    edges.lower = fem.first_time(condition("lower"));
+    if (edges.lower && spec.contains("upper")) edges.upper = fem.first_time(condition("upper"));
+    if (edges.upper && *edges.upper < *edges.lower) edges.upper = edges.lower;
+    return edges;
+}
+
+Measures measures_of(const Run& run) {
+    Measures found;
+    measure_stability(run, found);
+    measure_shaking(run, found);
+    for (const std::string& variant : variants_of(run)) measure_runout(run, variant, found);
+    const auto softened = found.find("plateau_runout:softened");
+    const auto strong = found.find("plateau_runout:not_softened");
+    if (softened != found.end() && strong != found.end() && strong->second.value > runs_out) {
+        found["plateau_ratio"] = {softened->second.value / strong->second.value, "both variants",
+                                  softened->second.cpu_seconds + strong->second.cpu_seconds};
+    }
+    return found;
+}
+
+Table comparison(const Paper& paper, const Measures& ours) {
+    Table table{"comparison",
+                "The paper's numbers beside ours",
+                {"quantity", "unit", "paper", "here", "here / paper", "from", "error", "CPU s"},
+                {},
+                "Paper: " + paper.source +
+                    ". Here the plateau is the transfer times around the largest runout that give "
+                    "at least 75 % of it (those of the variant that runs farthest say where), and "
+                    "its runout their "
+                    "median; the window is what the criteria make of the FEM's telemetry."};
+    for (const PaperValue& each : paper.values) {
+        std::vector<std::string> row = {each.what, each.unit, short_number(each.value)};
+        if (const auto it = ours.find(each.key); it != ours.end()) {
+            const Measure& m = it->second;
+            row.insert(row.end(), {short_number(m.value),
+                                   each.value == 0.0 ? "-" : rounded(m.value / each.value, 3),
+                                   m.source, m.error, rounded(m.cpu_seconds, 3)});
+        } else {
+            row.insert(row.end(), {"-", "-", "not in this run", "", ""});
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+}  // namespace breach::report

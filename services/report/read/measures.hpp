@@ -1,0 +1,60 @@
+// What a run says about the quantities that a paper gives, by name.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "services/report/read/paper.hpp"
+#include "services/report/read/run_folder.hpp"
+#include "services/report/read/telemetry.hpp"
+
+namespace breach::report {
+
+/// One number with where it comes from.
+struct Measure {
+    double value;
+    std::string source;      ///< label of the phase
+    double cpu_seconds;      ///< of that phase; of a number from several runs, their sum
+    std::string error = {};  ///< what is known about its error
+};
+using Measures = std::map<std::string, Measure>;
+
+/// The phase whose results a variant uses: its own, the one that serves all, or the first (one that
+/// serves some is called by the first of them); null when the run has none.
+const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
+                                    const std::string& variant);
+/// Telemetry of a FEM; conditions may ask for the critical depth of the run's stability analysis.
+Telemetry telemetry_of(const Run& run, const PhaseFolder& fem);
+
+/// The edges of the transfer window [s] by the study's first window trigger, or /transfer/window of
+/// the scene; an edge that telemetry never meets is missing.
+struct WindowEdges {
+    std::optional<double> lower, upper;
+};
+WindowEdges window_of(const Run& run, const Telemetry& fem);
+
+/// Runs of the MPM that ended, of one variant, ascending in t_T.
+std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant);
+double runout_of(const PhaseFolder* mpm);  ///< of one of them [m]
+/// In the study's order, or by name where the folder has no study.
+std::vector<std::string> variants_of(const Run& run);
+
+/// The transfer times around the largest runout whose runouts are at least this share of it.
+inline constexpr double plateau_share = 0.75;
+struct Plateau {
+    double first, last;                            ///< transfer times [s]
+    std::vector<const PhaseFolder*> runouts = {};  ///< of the variant between them
+};
+/// Variants that share a FEM share the edges, which the one that runs farthest sets; nothing when
+/// none has a runout beyond the toe.
+std::optional<Plateau> plateau_of(const Run& run, const std::string& variant);
+double median(std::vector<double> values);
+
+/// Keys are those of paper.json; a quantity that the run does not hold is missing. With a variant
+/// the key ends in ":<variant>"; that of a plateau is the median over its runouts.
+Measures measures_of(const Run& run);
+
+/// Paper beside ours, one row per value of the paper; "-" where the run does not hold it.
+Table comparison(const Paper& paper, const Measures& ours);
+
+}  // namespace breach::report

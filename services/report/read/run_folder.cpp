@@ -1,0 +1,186 @@
+#include "services/report/read/run_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <tuple>
+
+#include "core/fault/fault.hpp"
+#include "services/report/read/read_results.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Kind {
+    const char* prefix;  ///< of the label
+    const char* phase;
+};
+constexpr std::array kinds = {Kind{"lem", "lem_tool"}, Kind{"fem", "fem_solver"},
+                              Kind{"transfer", "transfer_tool"}, Kind{"mpm", "mpm_solver"}};
+
+std::size_t rank_of(const std::string& phase) {
+    const auto found = std::ranges::find_if(kinds, [&](const Kind& k) { return k.phase == phase; });
+    return static_cast<std::size_t>(found - kinds.begin());
+}
+
+json read_if_there(const fs::path& file) {
+    return fs::is_regular_file(file) ? read_json(file) : json();
+}
+
+/// The number that a text begins with; nothing when it begins with none.
+std::optional<double> leading_number(std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+/// "mpm_13.000000_softened": time and variant; both may be missing.
+void take_apart(const std::string& label, PhaseFolder& phase) {
+    const std::size_t first = label.find('_');
+    if (first == std::string::npos) return;
+    const std::string rest = label.substr(first + 1);
+    phase.transfer_time = leading_number(rest);
+    if (!phase.transfer_time) {
+        phase.variant = rest;
+    } else if (const std::size_t next = rest.find('_'); next != std::string::npos) {
+        phase.variant = rest.substr(next + 1);
+    }
+}
+
+/// The label is the folder's name; "output" is what the service calls the folder inside it.
+std::string label_of(const fs::path& folder) {
+    const fs::path name = folder.filename();
+    return name == "output" ? folder.parent_path().filename().string() : name.string();
+}
+
+std::string phase_of(const std::string& label, const json& task, const json& result) {
+    for (const json& each : {task, result}) {
+        if (each.is_object() && each.contains("phase")) return each.at("phase");
+    }
+    for (const Kind& each : kinds) {
+        if (label.starts_with(each.prefix)) return each.phase;
+    }
+    return {};
+}
+
+std::string fault_of(const fs::path& files, const json& task) {
+    if (const json fault = read_if_there(files / "fault.json"); fault.is_object()) {
+        return fault.value("summary", "");
+    }
+    if (task.is_object() && task.contains("fault") && task.at("fault").is_object()) {
+        return task.at("fault").value("summary", "");
+    }
+    return "it has not ended";
+}
+
+std::optional<PhaseFolder> read_phase(const fs::path& files) {
+    const json task = read_if_there(files / "task.json");
+    PhaseFolder phase{.phase = {},
+                      .label = label_of(files),
+                      .variant = {},
+                      .transfer_time = {},
+                      .files = files,
+                      .scene = read_json(files / "scene.completed.json"),
+                      .result = read_if_there(files / "result.json"),
+                      .fault = {}};
+    phase.phase = phase_of(phase.label, task, phase.result);
+    if (rank_of(phase.phase) == kinds.size()) return {};
+    take_apart(phase.label, phase);
+    if (task.is_object()) {
+        phase.variant = task.value("variant", phase.variant);
+        if (const json t = task.value("transfer_time", json()); t.is_number()) {
+            phase.transfer_time = t;
+        }
+    }
+    if (phase.phase == "fem_solver" || phase.phase == "lem_tool") phase.transfer_time.reset();
+    if (!phase.result.is_object()) phase.fault = fault_of(files, task);
+    return phase;
+}
+
+/// Where phases may lie: the folder itself and three folders down (tasks/<label>, <label>/output).
+std::vector<fs::path> phase_folders(const fs::path& folder) {
+    std::vector<fs::path> found;
+    fs::recursive_directory_iterator it(folder);
+    if (fs::is_regular_file(folder / "scene.completed.json")) found.push_back(folder);
+    for (; it != fs::recursive_directory_iterator(); ++it) {
+        if (it.depth() >= 2) it.disable_recursion_pending();
+        if (it->is_directory() && fs::is_regular_file(it->path() / "scene.completed.json")) {
+            found.push_back(it->path());
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+Run read_run(const fs::path& folder) {
+    if (!fs::is_directory(folder)) {
+        throw fault::IoError(
+            folder.string() +
+            ": is no folder; give the folder of a run, as breach export writes it");
+    }
+    Run run;
+    run.folder = folder;
+    try {
+        for (const fs::path& each : phase_folders(folder)) {
+            if (auto phase = read_phase(each)) run.phases.push_back(std::move(*phase));
+        }
+        if (run.phases.empty()) {
+            throw fault::BadInput(folder.string(),
+                                  {{"", "no phase's folder is in it",
+                                    "give a run exported by breach export, or the folder that "
+                                    "holds the phases' output folders"}});
+        }
+        std::ranges::sort(run.phases, {}, [](const PhaseFolder& p) {
+            return std::tuple(rank_of(p.phase), p.transfer_time.value_or(0.0), p.variant, p.label);
+        });
+        run.scene = run.phases.front().scene;
+        const json about = read_if_there(folder / "run.json");
+        run.study = read_if_there(folder / "study.json");
+        run.name = run.scene.at("name");
+        run.title = run.scene.value("title", run.name);
+        if (about.is_object()) {
+            run.name = about.value("name", run.name);
+            run.id = about.value("id", "");
+            if (!about.value("title", "").empty()) run.title = about.at("title");
+        }
+        return run;
+    } catch (const json::exception& error) {
+        throw fault::BadInput(folder.string(), {{"", error.what(), "export the run again"}});
+    }
+}
+
+std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase) {
+    std::vector<const PhaseFolder*> found;
+    for (const PhaseFolder& each : run.phases) {
+        if (each.phase == phase) found.push_back(&each);
+    }
+    return found;
+}
+
+const PhaseFolder* phase_named(const Run& run, const std::string& phase) {
+    const auto found = phases_named(run, phase);
+    return found.empty() ? nullptr : found.front();
+}
+
+bool has_telemetry(const PhaseFolder& phase) {
+    return fs::is_regular_file(phase.files / "telemetry.jsonl");
+}
+
+std::vector<TimedFile> timed_files(const fs::path& folder, const std::string& prefix) {
+    std::vector<TimedFile> found;
+    for (const auto& each : fs::directory_iterator(folder)) {
+        const std::string name = each.path().filename();
+        if (!name.starts_with(prefix) || !name.ends_with(".vtkhdf")) continue;
+        const auto time = leading_number(std::string_view(name).substr(prefix.size()));
+        if (time) found.push_back({*time, each.path()});
+    }
+    std::ranges::sort(found, {}, &TimedFile::time);
+    return found;
+}
+
+}  // namespace breach::report

@@ -1,0 +1,39 @@
+// What a phase measured while it ran: telemetry.jsonl as columns against time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/criteria/expression.hpp"
+#include "services/report/chart/chart.hpp"
+
+namespace breach::report {
+
+class Telemetry {
+  public:
+    /// A last line that is not whole (the phase still writes) is left out. `beside`: numbers that
+    /// conditions may ask for as if every line had them (critical_depth). Throws IoError, or
+    /// BadInput naming the line.
+    explicit Telemetry(const std::filesystem::path& file,
+                       std::map<std::string, double> beside = {});
+
+    /// Some line has a number in this field.
+    bool has(const std::string& field) const;
+    /// The field against time [s], divided by `unit`; lines without it are skipped.
+    Series series(const std::string& field, const std::string& name, double unit = 1.0) const;
+    /// The first time at which the condition is true [s]; nothing when it never is.
+    std::optional<double> first_time(const criteria::Expression& condition) const;
+    std::optional<double> first_time(const std::string& condition) const;
+
+    const std::vector<nlohmann::json>& lines() const { return lines_; }
+
+  private:
+    std::vector<nlohmann::json> lines_;
+    std::map<std::string, double> beside_;
+};
+
+}  // namespace breach::report
