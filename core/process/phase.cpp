@@ -112,6 +112,17 @@ json as_json(const exchange::Provenance& p) {
             {"cpu_seconds", p.cpu_seconds}};
 }
 
+json as_json(const std::vector<fault::Flag>& flags) {
+    json list = json::array();
+    for (const fault::Flag& each : flags) {
+        list.push_back({{"code", each.code},
+                        {"severity", fault::name_of(each.severity)},
+                        {"message", each.message},
+                        {"pointer", each.pointer}});
+    }
+    return list;
+}
+
 void make_output_folder(const std::filesystem::path& folder, Start start) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -139,6 +150,8 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene) 
     result["phase"] = phase.name;
     result["scene"] = session.scene().name;
     result["plan"] = as_json(plan);
+    result["flags"] = as_json(session.flags());
+    result["questionable"] = fault::is_questionable(session.flags());
     result["wall_seconds"] = session.wall_seconds();
     result["cpu_seconds"] = session.cpu_seconds();
     result["provenance"] = as_json(session.provenance());
@@ -157,6 +170,8 @@ ExitCode answer(const Phase& phase, Arguments& arguments) {
     const Plan plan = phase.plan(scene);
     if (arguments.question == Question::plan) {
         std::cout << as_text(plan);
+        for (const fault::Flag& each : scene.warnings)
+            std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     } else {
         std::cout << arguments.scene.string() << ": no faults\n";
     }

@@ -46,6 +46,7 @@ Session::Session(SessionSettings settings, scene::Scene scene)
         telemetry_.open(file, std::ios::trunc);
     }
     if (!telemetry_) throw fault::IoError(file.string() + ": cannot be written");
+    for (const fault::Flag& each : scene_.warnings) flag(each);
 }
 
 Session::~Session() = default;
@@ -112,6 +113,18 @@ std::int64_t Session::truncate_telemetry(std::int64_t lines) {
     if (!telemetry_) throw fault::IoError(file.string() + ": cannot be written");
     telemetry_lines_ = count;
     return count;
+}
+
+void Session::flag(fault::Flag flag) {
+    spdlog::warn("{}: {}", fault::name_of(flag.severity), flag.message);
+    const auto same = std::ranges::find_if(flags_, [&](const fault::Flag& each) {
+        return each.code == flag.code && each.pointer == flag.pointer;
+    });
+    if (same == flags_.end()) {
+        flags_.push_back(std::move(flag));
+    } else {
+        *same = std::move(flag);
+    }
 }
 
 void Session::announce(const std::filesystem::path& file, const json& what) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/exchange/provenance.hpp"
+#include "core/fault/flag.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::process {
@@ -67,6 +68,11 @@ class Session {
     /// The facts of result.json; published by the door when the phase ends well.
     nlohmann::json& result() { return result_; }
 
+    /// What goes with the result: in result.json, in the log and wherever the result is shown. The scene's own warnings are in
+    /// from the beginning; a code that is there already is replaced.
+    void flag(fault::Flag flag);
+    const std::vector<fault::Flag>& flags() const { return flags_; }
+
   private:
     void emit(const nlohmann::json& line);
 
@@ -78,6 +84,7 @@ class Session {
     std::ofstream telemetry_;
     std::int64_t telemetry_lines_ = 0;
     nlohmann::json result_ = nlohmann::json::object();
+    std::vector<fault::Flag> flags_;
 };
 
 }  // namespace breach::process

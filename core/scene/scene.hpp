@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
+#include "core/fault/flag.hpp"
 #include "core/materials/law.hpp"
 #include "core/scene/polygon.hpp"
 
@@ -450,7 +451,8 @@ struct Scene {
     std::optional<Fem> fem;
     std::optional<Transfer> transfer;
     std::optional<Mpm> mpm;
-    std::string completed;  ///< the JSON text with every default filled in, keys sorted
+    std::string completed;              ///< the JSON text with every default filled in, keys sorted
+    std::vector<fault::Flag> warnings;  ///< entries that are possible and hardly meant
 };
 
 /// What a material point can be: soil of a region, of one material.
