@@ -69,6 +69,10 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
     } catch (const CLI::ParseError& error) {
         return {std::nullopt, app.exit(error) == 0 ? ExitCode::done : ExitCode::usage};
     }
+    for (const Switch& each : phase.switches) {
+        if (!each.sets.empty() && a.settings.switches.contains(each.name))
+            a.settings.overrides.push_back(each.sets);
+    }
     if (plan) a.question = Question::plan;
     if (check) a.question = Question::check;
     a.settings.start = resume ? Start::resume : Start::fresh;

@@ -22,8 +22,9 @@ struct InputRule {
 
 /// A flag that only this phase knows; SessionSettings::switches has it when it was given.
 struct Switch {
-    std::string name;     ///< "--profile"
-    std::string purpose;  ///< one line for --help
+    std::string name;       ///< "--profile"
+    std::string purpose;    ///< one line for --help
+    std::string sets = {};  ///< "/json/pointer=value" that it stands for, after every --set
 };
 
 /// How a phase ended when nothing was wrong.

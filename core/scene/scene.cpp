@@ -1,9 +1,12 @@
 #include "core/scene/scene.hpp"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "core/scene/reader.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
@@ -54,6 +57,10 @@ Scene parse_scene(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
+    Resolved resolved = resolution_of(scene);
+    for (Fault& each : resolved.faults)
+        reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
+    std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
     if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));

@@ -36,7 +36,7 @@ const std::map<std::string, Reading> readings{
       Materials::all,
       Regions::names_and_materials}},
     {"mpm_solver",
-     {3, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
+     {4, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
 };
 
 json materials_part(const json& scene, Materials wanted) {
