@@ -1,9 +1,9 @@
 // Places at which a test may kill this process, by name: before and after every write of a state,
 // and between what must follow each other.
 //
-//     BREACHLINE_FAILPOINT=name[:n[:file]]    kill -9 when `name` is reached for the n-th time;
-//     with
-//                                             a file: once only, the one that can remove the file
+//     BREACHLINE_FAILPOINT=name[:n[:file]]
+//         kill -9 when `name` is reached for the n-th time; with a file: once only, by the process
+//         that can remove the file
 //
 // Without the variable nothing happens. Names that are not in the list do not compile.
 #pragma once
