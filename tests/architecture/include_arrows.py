@@ -16,6 +16,7 @@ core = {
     "core/version": set(),
     "core/criteria": {"core/fault"},
     "core/mechanics": set(),
+    "core/numerics": set(),
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},

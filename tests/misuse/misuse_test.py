@@ -1,7 +1,7 @@
 """Every wrong scene, study and motion of the table is caught, with its words, where it should be: nothing that is wrong ends as
 plain "succeeded", and nothing that the files tell is found after a task has started.
 
-    misuse_test.py [--table FILE.md]     prints the table; writes it"""
+    misuse_test.py [--table FILE]     prints the table; writes it as Markdown"""
 import json
 import pathlib
 import re
