@@ -47,7 +47,7 @@ class Finder {
         if (plausible) return;
         const std::string meant = slip(value);
         if (!possible) {
-            doubts.faults.push_back({pointer_, "has " + what + ", which no ground has had",
+            doubts.faults.push_back({pointer_, "has " + what + ", which no earthquake has",
                                      meant.empty() ? "check the file's units and columns" : meant});
             return;
         }

@@ -67,26 +67,30 @@ double level_at(const std::vector<Vec2>& line, double x) {
     return line.back().y();
 }
 
-/// Water that stands above the highest ground drowns the whole section.
+/// Water above the highest ground drowns the whole section: a lake's floor may lie so, but free
+/// water lies level.
 void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& pointer) {
     if (line.empty() || !d.reader.sound(pointer)) return;
     const double left = d.extent.low.x(), right = d.extent.high.x();
-    double highest = std::max(level_at(line, left), level_at(line, right));
+    auto [lowest, highest] = std::minmax(level_at(line, left), level_at(line, right));
     for (const Vec2& point : line) {
-        if (point.x() >= left && point.x() <= right) highest = std::max(highest, point.y());
+        if (point.x() < left || point.x() > right) continue;
+        lowest = std::min(lowest, point.y());
+        highest = std::max(highest, point.y());
     }
     const double ground = d.extent.high.y();
     const double above = highest - ground;
     if (above <= 1e-6 * d.height()) return;
     const std::string what =
         "stands " + metres(above) + " above the section's highest ground (" + metres(ground) + ")";
-    if (above > d.height()) {
-        d.reader.add(pointer, what,
-                     "give levels in the section's own datum, in m; free water above ground counts "
-                     "as load, and this is more than the section is high");
+    const bool slopes = highest - lowest > 0.01 * d.height();
+    if (above > d.height() && slopes) {
+        d.reader.add(pointer, what + " and slopes there, as no free water does",
+                     "give levels in m and in the section's own datum");
     } else {
         d.doubt(pointer, "the water " + what +
-                             ": the whole section is drowned; levels are in the section's datum");
+                             ": the whole section is drowned; levels are in m and in the section's "
+                             "own datum");
     }
 }
 

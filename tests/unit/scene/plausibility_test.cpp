@@ -163,10 +163,11 @@ INSTANTIATE_TEST_SUITE_P(Scene, UnitSlip, testing::ValuesIn(unit_slips));
 INSTANTIATE_TEST_SUITE_P(
     Together, UnitSlip,
     testing::Values(
-        Slip{"/lem/water/line", "[[0, 65], [100, 65]]", Caught::refused,
+        Slip{"/lem/water/line", "[[0, 65], [100, 65]]", Caught::flagged,
              "stands 50 m above the section's highest ground (15 m)"},
+        Slip{"/lem/water/line", "[[0, 65], [60, 55]]", Caught::refused, "no free water does"},
         Slip{"/fem/water/line", "[[0, 17]]", Caught::flagged, "whole section is drowned"},
-        Slip{"/transfer/phreatic_line", "[[0, 65]]", Caught::refused, "stands 50 m above"},
+        Slip{"/transfer/phreatic_line", "[[0, 65]]", Caught::flagged, "stands 50 m above"},
         Slip{"/mpm/runout/toe", "[0, 0]", Caught::refused, "100 % of the soil that counts"},
         Slip{"/mpm/runout/toe", "[-60, 0]", Caught::refused, "x points downstream"},
         Slip{"/mpm/runout/toe", "[45, 0]", Caught::flagged, "before anything has moved"},
