@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/scene/plausibility.hpp"
 #include "core/scene/reader.hpp"
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
@@ -42,7 +43,8 @@ Scene parse_scene(std::string_view text, const std::string& name,
     for (const std::string& each : overrides) {
         for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
     }
-    for (Fault& found : complete_and_check(document, scene_schema()))
+    std::vector<fault::Flag> doubts;
+    for (Fault& found : complete_and_check(document, scene_schema(), doubts))
         faults.push_back(std::move(found));
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
@@ -54,6 +56,9 @@ Scene parse_scene(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
+    scene.warnings = std::move(doubts);
+    for (fault::Flag& found : doubts_across(reader, scene))
+        scene.warnings.push_back(std::move(found));
     if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));

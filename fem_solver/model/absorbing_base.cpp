@@ -1,9 +1,5 @@
 #include "fem_solver/model/absorbing_base.hpp"
 
-#include <spdlog/spdlog.h>
-
-#include <cmath>
-
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
@@ -65,14 +61,6 @@ motion::Recording applied_motion(const scene::BaseMotion& wanted) {
 motion::Series base_velocity(const scene::BaseMotion& wanted) {
     const motion::Recording motion = applied_motion(wanted);
     if (motion.quantity == motion::Quantity::velocity) return motion.series;
-    constexpr double much = 0.05;  // of the peak velocity
-    const motion::Baseline left = motion::baseline(motion.series);
-    if (left.velocity_share > much) {
-        spdlog::warn(
-            "motion: {:.2g} m/s are left at its end ({:.0f} % of its peak velocity); "
-            "\"baseline\": \"corrected\" takes them off",
-            left.last_velocity, 100.0 * left.velocity_share);
-    }
     return motion::integral(motion.series);
 }
 

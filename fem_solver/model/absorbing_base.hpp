@@ -34,7 +34,7 @@ AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Serie
 /// The scene's motion as it is applied: read, scaled, its baseline corrected if asked for; an
 /// acceleration or a velocity. Throws BadInput for what cannot be used as such.
 motion::Recording applied_motion(const scene::BaseMotion& wanted);
-/// Velocity that it brings; warns of one that is left at its end.
+/// Velocity that it brings.
 motion::Series base_velocity(const scene::BaseMotion& wanted);
 
 }  // namespace breach::fem
