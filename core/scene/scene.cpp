@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/scene/reader.hpp"
+#include "core/scene/reading.hpp"
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
@@ -13,6 +14,16 @@ using fault::Fault;
 using nlohmann::json;
 
 namespace {
+
+template <class Part>
+const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
+    if (part) return *part;
+    throw fault::BadInput(scene.name,
+                          {{pointer, "is missing, and this phase needs it",
+                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
+}
+
+}  // namespace
 
 std::string text_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -25,17 +36,7 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-template <class Part>
-const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
-    if (part) return *part;
-    throw fault::BadInput(scene.name,
-                          {{pointer, "is missing, and this phase needs it",
-                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
-}
-
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::string& name,
+Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
     json document = parse_json(text, name);
     std::vector<Fault> faults;
@@ -54,7 +55,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
-    if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
+    if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");
@@ -62,7 +63,14 @@ Scene parse_scene(std::string_view text, const std::string& name,
     scene.gravity = document.at("gravity");
     scene.thickness = document.at("thickness");
     scene.completed = document.dump();
-    return scene;
+    return {std::move(scene), {}};
+}
+
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+    Reading reading = read_text(text, name, folder, overrides);
+    if (!reading.faults.empty()) throw fault::BadInput(name, std::move(reading.faults));
+    return std::move(reading.scene);
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

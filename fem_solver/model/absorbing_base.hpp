@@ -32,9 +32,9 @@ AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Serie
                              scene::MotionAt at);
 
 /// The scene's motion as it is applied: read, scaled, its baseline corrected if asked for; an
-/// acceleration or a velocity. Throws BadInput for what cannot be used as such.
+/// acceleration or a velocity. What cannot be used as such core/check has refused.
 motion::Recording applied_motion(const scene::BaseMotion& wanted);
-/// Velocity that it brings; warns of one that is left at its end.
+/// Velocity that it brings.
 motion::Series base_velocity(const scene::BaseMotion& wanted);
 
 }  // namespace breach::fem
