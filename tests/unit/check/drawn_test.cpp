@@ -149,7 +149,7 @@ TEST(Drawn, SlipSurfacesThatEndWhereThereIsNoGroundAreRefused) {
     expect_only(changed("mochikoshi", {"/lem/search/exit=[300,340]"}), "/lem/search/exit",
                 "lies beside the section");
     expect_only(changed("mochikoshi", {"/lem/search/exit=[60,80]", "/lem/search/entry=[221,250]"}),
-                "/lem/search/entry", "put entry");
+                "/lem/search/entry", "lies at most at 0 m, and exit nowhere below 29.4 m");
 }
 
 TEST(Drawn, SlipSurfacesBelowTheModelOrThroughTheAirAreRefused) {
