@@ -6,20 +6,32 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/check/applied_motion.hpp"
 #include "core/exchange/publish.hpp"
-#include "core/motion/read_motion.hpp"
+#include "core/motion/plausibility.hpp"
 #include "fem_solver/analysis.hpp"
-#include "fem_solver/model/absorbing_base.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 
 namespace {
 
+/// How strong the motion is: in the log and in result.json.
+void tell_motion(process::Session& session, const motion::Recording& applied) {
+    const motion::Peaks peaks = motion::peaks_of(applied);
+    spdlog::info("motion as applied: {}", motion::summary_of(applied));
+    session.result()["motion"] = {{"pga_g", peaks.acceleration / motion::standard_gravity},
+                                  {"pgv", peaks.velocity},
+                                  {"duration", applied.series.duration()},
+                                  {"time_step", applied.series.dt}};
+}
+
 /// The motion as it is applied, after scaling: whoever reads the run needs no other file.
 void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
+    const motion::Recording applied = check::applied_motion(wanted);
+    tell_motion(session, applied);
     std::ostringstream csv;
-    motion::write_csv(csv, applied_motion(wanted),
+    motion::write_csv(csv, applied,
                       "as applied, from " + std::filesystem::path(wanted.file).filename().string());
     exchange::publish_text(session.output("motion.csv"), csv.str());
 }

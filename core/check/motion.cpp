@@ -51,65 +51,16 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& fi
                "give the acceleration, or take it as recorded");
 }
 
-/// A motion that is none, and times in another unit.
-bool check_samples(const motion::Series& series, Findings& findings) {
+/// A motion that is none; what else can be wrong with one, core/motion knows.
+bool moves(const motion::Series& series, Findings& findings) {
     const auto [low, high] = std::ranges::minmax(series.values);
-    if (low == high) {
-        refuse(
-            findings, file_pointer,
-            "holds " + std::to_string(series.values.size()) + " times the same value, " + text(low),
-            "give a motion that moves: is the second column the right one?");
-        return false;
-    }
-    constexpr double coarsest = 0.25, coarse = 0.05;
-    if (series.dt > coarsest) {
-        refuse(findings, file_pointer,
-               "has one sample per " + text(series.dt) + " s and lasts " + text(series.duration()) +
-                   " s",
-               "times are in seconds: as milliseconds these would be " + text(1e-3 * series.dt) +
-                   " s and " + text(1e-3 * series.duration()) + " s");
-        return false;
-    }
-    if (series.dt > coarse)
-        warn(findings, "implausible", file_pointer,
-             "the motion has one sample per " + text(series.dt) +
-                 " s: records have 0.0025 to 0.02 s; what shakes faster is lost");
-    return true;
-}
-
-struct Range {
-    double least, largest, most;  ///< plausible from, plausible to, possible up to
-    const char* unit;
-    double SI;  ///< of one unit
-    const char* slip;
-};
-
-/// Peak ground motions ever recorded stay below `most`.
-Range range_of(Quantity quantity) {
-    if (quantity == Quantity::velocity)
-        return {0.001, 2.5, 10.0, "m/s", 1.0, "are the values cm/s under another header?"};
-    return {0.01,
-            1.2,
-            5.0,
-            "g",
-            motion::standard_gravity,
-            "are the values m/s2 under a header of g, or the reverse (factor 9.81)?"};
-}
-
-void check_peak(const scene::BaseMotion& wanted, const Recording& recording, Findings& findings) {
-    if (wanted.scale_to_pga_g) return;  // its own plausibility is the schema's
-    const Range range = range_of(recording.quantity);
-    const double peak = motion::peak(recording.series) / range.SI;
-    const std::string cause = "the motion's peak is " + text(peak) + " " + range.unit;
-    if (peak > range.most)
-        refuse(findings, file_pointer,
-               "has a peak of " + text(peak) + " " + range.unit + "; none above " +
-                   text(range.most) + " " + range.unit + " is known",
-               range.slip);
-    else if (peak > range.largest || peak < range.least)
-        warn(findings, "implausible", file_pointer,
-             cause + ", usual are " + text(range.least) + " to " + text(range.largest) + ": " +
-                 range.slip);
+    if (low != high) return true;
+    const std::string all = std::to_string(series.values.size()) + " samples";
+    refuse(findings, file_pointer,
+           low == 0.0 ? "holds nothing but zeros, " + all
+                      : "holds one constant value, " + text(low) + ", in " + all,
+           "give a motion that moves: is the second column the right one?");
+    return false;
 }
 
 double dynamic_duration(const scene::Fem& fem) {
@@ -118,9 +69,18 @@ double dynamic_duration(const scene::Fem& fem) {
     return sum;
 }
 
-/// The stages against the motion's length and step.
-void check_stages_against(const scene::Fem& fem, const motion::Series& acceleration,
-                          Findings& findings) {
+/// Steps of an analysis that pass over the motion's samples.
+void check_steps(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        if (fem.stages[i].kind != scene::StageKind::dynamic) continue;
+        auto doubt = motion::doubt_about_step(series, fem.stages[i].time_step,
+                                              "/fem/stages/" + std::to_string(i) + "/time_step");
+        if (doubt) findings.warnings.push_back(std::move(*doubt));
+    }
+}
+
+/// Stages that end before most of the shaking has come.
+void check_length(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
     const double end = dynamic_duration(fem);
     motion::Series felt = acceleration;
     felt.values.resize(std::min(felt.values.size(), static_cast<std::size_t>(end / felt.dt) + 1));
@@ -131,24 +91,6 @@ void check_stages_against(const scene::Fem& fem, const motion::Series& accelerat
              "the dynamic stages end at " + text(end) + " s, when " + text(100.0 * share) +
                  " % of the motion's Arias intensity have arrived; its strong part lasts until " +
                  text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
-    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
-        const scene::Stage& stage = fem.stages[i];
-        if (stage.kind != scene::StageKind::dynamic || stage.time_step <= 2.0 * acceleration.dt)
-            continue;
-        warn(findings, "coarse_step", "/fem/stages/" + std::to_string(i) + "/time_step",
-             "steps of " + text(stage.time_step) + " s pass over samples of the motion, one per " +
-                 text(acceleration.dt) + " s: give at most that");
-    }
-}
-
-void check_drift(const motion::Series& acceleration, Findings& findings) {
-    constexpr double much = 0.05;  // of the peak velocity
-    const motion::Baseline left = motion::baseline(acceleration);
-    if (left.velocity_share <= much) return;
-    warn(findings, "drift", "/fem/motion/baseline",
-         text(left.last_velocity) + " m/s are left at the motion's end (" +
-             text(100.0 * left.velocity_share) +
-             " % of its peak velocity); \"baseline\": \"corrected\" takes them off");
 }
 
 }  // namespace
@@ -162,12 +104,30 @@ void check_motion(const scene::Scene& scene, Findings& findings) {
     const auto recording = recording_of(*fem.motion, findings);
     if (!recording) return;
     check_kind(*fem.motion, recording->quantity, findings);
-    if (!check_samples(recording->series, findings)) return;
-    check_peak(*fem.motion, *recording, findings);
-    if (recording->quantity != Quantity::acceleration) return;
-    check_stages_against(fem, recording->series, findings);
-    if (fem.motion->baseline == scene::Baseline::as_recorded)
-        check_drift(recording->series, findings);
+    if (recording->quantity == Quantity::displacement || !moves(recording->series, findings))
+        return;
+    const Recording shaking = applied(*fem.motion, *recording);
+    motion::Doubts doubts = motion::doubts_about(shaking, file_pointer);
+    for (fault::Fault& each : doubts.faults) findings.faults.push_back(std::move(each));
+    for (fault::Flag& each : doubts.flags) findings.warnings.push_back(std::move(each));
+    if (!doubts.faults.empty()) return;
+    check_steps(fem, shaking.series, findings);
+    if (shaking.quantity == Quantity::acceleration) check_length(fem, shaking.series, findings);
+}
+
+motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording) {
+    if (recording.quantity != Quantity::acceleration) return recording;
+    motion::Series& series = recording.series;
+    if (wanted.baseline == scene::Baseline::corrected)
+        series = motion::base_corrected(std::move(series));
+    if (wanted.scale_to_pga_g)
+        series = motion::scaled_to_peak(std::move(series),
+                                        *wanted.scale_to_pga_g * motion::standard_gravity);
+    return recording;
+}
+
+motion::Recording applied_motion(const scene::BaseMotion& wanted) {
+    return applied(wanted, motion::read_motion(wanted.file));
 }
 
 }  // namespace breach::check

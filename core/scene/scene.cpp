@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/scene/plausibility.hpp"
 #include "core/scene/reader.hpp"
 #include "core/scene/reading.hpp"
 #include "core/scene/sand.hpp"
@@ -43,7 +44,8 @@ Reading read_text(std::string_view text, const std::string& name,
     for (const std::string& each : overrides) {
         for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
     }
-    for (Fault& found : complete_and_check(document, scene_schema()))
+    std::vector<fault::Flag> doubts;
+    for (Fault& found : complete_and_check(document, scene_schema(), doubts))
         faults.push_back(std::move(found));
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
@@ -55,6 +57,9 @@ Reading read_text(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
+    scene.warnings = std::move(doubts);
+    for (fault::Flag& found : doubts_across(reader, scene))
+        scene.warnings.push_back(std::move(found));
     if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));

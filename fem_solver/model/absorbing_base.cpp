@@ -1,7 +1,6 @@
 #include "fem_solver/model/absorbing_base.hpp"
 
-#include <cmath>
-
+#include "core/check/applied_motion.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
@@ -29,21 +28,8 @@ AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Serie
     return base;
 }
 
-motion::Recording applied_motion(const scene::BaseMotion& wanted) {
-    motion::Recording motion = motion::read_motion(wanted.file);
-    if (motion.quantity == motion::Quantity::velocity) return motion;
-    if (wanted.baseline == scene::Baseline::corrected) {
-        motion.series = motion::base_corrected(std::move(motion.series));
-    }
-    if (wanted.scale_to_pga_g) {
-        motion.series = motion::scaled_to_peak(std::move(motion.series),
-                                               *wanted.scale_to_pga_g * motion::standard_gravity);
-    }
-    return motion;
-}
-
 motion::Series base_velocity(const scene::BaseMotion& wanted) {
-    const motion::Recording motion = applied_motion(wanted);
+    const motion::Recording motion = check::applied_motion(wanted);
     if (motion.quantity == motion::Quantity::velocity) return motion.series;
     return motion::integral(motion.series);
 }

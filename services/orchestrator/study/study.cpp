@@ -93,25 +93,18 @@ void need_part(const json& scene, const std::string& part, std::vector<Fault>& f
                       "add \"" + part + "\" to the scene"});
 }
 
-/// A scene that was sent has no folder: its files are named by absolute paths, in its overrides too.
-void need_absolute_files(const json& document, const std::vector<std::string>& overrides,
+/// A scene that was sent has no folder: its files are named by absolute paths, in overrides too.
+void need_absolute_files(json scene, const std::vector<std::string>& overrides,
                          std::vector<Fault>& faults) {
+    for (const std::string& each : overrides) scene::apply_override(scene, each);
     for (const std::string& key : scene::file_entries) {
-        const auto refuse_relative = [&](const std::string& file) {
-            if (file.starts_with('/')) return;
-            faults.push_back({key,
-                              "the path is relative, but a scene sent to the service has no folder",
-                              "give the absolute path of the file on the service's machine"});
-        };
         const json::json_pointer at(key);
-        bool overridden = false;
-        for (const std::string& each : overrides) {
-            if (!each.starts_with(key + "=")) continue;
-            refuse_relative(each.substr(key.size() + 1));
-            overridden = true;
-        }
-        if (!overridden && document.contains(at) && document[at].is_string())
-            refuse_relative(document[at].get_ref<const std::string&>());
+        if (!scene.contains(at) || !scene[at].is_string() ||
+            scene[at].get_ref<const std::string&>().starts_with('/'))
+            continue;
+        faults.push_back({key,
+                          "the path is relative, but a scene sent to the service has no folder",
+                          "give the absolute path of the file on the service's machine"});
     }
 }
 

@@ -78,12 +78,12 @@ def box(folder, materials, regions, W, H, stages, **fem):
 
 
 def wet_rock_a_million_times_stiffer_gives_the_exact_column(folder):
-    """5 m of soil on 5 m of rock, E 1e7 and 1e13 Pa, loaded at once: undrained first, then drained."""
-    q, M = 1e5, 1e7 * 0.75 / (1.25 * 0.5)
+    """5 m of soil on 5 m of rock, E 1e6 and 1e12 Pa, loaded at once: undrained first, then drained."""
+    q, M = 1e4, 1e6 * 0.75 / (1.25 * 0.5)
     storage = 0.8 / 1.8 / 2.2e9
     passed = True
-    for k, duration in ((1e-12, 100), (1e-3, 1000)):
-        box(folder, {"soil": elastic(1e7, k=k), "rock": elastic(1e13, k=k)},
+    for k, duration in ((1e-12, 100), (1e-2, 1000)):
+        box(folder, {"soil": elastic(1e6, k=k), "rock": elastic(1e12, k=k)},
             [block("rock", "rock", [[0, 0], [1, 0], [1, 5], [0, 5]], [1, 10]),
              block("soil", "soil", [[0, 5], [1, 5], [1, 10], [0, 10]], [1, 10])], 1, 10,
             [{"type": "dynamic", "name": "load", "laws": "elastic", "duration": duration, "time_step": duration / 100}],
