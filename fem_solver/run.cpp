@@ -6,31 +6,18 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/check/applied_motion.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/motion/plausibility.hpp"
-#include "core/motion/read_motion.hpp"
 #include "fem_solver/analysis.hpp"
-#include "fem_solver/model/absorbing_base.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 
 namespace {
 
-/// Refuses a motion that no ground has had, flags one that is hardly meant, and says how strong it
-/// is: in the log and in result.json.
-void judge_motion(process::Session& session, const motion::Recording& applied) {
-    constexpr const char* pointer = "/fem/motion/file";
-    motion::Doubts doubts = motion::doubts_about(applied, pointer);
-    if (!doubts.faults.empty()) throw fault::BadInput("scene", std::move(doubts.faults));
-    for (fault::Flag& flag : doubts.flags) session.flag(std::move(flag));
-    const auto& stages = scene::fem_of(session.scene()).stages;
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-        if (stages[i].kind != scene::StageKind::dynamic) continue;
-        const std::string step = "/fem/stages/" + std::to_string(i) + "/time_step";
-        auto flag = motion::doubt_about_step(applied.series, stages[i].time_step, step);
-        if (flag) session.flag(std::move(*flag));
-    }
+/// How strong the motion is: in the log and in result.json.
+void tell_motion(process::Session& session, const motion::Recording& applied) {
     const motion::Peaks peaks = motion::peaks_of(applied);
     spdlog::info("motion as applied: {}", motion::summary_of(applied));
     session.result()["motion"] = {{"pga_g", peaks.acceleration / motion::standard_gravity},
@@ -41,8 +28,8 @@ void judge_motion(process::Session& session, const motion::Recording& applied) {
 
 /// The motion as it is applied, after scaling: whoever reads the run needs no other file.
 void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
-    const motion::Recording applied = applied_motion(wanted);
-    judge_motion(session, applied);
+    const motion::Recording applied = check::applied_motion(wanted);
+    tell_motion(session, applied);
     std::ostringstream csv;
     motion::write_csv(csv, applied,
                       "as applied, from " + std::filesystem::path(wanted.file).filename().string());

@@ -171,11 +171,11 @@ ExitCode answer(const Phase& phase, Arguments& arguments) {
     const Plan plan = phase.plan(scene);
     if (arguments.question == Question::plan) {
         std::cout << as_text(plan);
-        for (const fault::Flag& each : scene.warnings)
-            std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     } else {
         std::cout << arguments.scene.string() << ": no faults\n";
     }
+    for (const fault::Flag& each : scene.warnings)
+        std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     return ExitCode::done;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/check/check.hpp"
 #include "core/process/plan.hpp"
 #include "core/process/session.hpp"
 #include "core/scene/scene.hpp"
@@ -40,7 +41,7 @@ struct Phase {
     std::function<Outcome(Session&)> run;
     /// Reads the document that the phase works from; not every phase works from a scene.
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
-        read = scene::read_scene;
+        read = check::checked_scene;
     std::vector<Switch> switches = {};
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/scene/plausibility.hpp"
 #include "core/scene/reader.hpp"
+#include "core/scene/reading.hpp"
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
@@ -14,6 +15,16 @@ using fault::Fault;
 using nlohmann::json;
 
 namespace {
+
+template <class Part>
+const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
+    if (part) return *part;
+    throw fault::BadInput(scene.name,
+                          {{pointer, "is missing, and this phase needs it",
+                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
+}
+
+}  // namespace
 
 std::string text_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -26,17 +37,7 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-template <class Part>
-const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
-    if (part) return *part;
-    throw fault::BadInput(scene.name,
-                          {{pointer, "is missing, and this phase needs it",
-                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
-}
-
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::string& name,
+Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
     json document = parse_json(text, name);
     std::vector<Fault> faults;
@@ -59,7 +60,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
     scene.warnings = std::move(doubts);
     for (fault::Flag& found : doubts_across(reader, scene))
         scene.warnings.push_back(std::move(found));
-    if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
+    if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");
@@ -67,7 +68,14 @@ Scene parse_scene(std::string_view text, const std::string& name,
     scene.gravity = document.at("gravity");
     scene.thickness = document.at("thickness");
     scene.completed = document.dump();
-    return scene;
+    return {std::move(scene), {}};
+}
+
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+    Reading reading = read_text(text, name, folder, overrides);
+    if (!reading.faults.empty()) throw fault::BadInput(name, std::move(reading.faults));
+    return std::move(reading.scene);
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

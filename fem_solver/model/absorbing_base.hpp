@@ -31,10 +31,7 @@ struct AbsorbingBase {
 AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Series velocity,
                              scene::MotionAt at);
 
-/// The scene's motion as it is applied: read, scaled, its baseline corrected if asked for; an
-/// acceleration or a velocity. Throws BadInput for what cannot be used as such.
-motion::Recording applied_motion(const scene::BaseMotion& wanted);
-/// Velocity that it brings.
+/// Velocity that the motion brings.
 motion::Series base_velocity(const scene::BaseMotion& wanted);
 
 }  // namespace breach::fem

@@ -4,7 +4,6 @@
 
 #include "fem_solver/model/ground.hpp"
 #include "fem_solver/model/ground_water.hpp"
-#include "fem_solver/solve/sand.hpp"
 
 namespace breach::fem {
 namespace {
@@ -30,7 +29,6 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::siz
 
 Model build_model(const scene::Scene& scene, Mesh mesh) {
     const scene::Fem& fem = scene::fem_of(scene);
-    check_sand(scene);
     Model model;
     model.points_per_element = fem.element == scene::ElementKind::ssp ? 1 : gauss_points;
     model.body = {mesh.nodes.size(), mesh.quads.size()};

@@ -21,7 +21,8 @@ core = {
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
     "core/motion": {"core/fault"},
-    "core/process": {"core/fault", "core/scene", "core/exchange", "core/version"},
+    "core/check": {"core/criteria", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/scene"},
+    "core/process": {"core/check", "core/fault", "core/scene", "core/exchange", "core/version"},
 }
 every_core_room = set(core)
 arrows = {
@@ -30,7 +31,7 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/criteria", "core/fault", "core/scene", "core/exchange", "core/version"},
+    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/version"},
     "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
     "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion"},
 }
