@@ -12,6 +12,7 @@ core = {
     "core/fault": set(),
     "core/criteria": {"core/fault"},
     "core/mechanics": set(),
+    "core/telemetry": set(),
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
@@ -25,7 +26,7 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/criteria", "core/fault", "core/scene", "core/exchange"},
+    "services/orchestrator": {"core/criteria", "core/telemetry", "core/fault", "core/scene", "core/exchange"},
     "services/cli": {"core/fault", "core/scene", "core/exchange"},
     "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion"},
 }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/scene/schema.hpp"
+#include "core/telemetry/columns.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/openapi_text.hpp"
 #include "services/orchestrator/study/plan_question.hpp"
@@ -16,6 +17,15 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uintmax_t least_free_bytes = 16 << 20;
+
+/// What a condition of a trigger may use and a telemetry line holds.
+json telemetry_table() {
+    json fields = json::array();
+    for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()})
+        for (const telemetry::Column& each : table)
+            fields.push_back({{"name", each.name}, {"unit", each.unit}, {"meaning", each.meaning}});
+    return fields;
+}
 
 const std::map<std::string, std::string> content_types{
     {".html", "text/html; charset=utf-8"},
@@ -84,6 +94,10 @@ void add_page_routes(Router& router, Service& service) {
     });
     router.get("/v1/schema/scene", [](Call& call) { reply(call.response, scene::scene_schema()); });
     router.get("/v1/schema/study", [](Call& call) { reply(call.response, scene::study_schema()); });
+    router.get("/v1/telemetry/fields", [](Call& call) {
+        call.allow_parameters({});
+        reply(call.response, {{"fields", telemetry_table()}});
+    });
     router.post("/v1/scenes/plan", [&](Call& call) {
         call.allow_parameters({});
         const json scene = read_whole_scene(call.json_body());
