@@ -3,32 +3,56 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 
+#include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/motion/read_motion.hpp"
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/model/absorbing_base.hpp"
+#include "fem_solver/model/build_model.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 
 namespace {
 
-/// The motion as it is applied, after scaling: whoever reads the run needs no other file.
+/// The motion as it is applied, after scaling: whoever reads the run needs no other file. What it
+/// is goes to the log and, with the hash of the file it came from, to the result.
 void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
+    const motion::Recording motion = applied_motion(wanted);
+    const std::string name = wanted.file.filename().string();
     std::ostringstream csv;
-    motion::write_csv(csv, applied_motion(wanted),
-                      "as applied, from " + std::filesystem::path(wanted.file).filename().string());
+    motion::write_csv(csv, motion, "as applied, from " + name);
     exchange::publish_text(session.output("motion.csv"), csv.str());
+    const MotionPeaks peaks = peaks_of(motion);
+    std::ostringstream text;
+    text << std::setprecision(3) << "motion " << name << " as applied: PGA "
+         << peaks.acceleration / motion::standard_gravity << " g (" << peaks.acceleration
+         << " m/s2), PGV " << peaks.velocity << " m/s, " << std::setprecision(4)
+         << motion.series.duration() << " s";
+    session.result()["motion"] = {{"file", name},
+                                  {"sha256", exchange::sha256_of_file(wanted.file)},
+                                  {"peak_acceleration", peaks.acceleration},
+                                  {"peak_velocity", peaks.velocity},
+                                  {"duration", motion.series.duration()}};
+    spdlog::info("{}", text.str());
 }
 
 }  // namespace
 
 process::Outcome run(process::Session& session) {
     const scene::Scene& scene = session.scene();
-    Mesh mesh = build_mesh(scene, session.settings().output);
+    check_sand(scene);
+    Mesh mesh;
+    try {
+        mesh =
+            build_mesh(scene, session.settings().output, [&] { return session.stop_requested(); });
+    } catch (const MeshingStopped&) {
+        return process::Outcome::stopped;
+    }
     const Quality quality = quality_of(mesh);
     spdlog::info(
         "mesh: {} quads, {} nodes, edges {:.3g} to {:.3g} m, least angle {:.0f} deg, "

@@ -2,9 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
 
@@ -60,6 +59,18 @@ motion::Recording applied_motion(const scene::BaseMotion& wanted) {
                                                *wanted.scale_to_pga_g * motion::standard_gravity);
     }
     return motion;
+}
+
+MotionPeaks peaks_of(const motion::Recording& motion) {
+    if (motion.quantity == motion::Quantity::acceleration) {
+        return {motion::peak(motion.series), motion::peak(motion::integral(motion.series))};
+    }
+    const std::vector<double>& v = motion.series.values;
+    double steepest = 0.0;
+    for (std::size_t i = 1; i < v.size(); ++i) {
+        steepest = std::max(steepest, std::abs(v[i] - v[i - 1]) / motion.series.dt);
+    }
+    return {steepest, motion::peak(motion.series)};
 }
 
 motion::Series base_velocity(const scene::BaseMotion& wanted) {
