@@ -1,10 +1,14 @@
 // Stands for all four phases in the tests of the orchestrator: obeys the contract of a phase with
 // numbers that take no time to compute, and misbehaves as the scene's title says (words
 // "name=value"):
-//     fem_steps mpm_steps  number of steps of 20 ms          entangle_at=T  the FEM ends with 70
-//     before time T damage=T     the snapshot at T holds nonsense          deaf=1         the MPM
-//     ignores TERM and leaves a daemon try_again=1  the MPM's first attempt ends with 75 crash=1
-//     the MPM's first attempt ends by SIGKILL always_crash=1  the MPM never gets through
+//     fem_steps, mpm_steps  number of steps of 20 ms
+//     entangle_at=T   the FEM ends regularly, entangled, before time T
+//     breakdown_at=T  the FEM ends with 70 before time T
+//     damage=T        the snapshot at T holds nonsense
+//     deaf=1          the MPM ignores TERM and leaves a daemon
+//     try_again=1     the MPM's first attempt ends with 75
+//     crash=1         the MPM's first attempt ends by SIGKILL
+//     always_crash=1  the MPM never gets through
 #include <unistd.h>
 
 #include <chrono>
@@ -151,11 +155,22 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
     const double end = 3.0;
     const int steps = static_cast<int>(wish(wanted, "fem_steps", 10));
     const double entangled = wish(wanted, "entangle_at", 1e9);
+    const double breakdown = wish(wanted, "breakdown_at", 1e9);
     walk(order, steps, [&](int done) {
         const double from = end * done / steps;
         const double to = end * (done + 1) / steps;
-        if (to > entangled)
-            end_with_fault(order, 70, "the mesh is entangled at t = " + spelt(from) + " s");
+        if (to > breakdown) end_with_fault(order, 70, "no convergence at " + spelt(from) + " s");
+        if (to > entangled) {
+            end_well(order, {{"phase", "fem_solver"},
+                             {"ended", "entangled"},
+                             {"end_time", from},
+                             {"flags",
+                              {{{"code", "entangled"},
+                                {"severity", "warning"},
+                                {"message", "the mesh folded"},
+                                {"pointer", ""}}}},
+                             {"questionable", false}});
+        }
         for (const double time : times) {
             if (time < from || (time >= to && done + 1 < steps)) continue;
             const bool damaged = std::abs(time - wish(wanted, "damage", -1)) < 1e-9;
@@ -163,7 +178,7 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
                     damaged ? "" : spelt(time));
         }
     });
-    end_well(order, {{"phase", "fem_solver"}});
+    end_well(order, {{"phase", "fem_solver"}, {"ended", "complete"}, {"end_time", end}});
 }
 
 void transfer(const Order& order) {

@@ -112,6 +112,7 @@ struct Task {
     std::optional<std::string> same_as;        ///< the task whose result it took
     std::optional<std::string> cache_refusal;  ///< why a fitting entry of the cache was not served
     std::int64_t priority = 0;
+    bool not_reached = false;  ///< skipped because its FEM had regularly ended before its time
 };
 
 /// As much of a blocked task as its release needs.
@@ -119,6 +120,7 @@ struct BlockedTask {
     std::string id;
     Release release;
     std::string input;
+    std::optional<double> transfer_time;  ///< t_T [s]
 };
 
 struct Attempt {

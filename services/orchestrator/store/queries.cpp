@@ -12,7 +12,7 @@ constexpr const char* run_columns =
     "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
     "t.fault_summary FROM tasks t WHERE t.run "
     "= r.id AND "
-    "t.fault_summary IS NOT NULL ORDER BY t.id LIMIT 1), '') FROM run_summaries r ";
+    "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), '') FROM run_summaries r ";
 
 Run run_from(const Row& row) {
     return {.id = row.text(0),
@@ -34,7 +34,7 @@ constexpr const char* task_columns =
     "SELECT id, run, phase, label, transfer_time, state, parent, release, input, overrides, tries, "
     "started, "
     "finished, result, fault_exit, fault_summary, variant, cores, memory_mb, recipe, input_sha256, "
-    "same_as, cache_refusal, priority FROM tasks ";
+    "same_as, cache_refusal, priority, not_reached FROM tasks ";
 
 Release release_named(const std::string& name) {
     if (name == "at_once") return Release::at_once;
@@ -63,7 +63,8 @@ Task task_from(const Row& row) {
               .input_sha256 = row.optional_text(20),
               .same_as = row.optional_text(21),
               .cache_refusal = row.optional_text(22),
-              .priority = row.integer(23)};
+              .priority = row.integer(23),
+              .not_reached = row.integer(24) != 0};
     if (!row.is_null(13)) task.result = json::parse(row.text(13));
     if (!row.is_null(15)) task.fault = TaskFault{row.optional_integer(14), row.text(15)};
     return task;
@@ -201,9 +202,11 @@ std::vector<BlockedTask> Store::blocked_children(const std::string& parent) cons
     std::vector<BlockedTask> found;
     read([&](Connection& database) {
         database.query(
-            "SELECT id, release, input FROM tasks WHERE parent=? AND state='blocked' ORDER BY id",
+            "SELECT id, release, input, transfer_time FROM tasks WHERE parent=? AND "
+            "state='blocked' ORDER BY id",
             {parent}, [&](const Row& row) {
-                found.push_back({row.text(0), release_named(row.text(1)), row.text(2)});
+                found.push_back(
+                    {row.text(0), release_named(row.text(1)), row.text(2), row.optional_real(3)});
             });
     });
     return found;

@@ -106,7 +106,7 @@ TEST(ListOfRuns, IsFilteredByStateAndName) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string good = service.submit(study("", {0.25}));
-    json named = study("entangle_at=0.1", {1.0});
+    json named = study("breakdown_at=0.1", {1.0});
     named["name"] = "broken";
     const std::string bad = service.submit(named);
     service.wait_for_end(good);
