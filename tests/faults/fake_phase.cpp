@@ -9,6 +9,8 @@
 //     try_again=1     the MPM's first attempt ends with 75
 //     crash=1         the MPM's first attempt ends by SIGKILL
 //     always_crash=1  the MPM never gets through
+//     moving_from=T   the MPM of transfers at T and after still moves at its end
+//     as_before=1     the MPM's result is one of a version without flags
 #include <unistd.h>
 
 #include <chrono>
@@ -199,6 +201,23 @@ void leave_a_daemon(const fs::path& pid_file) {
     while (true) sleep(1);
 }
 
+/// What results have said of themselves since there are flags.
+void add_judgement(json& result, bool moves) {
+    result["ended"] = moves ? "duration" : "at_rest";
+    result["kinetic_share"] = moves ? 0.15 : 0.001;
+    result["end_time"] = 8.0;
+    result["questionable"] = moves;
+    result["flags"] = json::array({{{"code", "implausible"},
+                                    {"severity", "warning"},
+                                    {"message", "a density of 1.9 kg/m3"},
+                                    {"pointer", "/materials/slope_soil/density"}}});
+    if (moves)
+        result["flags"].push_back({{"code", "still_moving"},
+                                   {"severity", "questionable"},
+                                   {"message", "15 % of the energy was left; a lower bound"},
+                                   {"pointer", "/mpm/duration"}});
+}
+
 void mpm(const Order& order, const std::map<std::string, double>& wanted) {
     const double time = std::stod(text_of(order.input));
     if (wish(wanted, "try_again", 0) > 0 && !order.resume)
@@ -211,13 +230,13 @@ void mpm(const Order& order, const std::map<std::string, double>& wanted) {
         const bool crash = wish(wanted, "crash", 0) > 0 && !order.resume && done == 2;
         if (crash || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
     });
-    end_well(order, {{"phase", "mpm_solver"},
-                     {"runout", 10 + time * time},
-                     {"runout_beyond_toe", time},
-                     {"runout_largest", 12 + time},
-                     {"volume_ratio", 1.0},
-                     {"energy", {{"numerical", {{"share", 0.01}}}}},
-                     {"cpu_seconds", 0.5}});
+    const bool moves = time >= wish(wanted, "moving_from", 1e9);
+    json result{{"phase", "mpm_solver"},     {"runout", 10 + time * time},
+                {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
+                {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
+                {"cpu_seconds", 0.5},        {"at_rest", !moves}};
+    if (wish(wanted, "as_before", 0) == 0) add_judgement(result, moves);
+    end_well(order, result);
 }
 
 }  // namespace
