@@ -229,11 +229,9 @@ void Analysis::report_end() {
                                            " of " + shown(span_) + " s: " + in_words(*entanglement_)
                                      : "ended as planned, at " + shown(position_.time) + " s");
     if (facts.contains("motion")) {
-        const auto& motion = facts["motion"];
-        spdlog::info("shaken by {} as applied: PGA {} g, {} s long",
-                     motion["file"].get<std::string>(),
-                     shown(motion["peak_acceleration"].get<double>() / motion::standard_gravity),
-                     shown(motion["duration"].get<double>()));
+        spdlog::info("shaken with a PGA of {} g, as applied, for {} s",
+                     shown(facts["motion"]["pga_g"].get<double>()),
+                     shown(facts["motion"]["duration"].get<double>()));
     }
     spdlog::info("the crest moved {} m (x {}, y {})", shown(last.crest_displacement),
                  shown(last.crest_dx), shown(last.crest_dy));

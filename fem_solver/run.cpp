@@ -35,9 +35,10 @@ void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
          << motion.series.duration() << " s";
     session.result()["motion"] = {{"file", name},
                                   {"sha256", exchange::sha256_of_file(wanted.file)},
-                                  {"peak_acceleration", peaks.acceleration},
-                                  {"peak_velocity", peaks.velocity},
-                                  {"duration", motion.series.duration()}};
+                                  {"pga_g", peaks.acceleration / motion::standard_gravity},
+                                  {"pgv", peaks.velocity},
+                                  {"duration", motion.series.duration()},
+                                  {"time_step", motion.series.dt}};
     spdlog::info("{}", text.str());
 }
 
