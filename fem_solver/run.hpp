@@ -5,9 +5,6 @@
 
 namespace breach::fem {
 
-/// Asks for the table of profile.hpp on stdout (the log where stdout carries JSON lines).
-inline constexpr const char* profile_switch = "--profile";
-
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
 process::Outcome run(process::Session& session);
 

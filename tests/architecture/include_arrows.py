@@ -17,6 +17,7 @@ core = {
     "core/criteria": {"core/fault"},
     "core/mechanics": set(),
     "core/numerics": set(),
+    "core/telemetry": set(),
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
@@ -31,7 +32,7 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/version"},
+    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/telemetry", "core/version"},
     "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
     "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion"},
 }

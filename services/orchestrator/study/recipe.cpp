@@ -28,7 +28,7 @@ struct Reading {
 
 const std::map<std::string, Reading> readings{
     {"lem_tool", {1, {"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
-    {"fem_solver", {3, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    {"fem_solver", {4, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
     {"transfer_tool",
      {2,
       {"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",

@@ -53,7 +53,10 @@ void measure_shaking(const Run& run, Measures& found) {
     keep("time_epsilon_q_20", telemetry.first_time("epsilon_q_avg > 0.2"));
     keep("time_jacobian_least_97", telemetry.first_time("jacobian_least_avg < 0.97"));
     keep("time_jacobian_centre_97", telemetry.first_time("jacobian_centre_avg < 0.97"));
-    if (fem->fault.find("entangled") != std::string::npos && !telemetry.lines().empty()) {
+    if (fem->result.is_object() && fem->result.value("ended", "") == "entangled") {
+        keep("time_entangled", fem->result.at("entanglement").at("time").get<double>());
+    } else if (fem->fault.find("entangled") != std::string::npos && !telemetry.lines().empty()) {
+        // Runs of versions that took it for a fault.
         keep("time_entangled", telemetry.lines().back().at("time").get<double>());
     }
     const WindowEdges window = window_of(run, telemetry);

@@ -8,6 +8,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/scene/file_paths.hpp"
+#include "core/telemetry/columns.hpp"
 #include "services/orchestrator/dispatch/verdict.hpp"
 #include "services/orchestrator/study/graph.hpp"
 
@@ -228,6 +229,19 @@ TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
     EXPECT_EQ(verdict({}, 9, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict(0, {}, StopReason::shutdown), Verdict::well);
     EXPECT_EQ(verdict(70, {}, StopReason::shutdown), Verdict::badly);
+}
+
+TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {
+    for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()}) {
+        for (const telemetry::Column& each : table) {
+            json study = slope_study();
+            study["triggers"] = {
+                {{"kind", "criterion"}, {"when", std::string(each.name) + " > 0.5"}}};
+            EXPECT_TRUE(pointers_of_faults(study).empty()) << each.name;
+            EXPECT_NE(std::string(each.unit), "") << each.name;
+            EXPECT_NE(std::string(each.meaning), "") << each.name;
+        }
+    }
 }
 
 }  // namespace
