@@ -9,7 +9,7 @@ namespace pm4sand = materials::pm4sand;
 
 void check_sand(const scene::Scene& scene) {
     const bool any = std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
-        return std::holds_alternative<materials::PM4Sand>(scene.materials[region.material].law);
+        return materials::sand_in(scene.materials[region.material].law) != nullptr;
     });
     if (!any) return;
     const scene::Fem& fem = scene::fem_of(scene);
@@ -32,9 +32,8 @@ void check_sand(const scene::Scene& scene) {
 }
 
 bool has_sand(const Model& model) {
-    return std::ranges::any_of(model.zones, [](const Zone& zone) {
-        return std::holds_alternative<materials::PM4Sand>(zone.law);
-    });
+    return std::ranges::any_of(
+        model.zones, [](const Zone& zone) { return materials::sand_in(zone.law) != nullptr; });
 }
 
 StressBias stress_bias(const Motion& motion) {
@@ -53,7 +52,7 @@ StressBias stress_bias(const Motion& motion) {
 StressBias begin_sand(const Model& model, Motion& motion) {
     if (!motion.sand.empty()) return stress_bias(motion);
     for (const Zone& zone : model.zones) {
-        const auto* law = std::get_if<materials::PM4Sand>(&zone.law);
+        const auto* law = materials::sand_in(zone.law);
         if (law == nullptr) continue;
         const std::size_t begin = zone.first * model.points_per_element;
         const std::size_t end = begin + zone.count * model.points_per_element;
@@ -70,7 +69,7 @@ StressBias begin_sand(const Model& model, Motion& motion) {
 SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
     std::size_t largest = 0;
     for (const Zone& zone : model.zones) {
-        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        if (!materials::sand_in(zone.law)) continue;
         largest = std::max(largest, zone.count * points_);
     }
     updates_.resize(largest);
