@@ -85,21 +85,39 @@ PlanLine on_if(bool on, const std::string& feature, const std::string& why_on,
     return {feature, on ? Use::on : Use::left_out, on ? why_on : why_not, pointer};
 }
 
+/// "Mohr-Coulomb in a, b; ...": every law that yields with its regions; PM4Sand has a line of its
+/// own.
+std::string plastic_regions(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const scene::Material& material : scene.materials) {
+        const std::string name = materials::traits(material.law).name;
+        const bool stands_here =
+            materials::traits(material.law).yields && !materials::sand_in(material.law);
+        if (stands_here && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::string text;
+    for (const std::string& name : names) {
+        const std::string regions = regions_where(scene, [&](const scene::Region& region) {
+            return name == materials::traits(scene.materials[region.material].law).name;
+        });
+        if (regions.empty()) continue;
+        text += (text.empty() ? "" : "; ") + name + " in " + regions;
+    }
+    return text;
+}
+
 }  // namespace
 
 process::Plan plan(const scene::Scene& scene) {
     const scene::Fem& fem = scene::fem_of(scene);
-    const auto soil_of = [&](const scene::Region& region) {
-        return std::get_if<materials::MohrCoulomb>(&scene.materials[region.material].law);
+    const auto law_of = [&](const scene::Region& region) -> const materials::Law& {
+        return scene.materials[region.material].law;
     };
-    const std::string plastic =
-        regions_where(scene, [&](const auto& region) { return soil_of(region) != nullptr; });
-    const std::string sand = regions_where(scene, [&](const auto& region) {
-        return std::holds_alternative<materials::PM4Sand>(scene.materials[region.material].law);
-    });
-    const std::string softening = regions_where(scene, [&](const auto& region) {
-        return soil_of(region) != nullptr && soil_of(region)->softening.has_value();
-    });
+    const std::string plastic = plastic_regions(scene);
+    const std::string sand = regions_where(
+        scene, [&](const auto& region) { return materials::sand_in(law_of(region)); });
+    const std::string softening = regions_where(
+        scene, [&](const auto& region) { return materials::softening(law_of(region)); });
     const std::string unstructured = regions_where(
         scene, [](const auto& region) { return region.mesh == scene::RegionMesh::unstructured; });
     const bool moves = std::ranges::any_of(
@@ -123,7 +141,7 @@ process::Plan plan(const scene::Scene& scene) {
                   : "no static stage of the scene's laws follows elastic gravity; what lies "
                     "outside the surfaces stays as a constant stress",
               "/fem/stages"),
-        on_if(!plastic.empty(), "plasticity", "Mohr-Coulomb in " + plastic, "no Mohr-Coulomb soil",
+        on_if(!plastic.empty(), "plasticity", plastic, "no material flows plastically",
               "/materials"),
         on_if(!softening.empty(), "softening",
               "in " + softening + "; explicit per step, so shear bands are one element wide",

@@ -27,10 +27,10 @@ void scale(scene::UndrainedStrength& strength, double factor) {
 void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double factor) {
     switch (parameter) {
         case Parameter::cohesion:
-            std::get<materials::MohrCoulomb>(scene.materials[of].law).c *= factor;
+            *materials::strength_entries(scene.materials[of].law).c *= factor;
             break;
         case Parameter::friction_angle: {
-            double& phi = std::get<materials::MohrCoulomb>(scene.materials[of].law).phi;
+            double& phi = *materials::strength_entries(scene.materials[of].law).phi;
             phi = std::min(phi * factor, steepest_friction);
             break;
         }
@@ -124,9 +124,11 @@ struct Strength {
 std::vector<Strength> strengths_of(const scene::Scene& scene, std::size_t layers) {
     std::vector<Strength> strengths;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const auto* law = std::get_if<materials::MohrCoulomb>(&scene.materials[i].law);
-        if (law && law->c > 0.0) strengths.push_back({Parameter::cohesion, i});
-        if (law && law->phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
+        const materials::Law& law = scene.materials[i].law;
+        if (!materials::traits(law).c_and_phi) continue;
+        const auto strength = materials::limit_strength(law);
+        if (strength->c > 0.0) strengths.push_back({Parameter::cohesion, i});
+        if (strength->tan_phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
     }
     for (std::size_t i = 0; i < scene.lem->undrained.size(); ++i) {
         strengths.push_back({Parameter::undrained_strength, i});

@@ -20,7 +20,7 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::siz
             zones.push_back({e, 0, material.density, material.law});
         }
         if (opens) zones.back().first_sand = sand;
-        if (std::holds_alternative<materials::PM4Sand>(zones.back().law)) sand += points;
+        if (materials::sand_in(zones.back().law)) sand += points;
         ++zones.back().count;
     }
     return zones;

@@ -98,14 +98,14 @@ struct Softened {
 Softened softened_volume(const Model& model, const Motion& motion) {
     Softened volume;
     for (const Zone& zone : model.zones) {
-        const auto* soil = std::get_if<materials::MohrCoulomb>(&zone.law);
-        if (soil == nullptr || !soil->softening) continue;
+        const materials::Softening* softening = materials::softening(zone.law);
+        if (softening == nullptr) continue;
         const std::size_t end = std::min(zone.first + zone.count, model.body.elements);
         for (std::size_t e = zone.first; e < end; ++e) {
             volume.possible += model.volume[e];
             for (std::size_t g = 0; g < model.points_per_element; ++g) {
                 const double reached = motion.points[e * model.points_per_element + g].epsilon_q;
-                if (reached <= soil->softening->epsilon_q_start) continue;
+                if (reached <= softening->epsilon_q_start) continue;
                 volume.done += model.reference[e].weight[g];
             }
         }
