@@ -38,8 +38,9 @@ struct Soil {
     double r_u;  ///< pore pressure over the soil's vertical stress, where no water line counts [-]
     enum class Passage {
         open,
+        /// Closed: stronger than any surface (linear elastic)
         closed
-    } passage;                 ///< closed: stronger than any surface (linear elastic)
+    } passage;
     double coefficient = 0.0;  ///< undrained strength at sigma'_v0 = p_a [Pa]
     double exponent = 1.0;     ///< [-]
 };
@@ -64,8 +65,8 @@ struct Slices {
                                   ///< the centre, on a floor W h tan a and horizontal moments [N/m]
     std::vector<double> shaking;  ///< moment of the soil's weight, put horizontal, over R [N/m]
     std::vector<double> lever;  ///< arm of the base's shear in Bishop's moment over R: 1 on the arc
-    std::vector<double>
-        force;  ///< (c l cos a + (W - u l cos a) tan phi) lever: Bishop's numerator [N/m]
+    /// (c l cos a + (W - u l cos a) tan phi) lever: Bishop's numerator [N/m]
+    std::vector<double> force;
     std::vector<double> c;          ///< [Pa]
     std::vector<double> tan_phi;    ///< [-]
     std::vector<double> crossings;  ///< scratch of the cutting

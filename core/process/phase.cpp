@@ -10,6 +10,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/process/signals.hpp"
+#include "core/version/version.hpp"
 
 namespace breach::process {
 
@@ -63,7 +64,7 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
         app.add_flag_callback(
             each.name, [&a, &each] { a.settings.switches.insert(each.name); }, each.purpose);
     }
-    app.set_version_flag("--version", phase.name + " " BREACH_VERSION);
+    app.set_version_flag("--version", phase.name + " " + version());
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -45,7 +45,7 @@ struct Phase {
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes
-/// (architecture.md, "What a phase promises"). Returns the exit code. Never throws.
+/// (docs/design/architecture.md, "What a phase promises"). Returns the exit code. Never throws.
 int run_phase(int argc, char** argv, const Phase& phase);
 
 }  // namespace breach::process

@@ -94,8 +94,8 @@ struct Motion {
     Eigen::VectorXd p_rate;     ///< [Pa/s]
     std::vector<State> points;  ///< element by element, Gauss point by Gauss point
     std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
-    std::vector<materials::pm4sand::State>
-        sand;  ///< points of PM4Sand zones, zone by zone; empty in the elastic stages before
+    /// Points of PM4Sand zones, zone by zone; empty in the elastic stages before
+    std::vector<materials::pm4sand::State> sand;
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 

@@ -37,11 +37,11 @@ struct Reading {
     double jacobian_centre_avg = 1.0;
     double jacobian_least_avg = 1.0;
     double jacobian_least_min = 1.0;
-    double epsilon_q_avg =
-        0.0;  ///< volume average over the strained elements; 0 when there are none [-]
+    /// Volume average over the strained elements; 0 when there are none [-]
+    double epsilon_q_avg = 0.0;
     double epsilon_q_max = 0.0;  ///< [-]
-    double strained_share =
-        0.0;  ///< volume of elements with epsilon_q above the threshold over all volume [-]
+    /// Volume of elements with epsilon_q above the threshold over all volume [-]
+    double strained_share = 0.0;
     double excess_pressure_avg = 0.0;  ///< u - u_0 over the nodes with a pressure unknown, weighted
                                        ///< by mass [Pa]
     double r_u_max = 0.0;              ///< of the watched nodes [-]

@@ -8,6 +8,7 @@
 #include <functional>
 #include <iostream>
 
+#include "core/version/version.hpp"
 #include "services/cli/commands.hpp"
 #include "services/cli/export_run.hpp"
 #include "services/cli/logs.hpp"
@@ -54,7 +55,7 @@ class CommandLine {
     CommandLine()
         : app_("Talks to a Breachline server: submits studies and shows what became of them.",
                "breach") {
-        app_.set_version_flag("--version", "breach " BREACH_VERSION);
+        app_.set_version_flag("--version", std::string("breach ") + version());
         app_.require_subcommand(1);
         app_.fallthrough();  // --json may stand behind the command
         app_.add_option("--server", a_.server, "the server's address")

@@ -1,10 +1,14 @@
 // Stands for all four phases in the tests of the orchestrator: obeys the contract of a phase with
-// numbers that take no time to compute, and misbehaves as the scene's title says (words
-// "name=value"):
-//     fem_steps mpm_steps  number of steps of 20 ms          entangle_at=T  the FEM ends with 70
-//     before time T damage=T     the snapshot at T holds nonsense          deaf=1         the MPM
-//     ignores TERM and leaves a daemon try_again=1  the MPM's first attempt ends with 75 crash=1
-//     the MPM's first attempt ends by SIGKILL always_crash=1  the MPM never gets through
+// numbers that take no time to compute, and misbehaves as the scene's title says, in words
+// "name=value":
+//
+//     fem_steps, mpm_steps   number of steps of 20 ms
+//     entangle_at=T          the FEM ends with 70 before time T
+//     damage=T               the snapshot at T holds nonsense
+//     deaf=1                 the MPM ignores TERM and leaves a daemon
+//     try_again=1            the MPM's first attempt ends with 75
+//     crash=1                the MPM's first attempt ends by SIGKILL
+//     always_crash=1         the MPM never gets through
 #include <unistd.h>
 
 #include <chrono>

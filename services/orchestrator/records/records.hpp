@@ -62,8 +62,8 @@ struct Run {
     std::string id;
     std::string name;
     std::string title;
-    std::string
-        state;  ///< derived from the tasks: queued running succeeded partial failed cancelled
+    /// Derived from the tasks: queued running succeeded partial failed cancelled
+    std::string state;
     std::string created;
     std::optional<std::string> started;
     std::optional<std::string> finished;
