@@ -101,9 +101,11 @@ void Dispatcher::serve(const std::stop_token& stop) {
             start_ready_tasks();
             wait_for_something();
         } catch (const std::exception& error) {
-            // A full disk or the like: nothing was half-stored, so look again when it may be
+            // A full disk or the like: nothing was half-stored, but what was stored may not have
+            // been acted upon, nor noted in memory. So look again as after a start, when it may be
             // better.
             spdlog::error("dispatcher: {}", error.what());
+            reconciled = false;
             std::this_thread::sleep_for(pause_after_trouble);
         }
     }
@@ -114,9 +116,14 @@ void Dispatcher::serve(const std::stop_token& stop) {
     }
 }
 
-/// What the store says was going on, held against what is.
+/// What the store says was going on, held against what is; after a start, and after trouble.
 void Dispatcher::reconcile() {
+    for (const Live& live : live_) stop_watching(live);
     live_.clear();
+    {
+        const std::lock_guard lock(registered_mutex_);
+        registered_.clear();  // all parents are looked at below
+    }
     constexpr auto all = static_cast<std::size_t>(1) << 30;
     for (const TaskState state : {TaskState::starting, TaskState::running, TaskState::cancelling}) {
         for (const Task& task : store_.tasks_in(state, all)) {
@@ -145,7 +152,7 @@ void Dispatcher::look_around() {
     for (Live& live : live_) {
         if (all || std::ranges::find(changed, live.output_watch) != changed.end())
             live.outputs_changed = true;
-        observe(live);
+        observe_alone(live);
     }
     forget_the_ended();
     triggers_.look();
@@ -155,6 +162,19 @@ void Dispatcher::look_around() {
             if (stop_.stop_requested()) return;
             settle_children(parent);
         }
+    }
+}
+
+/// One whose files cannot be read must not hold up the others: it says why it is stuck, and is
+/// looked at again.
+void Dispatcher::observe_alone(Live& live) {
+    try {
+        observe(live);
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string why = std::string("cannot be observed: ") + error.what();
+        if (board_.of(live.task.id).message != why)
+            spdlog::error("{} ({}): {}", live.task.id, live.task.label, why);
+        board_.set(live.task.id, {0.0, why});
     }
 }
 
@@ -401,6 +421,7 @@ void Dispatcher::settle_children(const std::string& parent_id) {
     for (const std::string& each : skipped) settle_children(each);
 }
 
+/// What is not got through, because an exception ends it, is got through by the next reconciling.
 void Dispatcher::settle_after_registrar() {
     std::vector<std::string> tasks;
     std::vector<std::string> looked_up;
@@ -409,9 +430,9 @@ void Dispatcher::settle_after_registrar() {
         tasks.swap(registered_);
         looked_up.swap(looked_up_);
     }
+    for (const std::string& task : looked_up) in_the_cache_.erase(task);
     for (const std::string& task : tasks) settle_children(task);
     for (const std::string& task : looked_up) {
-        in_the_cache_.erase(task);
         if (store_.task(task)->state == TaskState::ready) {
             not_cached_.insert(task);
         } else {

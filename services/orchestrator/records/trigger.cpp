@@ -27,10 +27,12 @@ constexpr std::array table{
     TriggerRule{S::armed, E::expire, S::expired},   TriggerRule{S::armed, E::disarm, S::disarmed},
     TriggerRule{S::holding, E::uncross, S::armed},  TriggerRule{S::holding, E::fire, S::fired},
     TriggerRule{S::holding, E::expire, S::expired}, TriggerRule{S::holding, E::disarm, S::disarmed},
+    TriggerRule{S::expired, E::rearm, S::armed},    TriggerRule{S::disarmed, E::rearm, S::armed},
 };
 constexpr std::array<std::string_view, 5> states{"armed", "holding", "fired", "expired",
                                                  "disarmed"};
-constexpr std::array<std::string_view, 5> events{"cross", "uncross", "fire", "expire", "disarm"};
+constexpr std::array<std::string_view, 6> events{"cross",  "uncross", "fire",
+                                                 "expire", "disarm",  "rearm"};
 
 constexpr double default_within_share = 0.05;    // of the dynamic stages
 constexpr double default_window_shares = 100.0;  // snapshots over the dynamic stages

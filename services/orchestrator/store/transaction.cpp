@@ -300,8 +300,13 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
                 tasks.emplace_back(row.text(0), row.text(2));
         });
     if (!known) return std::nullopt;
-    if (!tasks.empty())
-        add_event(run, std::nullopt, "run", {{"event", "retry"}, {"tasks", tasks.size()}});
+    std::set<std::string> ids;
+    for (const auto& [task, release] : tasks) ids.insert(task);
+    const std::vector<Trigger> triggers = triggers_to_rearm(run, ids);
+    if (!tasks.empty() || !triggers.empty())
+        add_event(run, std::nullopt, "run",
+                  {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
+    for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
     for (const auto& [task, release] : tasks) {
         // What broke down is wanted again, not answered by its like: it loses its recipe.
         database_.change(

@@ -2,6 +2,8 @@
 // the lifecycle's table decides the new state. A Transaction exists only inside Store::write.
 #pragma once
 
+#include <set>
+
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/store/connection.hpp"
 
@@ -69,7 +71,9 @@ class Transaction {
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
     /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; what was not
-    /// reached stays so. Returns how many; nothing: no such run.
+    /// reached stays so. Triggers that the cancelling disarmed are armed again, and those that had
+    /// expired on a FEM that now runs again; what fired stays. Returns how many tasks; nothing: no
+    /// such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 
     /// On one FEM of the run; an empty name is made up. Returns its id.
@@ -90,6 +94,8 @@ class Transaction {
     std::int64_t next_ordinal(const std::string& run);
     void add_triggers(const NewRun& run);
     void disarm_triggers(const std::string& run, const std::string& why);
+    std::vector<Trigger> triggers_to_rearm(const std::string& run,
+                                           const std::set<std::string>& tasks_tried_again) const;
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
     std::string add_fired_task(const std::string& run, const std::string& parent,
                                const std::string& label, const nlohmann::json& task, double time,

@@ -163,6 +163,20 @@ void Transaction::disarm_triggers(const std::string& run, const std::string& why
     for (const Trigger& each : open) move_trigger(each, TriggerEvent::disarm, {{"why", why}});
 }
 
+std::vector<Trigger> Transaction::triggers_to_rearm(
+    const std::string& run, const std::set<std::string>& tasks_tried_again) const {
+    std::vector<Trigger> found;
+    database_.query(
+        std::string(trigger_columns) + "WHERE run=? AND state IN ('disarmed', 'expired')", {run},
+        [&](const Row& row) {
+            Trigger trigger = trigger_from(row);
+            if (trigger.state == TriggerState::disarmed ||
+                tasks_tried_again.contains(trigger.fem_task))
+                found.push_back(std::move(trigger));
+        });
+    return found;
+}
+
 // ---------------------------------------------------------------- reading
 
 std::vector<Trigger> Store::open_triggers() const {
