@@ -118,7 +118,8 @@ class FakeRun {
     }
 
     runout({ transfer_time, variant = "" }) {
-        const reach = (variant === "not-softened" ? 0.4 : 1) * 11 + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
+        const strength = Number(variant.match(/^strength_x_(.*)/)?.[1] ?? 1);
+        const reach = (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
         return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
                  volume_ratio: 1.01, numerical_share: 0.031 + 0.01 * transfer_time, overlap: 0.004, cpu_seconds: 7.25 + transfer_time };
     }

@@ -384,7 +384,7 @@ test("a runout that still moves, is questionable or carries no flags does not lo
         document.querySelector(`#runout-plot svg.plot > ${one}`).getBoundingClientRect().top));
     assert.ok(arrow < marker - 3, `the arrow's head, at ${arrow}, is above its marker, at ${marker}`);
     const titles = await page.locator("#runout-plot svg.plot > .marker").evaluateAll((all) => all.map((one) => one.querySelector("title")?.textContent));
-    assert.match(titles[1], /moving, 12 % of the energy left\nstill moving: .*the runout is a lower bound/);
+    assert.match(titles[1], /moving, 12 % in motion\nstill moving: .*the runout is a lower bound/);
     assert.match(titles[2], /at rest\nnumerical share: the scheme took 31 %/);
     assert.match(titles[5], /implausible: 19 looks like kN\/m3/);
     assert.match(titles[6], /not known/);
@@ -398,11 +398,13 @@ test("a runout that still moves, is questionable or carries no flags does not lo
 
     const cells = async (time) => (await page.locator(`#runout-rows tr[data-key="${time}/"] td`).allTextContents()).slice(1, 5);
     assert.deepEqual(await cells(0.25), ["✓ succeeded", "14.04", "at rest", "none"]);
-    assert.deepEqual(await cells(0.5), ["⚠ questionable", "≥ 14.92", "moving, 12 % of the energy left", "still moving"]);
+    assert.deepEqual(await cells(0.5), ["⚠ questionable", "≥ 14.92", "moving, 12 % in motion", "still moving"]);
     assert.deepEqual((await cells(0.75)).slice(0, 1), ["⚠ questionable"]);
     assert.deepEqual((await cells(1)).slice(3), ["still moving; numerical share"]);
     assert.deepEqual(await cells(1.5), ["✓ succeeded", "13.42", "at rest", "implausible (warning)"]);
     assert.deepEqual((await cells(1.75)).slice(2), ["not known", "not known"]);
+    const badges = await page.locator("#runout-rows .state").evaluateAll((all) => all.map((one) => one.className.replace("state ", "")));
+    assert.deepEqual(badges, ["good", "warn", "warn", "warn", "good", "good", "off", "good"], "what is not known is not green");
 
     await page.selectOption("#runout-trust", "sound");
     await until("the sound ones", async () => (await markers()) === 4);
@@ -429,6 +431,31 @@ test("a runout that still moves, is questionable or carries no flags does not lo
     await page.keyboard.press("Escape");
 });
 
+test("the table of runouts fits at 1400 px; what is folded away comes when asked for", async () => {
+    await page.setViewportSize({ width: 1400, height: 900 });
+    await open_run(api.add_run({ ...two_variants, name: "wide", title: "Every column" }, { began: Date.now() - 60000, flagged: some_flagged }).id);
+    await until("rows", async () => (await page.locator("#runout-rows tr").count()) === 16);
+    const hidden_width = () => page.evaluate(() => {
+        const region = document.getElementById("runout-table").parentElement;
+        return region.scrollWidth - region.clientWidth;
+    });
+    assert.equal(await hidden_width(), 0);
+    assert.ok(await page.isHidden('#runout-rows tr:first-child [data-column="overlap"]'));
+    await page.check("#runout-all");
+    assert.ok(await page.isVisible('#runout-rows tr:first-child [data-column="overlap"]'));
+    await page.uncheck("#runout-all");
+    for (const width of [1000, 400]) {
+        await page.setViewportSize({ width, height: 900 });
+        await page.evaluate(() => document.getElementById("runout-table").parentElement.scrollTo(10000, 0));
+        const [time, trace] = await page.evaluate(() => ["th", "td:last-child button"].map((one) => {
+            const { left, right } = document.querySelector(`#runout-rows tr:first-child ${one}`).getBoundingClientRect();
+            return { left, right };
+        }));
+        assert.ok(trace.right <= width && time.left >= 0 && time.right < trace.left, `${width} px: the last column is reached, the first stays`);
+    }
+    await page.setViewportSize({ width: 1400, height: 900 });
+});
+
 test("where a task left no result, the origin of its number says why and what is unknown", async () => {
     await open_run("run-1");
     await until("markers", async () => (await markers()) === 7);
@@ -449,7 +476,8 @@ test("variants at one transfer time stand side by side, each with its name", asy
     assert.deepEqual(await page.locator("#runout-plot .label").allTextContents(), ["variant", "runout from the toe [m]"]);
     await page.focus("#runout-plot svg.plot");
     await page.keyboard.press("End");
-    assert.match(await text_of("#runout-plot .readout"), /^strength_x_1.25: .* 15.5 m$/);
+    assert.match(await text_of("#runout-plot .readout"), /^strength_x_1.25: .* 13.3 m$/);
+    assert.equal(await text_of("#runout-title"), "Runout by variant");
     await screenshot(page, "page_variants_side_by_side");
 });
 

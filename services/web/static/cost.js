@@ -34,7 +34,7 @@ export class Cost {
             plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : plot.labels.y;
             plot.show({ series: series_by_variant(finished, variants).map(({ variant, rows: points }) => ({
                 name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),
-                looks: points.map(look_of), notes: points.map(flag_note),
+                looks: points.map((row) => (column === "runout" ? look_of(row) : look_of(row).replace(/.*bound.*/, "doubtful"))), notes: points.map(flag_note),
                 names: points.map((row) => `t_T = ${number(row.transfer_time)} s`),
                 x: points.map((row) => row.cpu_seconds), y: points.map((row) => row[field] ?? null) })) });
         }

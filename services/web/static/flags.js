@@ -42,11 +42,11 @@ export function flag_note({ flags }) {
     return flags.map((flag) => `${worded(flag.code)}: ${flag.message}`).join("\n");
 }
 
-/// Whether the soil had come to rest.
+/// Whether the soil had come to rest; how much of the released energy was still in its motion.
 export function rest_text({ at_rest, kinetic_share }) {
     if (at_rest === true) return "at rest";
     if (at_rest !== false) return "not known";
-    return Number.isFinite(kinetic_share) ? `moving, ${number(100 * kinetic_share, 2)} % of the energy left` : "moving";
+    return Number.isFinite(kinetic_share) ? `moving, ${number(100 * kinetic_share, 2)} % in motion` : "moving";
 }
 
 /// Flags as a list with messages and places, questionable ones first.

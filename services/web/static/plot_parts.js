@@ -119,7 +119,8 @@ export function legend({ series, marks, lines, bands }, lines_name) {
     const seen = new Set(series.flatMap(({ looks = [], y }) => looks.filter((look, i) => look && Number.isFinite(y[i])))
         .flatMap((look) => look.split(" ")));
     for (const look of Object.keys(looks).filter((each) => seen.has(each))) {
-        items.push(legend_item(marker_parts("neutral", marker_shapes[0], look, "translate(12,13)"), looks[look], 20));
+        items.push(legend_item(marker_parts("neutral", marker_shapes[0], look, look === "bound" ? "translate(12,18)" : "translate(12,7)"),
+                               looks[look], look === "bound" ? 24 : 14));
     }
     for (const kind of new Set(marks.map((each) => each.kind))) {
         items.push(legend_item([svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: "translate(12,7)" })], kind));

@@ -13,6 +13,9 @@ export const measures = {
 };
 const columns = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap", "cpu_seconds"];
 
+/// Left out where the table has no room for them, until a person asks for all.
+const folded = new Set(["runout_largest", "volume_ratio", "overlap"]);
+
 export class Results {
     /// look_at(row): a person wants to see this point's particles. ask(row, column): where its numbers come from.
     constructor({ look_at, ask }) {
@@ -22,6 +25,7 @@ export class Results {
             hint: "Point at the curve, or use the arrow keys; click or Enter shows where the number comes from.",
         }, { height: 340, y_from_zero: true, choose: (_, key) => key && this.ask(this.row(key), this.measure()) });
         by_id("runout-measure").addEventListener("change", () => this.draw());
+        by_id("runout-all").addEventListener("change", (event) => by_id("runout-table").classList.toggle("all", event.target.checked));
         by_id("runout-trust").addEventListener("change", () => this.refresh());
         by_id("runout-rows").addEventListener("click", (event) => {
             const cell = event.target.closest("[data-column]");
@@ -75,7 +79,9 @@ export class Results {
         const points = (some) => ({ unit: "m", points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
                                     looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
-        if (several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1) {
+        const side_by_side = several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1;
+        set_text(by_id("runout-title"), side_by_side ? "Runout by variant" : "Runout against transfer time");
+        if (side_by_side) {
             // One transfer time: the variants stand side by side.
             const at = (row) => lines.findIndex(({ variant }) => variant === row.variant);
             this.plot.show({
@@ -99,10 +105,11 @@ export class Results {
         const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", { class: "variant" }),
                             element("td", {}, element("span")));
         for (const column of columns) {
-            row.append(element("td", { class: "number", "data-column": column, title: "Where this number comes from" }));
+            row.append(element("td", { class: folded.has(column) ? "number fold" : "number", "data-column": column,
+                                       title: "Where this number comes from" }));
             if (column === "runout") row.append(element("td", { class: "rest" }), element("td", { class: "flag-codes" }));
         }
-        row.append(element("td", {}), element("td", {}, ask));
+        row.append(element("td", { class: "fold" }), element("td", {}, ask));
         return row;
     }
 }
@@ -151,6 +158,7 @@ function fill_row(row, values) {
     look.title = "Show the particles";
     set_text(variant, values.variant);
     show_state(state.firstElementChild, values.reused && values.state === "succeeded" ? "cached" : values.state);
+    if (is_finished(values) && trust_of(values) === "unknown") state.firstElementChild.className = "state off";
     state.title = [values.reason, values.state === "questionable" ? flag_note(values) : ""].filter(Boolean).join("\n");
     for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
     const bound = is_finished(values) && look_of(values).includes("bound");
