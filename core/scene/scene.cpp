@@ -49,6 +49,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
     Scene scene{};
+    scene.warnings = std::move(doubts);
     Reader reader(document, std::move(faults));
     read_materials(reader, scene);
     read_section(reader, scene);
@@ -56,9 +57,7 @@ Scene parse_scene(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
-    scene.warnings = std::move(doubts);
-    for (fault::Flag& found : doubts_across(reader, scene))
-        scene.warnings.push_back(std::move(found));
+    doubt_together(reader, scene);
     if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
