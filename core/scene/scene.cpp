@@ -50,6 +50,7 @@ Reading read_text(std::string_view text, const std::string& name,
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
     Scene scene{};
+    scene.warnings = std::move(doubts);
     Reader reader(document, std::move(faults));
     read_materials(reader, scene);
     read_section(reader, scene);
@@ -57,9 +58,7 @@ Reading read_text(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
-    scene.warnings = std::move(doubts);
-    for (fault::Flag& found : doubts_across(reader, scene))
-        scene.warnings.push_back(std::move(found));
+    doubt_together(reader, scene);
     if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
