@@ -72,7 +72,7 @@ double level_at(const std::vector<Vec2>& line, double x) {
 void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& pointer) {
     if (line.empty() || !d.reader.sound(pointer)) return;
     const double left = d.extent.low.x(), right = d.extent.high.x();
-    auto [lowest, highest] = std::minmax(level_at(line, left), level_at(line, right));
+    auto [lowest, highest] = std::minmax({level_at(line, left), level_at(line, right)});
     for (const Vec2& point : line) {
         if (point.x() < left || point.x() > right) continue;
         lowest = std::min(lowest, point.y());
