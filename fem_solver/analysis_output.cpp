@@ -229,7 +229,7 @@ void Analysis::report_end() {
                                            " of " + shown(span_) + " s: " + in_words(*entanglement_)
                                      : "ended as planned, at " + shown(position_.time) + " s");
     if (facts.contains("motion")) {
-        spdlog::info("shaken with a PGA of {} g, as applied, for {} s",
+        spdlog::info("shaken with a PGA of {} g, as applied, by a motion of {} s",
                      shown(facts["motion"]["pga_g"].get<double>()),
                      shown(facts["motion"]["duration"].get<double>()));
     }

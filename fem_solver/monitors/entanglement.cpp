@@ -80,7 +80,7 @@ std::string in_words(const Entanglement& what) {
         text << (none ? ": not a failure of the dam" : ", but elsewhere")
              << "; refine the mesh there";
     } else if (none) {
-        text << " yet: the failure is local";
+        text << " from ground to ground yet";
     }
     return text.str();
 }

@@ -162,6 +162,7 @@ void Transaction::fail_task(const std::string& task, TaskEvent event, const Task
 }
 
 void Transaction::pass_over_task(const std::string& task, const std::string& why) {
+    if (!next(state_of(task), TaskEvent::skip)) return;  // cancelled meanwhile
     // Before the move: the trigger that counts a run's failures looks at this column.
     database_.change("UPDATE tasks SET not_reached=1, fault_summary=? WHERE id=?", {why, task});
     move_task(task, TaskEvent::skip, {{"summary", why}, {"not_reached", true}});

@@ -41,7 +41,7 @@ class Transaction {
     /// reason.
     void fail_task(const std::string& task, TaskEvent event, const TaskFault& fault);
     /// Skips a task whose time its FEM, which ended regularly, did not come to: no failure, and no
-    /// retry can mend it. Keeps the reason.
+    /// retry can mend it. Keeps the reason. Nothing happens when it waits no more.
     void pass_over_task(const std::string& task, const std::string& why);
     /// `input_sha256`: of the file that the task read; empty: it reads none.
     void finish_task(const std::string& task, const nlohmann::json& result,
