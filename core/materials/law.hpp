@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/materials/drucker_prager/drucker_prager.hpp"
 #include "core/materials/linear_elastic.hpp"
 #include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "core/materials/pm4sand/law.hpp"
@@ -14,7 +15,7 @@
 
 namespace breach::materials {
 
-using Law = std::variant<LinearElastic, MohrCoulomb, PM4Sand>;
+using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, PM4Sand>;
 
 template <class... Each>
 constexpr bool each_answers(const std::variant<Each...>*) {

@@ -2,6 +2,7 @@
 // loops' room knows this list and no single law.
 #pragma once
 
+#include "core/materials/drucker_prager/lanes.hpp"
 #include "core/materials/lane_law.hpp"
 #include "core/materials/mohr_coulomb/lanes.hpp"
 
@@ -12,6 +13,6 @@ struct LawList {};
 
 using LaneLaws = LawList<LinearElasticLanes, MohrCoulombLanes<Softens::never>,
                          MohrCoulombLanes<Softens::with_plastic_strain>,
-                         MohrCoulombLanes<Softens::with_total_strain>>;
+                         MohrCoulombLanes<Softens::with_total_strain>, DruckerPragerLanes>;
 
 }  // namespace breach::materials

@@ -88,11 +88,22 @@ materials::MohrCoulomb mohr_coulomb_from(Reader& reader, const json& law,
     };
 }
 
+materials::DruckerPrager drucker_prager_from(Reader& reader, const json& law,
+                                             const std::string& pointer) {
+    const auto [c, phi, psi] = cohesion_and_friction_from(reader, law, pointer);
+    return {.elasticity = elasticity_from(law),
+            .c = c,
+            .phi = phi,
+            .psi = psi,
+            .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>()};
+}
+
 materials::Law law_from(Reader& reader, const json& law, const std::string& pointer) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_from(reader, law, pointer);
     if (type == "linear_elastic") return materials::LinearElastic{elasticity_from(law)};
     if (type == "mohr_coulomb") return mohr_coulomb_from(reader, law, pointer);
+    if (type == "drucker_prager") return drucker_prager_from(reader, law, pointer);
     throw std::logic_error("the schema knows a law \"" + type + "\" that nothing reads");
 }
 

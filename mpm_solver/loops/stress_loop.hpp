@@ -59,7 +59,8 @@ struct Increment {
     materials::MaskOf<Real> opens;    ///< it may open further
 };
 
-/// From the velocity gradients to the increments; also carries the tracked volume along.
+/// From the velocity gradients to the increments; the tracked volume and the total strain, which no
+/// law changes, go on here.
 template <class Isa, Averages averages, Overlap overlap, VolumeRule volume_rule>
 class Increments {
     static constexpr int N = Isa::lanes;
@@ -123,6 +124,7 @@ class Increments {
                       old.yy + volumetric + two_G_ * (eyy + shift),
                       szz + volumetric + two_G_ * shift, old.xy + G_ * gamma_xy};
         made.d_epsilon_q = equivalent(exx + shift, eyy + shift, shift, gamma_xy);
+        store(a.epsilon_q + p, load<Real>(a.epsilon_q + p) + made.d_epsilon_q);
         return made;
     }
 
@@ -138,7 +140,6 @@ template <class Law, VolumeRule volume_rule, class Real>
     const auto& [a, p, first, count] = block;
     store(a.sxx + p, update.sigma.xx), store(a.syy + p, update.sigma.yy);
     store(a.szz + p, update.sigma.zz), store(a.sxy + p, update.sigma.xy);
-    store(a.epsilon_q + p, load<Real>(a.epsilon_q + p) + increment.d_epsilon_q);
     if constexpr (volume_rule == VolumeRule::from_stress) {
         const Real opened = materials::lanes::select(increment.opens, update.opened, Real(0.0));
         store(a.gap + p, increment.gap + opened);

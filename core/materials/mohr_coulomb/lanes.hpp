@@ -393,10 +393,9 @@ struct MohrCoulombLanes {
             if constexpr (softens != Softens::never) {
                 cone_ = mohr_coulomb_lanes::cone_at<softens>(numbers_, epsilon_q);
             }
+            if (!lanes::any(lies_outside(cone_, trial))) return elastic_update(trial);
             UpdateOf<Real> update = elastic_update(trial);
-            if (lanes::any(lies_outside(cone_, trial))) {
-                return_block<Isa, softens>(numbers_, cone_, update);
-            }
+            return_block<Isa, softens>(numbers_, cone_, update);
             return update;
         }
 
