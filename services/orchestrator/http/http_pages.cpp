@@ -6,7 +6,7 @@
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/openapi_text.hpp"
-#include "services/orchestrator/study/plan_question.hpp"
+#include "services/orchestrator/programs/plan_question.hpp"
 #include "services/orchestrator/study/study.hpp"
 
 namespace breach::orchestrator {
