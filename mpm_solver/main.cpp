@@ -14,5 +14,6 @@ int main(int argc, char** argv) {
                     .what = "points from transfer_tool (.vtkhdf); without them the section is "
                             "filled with points at rest"},
          .plan = mpm::plan,
-         .run = mpm::run});
+         .run = mpm::run,
+         .numerics = mpm::numerics});
 }

@@ -39,6 +39,13 @@ ParsedArguments usage_fault(const std::string& message) {
     return {std::nullopt, ExitCode::usage};
 }
 
+/// For people and for the service: "fem_solver 0.1.0", and on a line of its own "numerics 3".
+std::string version_of(const Phase& phase) {
+    std::string text = phase.name + " " + version();
+    if (phase.numerics > 0) text += "\nnumerics " + std::to_string(phase.numerics);
+    return text;
+}
+
 ParsedArguments parse(int argc, char** argv, const Phase& phase) {
     CLI::App app(phase.purpose, phase.name);
     Arguments a;
@@ -64,7 +71,7 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
         app.add_flag_callback(
             each.name, [&a, &each] { a.settings.switches.insert(each.name); }, each.purpose);
     }
-    app.set_version_flag("--version", phase.name + " " + version());
+    app.set_version_flag("--version", version_of(phase));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

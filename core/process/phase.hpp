@@ -43,6 +43,9 @@ struct Phase {
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
         read = check::checked_scene;
     std::vector<Switch> switches = {};
+    /// Raised when the phase's numbers change for the same input, so that no earlier result is
+    /// taken for one of this program; --version says it. 0: its results are never taken again.
+    int numerics = 0;
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes

@@ -41,7 +41,8 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"records"}, {"files"}, {"executors", "store"}, {"study"}, {"triggers"}, {"dispatch"}, {"http"}],
+    "services/orchestrator": [{"records"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"triggers"}, {"dispatch"},
+                              {"http"}],
     "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # units that are one thing in several files: a door that its own parts include

@@ -44,6 +44,7 @@ struct Order {
     std::vector<std::string> overrides;
     bool resume = false;
     bool plan = false;
+    bool version = false;
 };
 
 Order order_from(int argc, char** argv) {
@@ -62,6 +63,8 @@ Order order_from(int argc, char** argv) {
             ++i;
         else if (word == "--resume")
             order.resume = true;
+        else if (word == "--version")
+            order.version = true;
         else if (word == "--plan")
             order.plan = true;
         else
@@ -244,6 +247,10 @@ void mpm(const Order& order, const std::map<std::string, double>& wanted) {
 
 int main(int argc, char** argv) {
     const Order order = order_from(argc, argv);
+    if (order.version) {
+        std::cout << order.phase << " 0\nnumerics 1\n";
+        return 0;
+    }
     if (order.plan) {
         std::cout << "the fake " << order.phase << " needs nothing\n";
         return 0;

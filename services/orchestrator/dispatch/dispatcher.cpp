@@ -322,7 +322,7 @@ void Dispatcher::note_latency(const Task& task) {
     if (task.release != Release::file_exists) return;
     std::error_code error;
     const auto appeared = std::filesystem::last_write_time(
-        data_.output(*store_.task(*task.parent)) / task.input, error);
+        data_.input(task, store_.task(*task.parent).value()), error);
     if (error) return;
     const auto since = std::chrono::file_clock::now() - appeared;
     snapshot_to_start_.add(std::chrono::duration<double>(since).count());
@@ -331,10 +331,9 @@ void Dispatcher::note_latency(const Task& task) {
 Order Dispatcher::order_for(const Live& live) const {
     const Task& task = live.task;
     std::vector<std::string> arguments{data_.scene(task.run)};
-    if (!task.input.empty()) {
-        const Task parent = *store_.task(*task.parent);
-        arguments.insert(arguments.end(), {"--input", data_.output(parent) / task.input});
-    }
+    if (!task.input.empty())
+        arguments.insert(arguments.end(),
+                         {"--input", data_.input(task, store_.task(*task.parent).value())});
     arguments.insert(arguments.end(), {"--output", data_.output(task)});
     for (const std::string& each : task.overrides)
         arguments.insert(arguments.end(), {"--set", each});

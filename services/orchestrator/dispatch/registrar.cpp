@@ -65,7 +65,7 @@ Handled Registrar::serve(const Task& task) {
 /// What the task read; the key of the cache needs it. Empty: it reads no file.
 std::string Registrar::input_sha256(const Task& task) const {
     if (task.input.empty()) return {};
-    return exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
+    return exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
 }
 
 /// The outputs of a task that failed or was stopped can be looked at, too.

@@ -9,7 +9,7 @@
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/openapi_text.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
-#include "services/orchestrator/study/plan_question.hpp"
+#include "services/orchestrator/programs/plan_question.hpp"
 
 namespace breach::orchestrator {
 

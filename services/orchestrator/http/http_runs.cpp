@@ -178,8 +178,11 @@ void extend_sweep(Service& service, Call& call) {
     const json body = json::parse(call.json_body(), nullptr, false);
     if (!body.is_object() || body.size() != 1 || !body.contains("transfer_times"))
         throw bad_request("the body must be {\"transfer_times\": [...] or {from, to, step}}");
+    const RunSoFar so_far{.study = service.store.study_of(id).value(),
+                          .scene = service.store.scene_of(id).value(),
+                          .tasks = service.store.tasks_of(id)};
     const Extension extension =
-        plan_extension(service.store, service.data, id, body["transfer_times"]);
+        plan_extension(so_far, service.data, service.numerics, body["transfer_times"]);
     if (!extension.tasks.empty()) {
         service.store.write(
             [&](Transaction& transaction) { transaction.extend_run(id, extension); });

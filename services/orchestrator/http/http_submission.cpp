@@ -64,8 +64,8 @@ std::optional<std::string> idempotency_key(const httplib::Request& request) {
     return key;
 }
 
-NewRun run_from(const Study& study) {
-    TaskGraph graph = plan_tasks(study);
+NewRun run_from(const Study& study, const Numerics& numerics) {
+    TaskGraph graph = plan_tasks(study, numerics);
     // What a FEM was asked for on its way does not follow from its scene.
     if (!study.triggers.empty() && study.snapshot_interval <= 0.0)
         for (TaskPlan& each : graph.tasks)
@@ -78,14 +78,14 @@ NewRun run_from(const Study& study) {
             .tasks = std::move(graph.tasks),
             .recipes = std::move(graph.recipes),
             .triggers = study.triggers,
-            .firing_plan = firing_plan(study),
+            .firing_plan = std::move(graph.one_more_transfer),
             .priority = study.priority,
             .sweep = study.variants.size() * study.transfer_times.size() > 1};
 }
 
 std::string stored(Service& service, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    NewRun run = run_from(sent_study(body));
+    NewRun run = run_from(sent_study(body), service.numerics);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write([&](Transaction& transaction) {
         transaction.add_run(run);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,13 +17,18 @@ namespace breach::orchestrator {
 
 /// What lets a blocked task go: an input file that exists, or a parent that succeeded.
 enum class Release { at_once, file_exists, parent_succeeded };
+std::string_view name_of(Release release);
+Release release_named(std::string_view name);
+
+/// Of each phase; the phase says it itself (--version).
+using Numerics = std::map<std::string, std::int64_t>;
 
 /// What a phase's result depends on besides its input file; equal recipes give equal results.
 struct Recipe {
     std::string hash;  ///< SHA-256 of the three below
     std::string phase;
-    std::int64_t cache_version;
-    std::string part;  ///< of the completed scene, as far as the phase reads it, JSON
+    std::int64_t cache_version;  ///< of the phase's numerics
+    std::string part;            ///< of the completed scene, as far as the phase reads it, JSON
 };
 
 /// What a task occupies while it runs.
@@ -35,7 +41,7 @@ struct Resources {
 struct TaskPlan {
     std::string phase;                    ///< executable: "fem_solver", ...
     std::string label;                    ///< unique in the run; its folder's name
-    std::optional<double> transfer_time;  ///< t_T [s]
+    std::optional<double> transfer_time;  ///< t_T [s]; of a transfer without: left open
     std::optional<std::size_t> parent;  ///< index in the plan of the task whose output is the input
     Release release = Release::at_once;
     std::string input;                   ///< file name in the parent's output folder; empty: none
@@ -44,6 +50,12 @@ struct TaskPlan {
     Resources resources = {};
     std::string recipe = {};  ///< hash of one of the run's recipes; empty: never reused
 };
+
+void to_json(nlohmann::json& json, const TaskPlan& task);
+void from_json(const nlohmann::json& json, TaskPlan& task);
+
+/// "fem", "transfer_0.500000_soft": its phase, its transfer time and its variant.
+std::string label_of(const TaskPlan& task);
 
 struct NewRun {
     std::string id;
@@ -54,9 +66,23 @@ struct NewRun {
     std::vector<TaskPlan> tasks;
     std::vector<Recipe> recipes = {};
     std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
-    std::string firing_plan = {};            ///< tasks of one more transfer, JSON (graph.hpp)
+    std::vector<TaskPlan> firing_plan = {};  ///< of one more transfer (firing_plan.hpp)
     std::int64_t priority = 0;               ///< higher goes first
     bool sweep = false;                      ///< several points, or asked for as a sweep
+};
+
+/// A task that is added to a run: its parent is in the run already, or added before it.
+struct AddedTask {
+    TaskPlan plan;  ///< its `parent`: place in the list of added tasks
+    std::optional<std::string> parent;
+};
+
+/// More transfer times for a run that exists.
+struct Extension {
+    std::vector<double> times;     ///< those that are new
+    std::vector<AddedTask> tasks;  ///< parents first
+    std::vector<Recipe> recipes;
+    nlohmann::json study;  ///< the study's document with all times
 };
 
 struct Run {

@@ -41,11 +41,6 @@ constexpr const char* task_columns =
     "finished, result, fault_exit, fault_summary, variant, cores, memory_mb, recipe, input_sha256, "
     "same_as, cache_refusal, priority, not_reached FROM tasks ";
 
-Release release_named(const std::string& name) {
-    if (name == "at_once") return Release::at_once;
-    return name == "file_exists" ? Release::file_exists : Release::parent_succeeded;
-}
-
 Task task_from(const Row& row) {
     Task task{.id = row.text(0),
               .run = row.text(1),

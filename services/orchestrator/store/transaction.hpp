@@ -18,8 +18,6 @@ struct AttemptEnd {
     std::string reason;  ///< "cancel", "shutdown" when the service stopped it; else empty
 };
 
-struct Extension;
-
 class Transaction {
   public:
     explicit Transaction(Connection& database) : database_(database) {}
@@ -90,16 +88,16 @@ class Transaction {
 
   private:
     void insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
-                     const std::optional<std::string>& parent, std::int64_t priority);
+                     const std::optional<std::string>& parent, std::int64_t priority,
+                     TaskState state);
     std::int64_t next_ordinal(const std::string& run);
     void add_triggers(const NewRun& run);
     void disarm_triggers(const std::string& run, const std::string& why);
     std::vector<Trigger> triggers_to_rearm(const std::string& run,
                                            const std::set<std::string>& tasks_tried_again) const;
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
-    std::string add_fired_task(const std::string& run, const std::string& parent,
-                               const std::string& label, const nlohmann::json& task, double time,
-                               std::int64_t priority);
+    std::string add_fired_task(const std::string& run, const TaskPlan& task,
+                               const std::string& parent, std::int64_t priority);
     bool mark_paused(const std::string& run, std::int64_t paused, const char* event);
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,

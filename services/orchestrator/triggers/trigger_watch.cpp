@@ -12,7 +12,6 @@
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
-#include "services/orchestrator/study/study.hpp"
 #include "services/orchestrator/triggers/bisection.hpp"
 
 namespace breach::orchestrator {
