@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "services/report/chart/draw.hpp"
 #include "services/report/chart/frame.hpp"
 
 namespace breach::report {
@@ -21,7 +22,18 @@ constexpr const char* style =
     "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
     "right;font-variant-numeric:tabular-nums;"
     "white-space:nowrap}nav li{display:inline;margin-right:1.2em}nav ul{padding:0}a{color:#0059a0}"
-    "@media print{body{max-width:none}figure{break-inside:avoid}}";
+    ".verdict{border-left:4px solid #3b7a8c;background:#eaf4f6;padding:.4em 1em}.verdict.doubt{"
+    "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
+    "td.b{white-space:nowrap;font-weight:bold}"
+    // A page cannot be scrolled: tables take its width, wide ones lie on their side, rows stay whole.
+    "@page{margin:12mm}@page wide{size:landscape}"
+    "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
+    "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.verdict,.remark{break-inside:avoid}"
+    ".wide{overflow:visible}table{width:100%;font-size:8pt}td{max-width:none}th,td{padding:.15em "
+    ".4em;overflow-wrap:anywhere}td.n,td.b{overflow-wrap:normal}.many{page:wide}.many "
+    "table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
+
+constexpr std::size_t many = 9;  // columns that a printed page has no room for when it stands
 
 bool is_number(const std::string& text) {
     double value = 0.0;
@@ -56,15 +68,33 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
          << link(file + ".png", "PNG") << "</figcaption>\n</figure>\n";
 }
 
+/// Numbers stand at the right; lower bounds are told apart from them.
+const char* opening_of(const std::string& cell) {
+    if (is_number(cell)) return "<td class=\"n\">";
+    return cell.starts_with("\u2265") ? "<td class=\"n b\">" : "<td>";
+}
+
+void write_verdict(std::ostream& html, const Verdict& verdict) {
+    if (verdict.doubts.empty() && verdict.notes.empty()) return;
+    const bool doubt = !verdict.doubts.empty();
+    html << "<section id=\"verdict\" class=\"verdict" << (doubt ? " doubt" : "") << "\"><h2>"
+         << (doubt ? "Before these numbers are believed" : "How it ended") << "</h2>\n<ul>\n";
+    for (const auto* sentences : {&verdict.doubts, &verdict.notes}) {
+        for (const std::string& each : *sentences) html << "<li>" << escaped(each) << "</li>\n";
+    }
+    html << "</ul></section>\n";
+}
+
 void write_table(std::ostream& html, const Table& table, const std::string& folder) {
-    html << "<div class=\"wide\"><table id=\"" << escaped(table.name) << "\"><caption>"
-         << escaped(table.title) << "</caption>\n<tr>";
+    html << (table.columns.size() >= many ? "<div class=\"wide many\">" : "<div class=\"wide\">")
+         << "<table id=\"" << escaped(table.name) << "\"><caption>" << escaped(table.title)
+         << "</caption>\n<thead><tr>";
     for (const std::string& each : table.columns) html << "<th>" << escaped(each) << "</th>";
-    html << "</tr>\n";
+    html << "</tr></thead>\n";
     for (const auto& row : table.rows) {
         html << "<tr>";
         for (const std::string& cell : row) {
-            html << (is_number(cell) ? "<td class=\"n\">" : "<td>") << escaped(cell) << "</td>";
+            html << opening_of(cell) << escaped(cell) << "</td>";
         }
         html << "</tr>\n";
     }
@@ -98,6 +128,7 @@ std::string as_html(const Document& document, const std::string& figures) {
          << "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>"
          << escaped(document.title) << "</title>\n<style>" << style << "</style>\n</head>\n<body>\n"
          << "<h1>" << escaped(document.title) << "</h1>\n";
+    write_verdict(html, document.verdict);
     for (const std::string& each : document.remarks) {
         html << "<p class=\"remark\">" << escaped(each) << "</p>\n";
     }
