@@ -25,15 +25,17 @@ constexpr const char* style =
     ".verdict{border-left:4px solid #3b7a8c;background:#eaf4f6;padding:.4em 1em}.verdict.doubt{"
     "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
     "td.b{white-space:nowrap;font-weight:bold}"
-    // A page cannot be scrolled: tables take its width, wide ones lie on their side, rows stay whole.
+    // A page cannot be scrolled: tables take its width, wide ones lie on their side with their
+    // chapter when it has nothing else, rows stay whole, and only long texts are broken anywhere.
     "@page{margin:12mm}@page wide{size:landscape}"
     "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
     "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.verdict,.remark{break-inside:avoid}"
-    ".wide{overflow:visible}table{width:100%;font-size:8pt}td{max-width:none}th,td{padding:.15em "
-    ".4em;overflow-wrap:anywhere}td.n,td.b{overflow-wrap:normal}.many{page:wide}.many "
+    ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
+    "th,td{padding:.15em .4em}td.long{overflow-wrap:anywhere}.many,.sheet{page:wide}.many "
     "table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
 
-constexpr std::size_t many = 9;  // columns that a printed page has no room for when it stands
+constexpr std::size_t many = 9;        // columns that a printed page has no room for when it stands
+constexpr std::size_t long_text = 24;  // characters that need not stay on one line
 
 bool is_number(const std::string& text) {
     double value = 0.0;
@@ -71,7 +73,8 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
 /// Numbers stand at the right; lower bounds are told apart from them.
 const char* opening_of(const std::string& cell) {
     if (is_number(cell)) return "<td class=\"n\">";
-    return cell.starts_with("\u2265") ? "<td class=\"n b\">" : "<td>";
+    if (cell.starts_with("\u2265")) return "<td class=\"n b\">";
+    return cell.size() > long_text ? "<td class=\"long\">" : "<td>";
 }
 
 void write_verdict(std::ostream& html, const Verdict& verdict) {
@@ -83,6 +86,11 @@ void write_verdict(std::ostream& html, const Verdict& verdict) {
         for (const std::string& each : *sentences) html << "<li>" << escaped(each) << "</li>\n";
     }
     html << "</ul></section>\n";
+}
+
+bool has_many(const std::vector<Table>& tables) {
+    return std::ranges::any_of(tables,
+                               [](const Table& each) { return each.columns.size() >= many; });
 }
 
 void write_table(std::ostream& html, const Table& table, const std::string& folder) {
@@ -98,8 +106,8 @@ void write_table(std::ostream& html, const Table& table, const std::string& fold
         }
         html << "</tr>\n";
     }
-    html << "</table></div>\n<p>" << escaped(table.caption) << ' '
-         << link(folder + "/" + table.name + ".csv", "data") << "</p>\n";
+    html << "</table>\n<p>" << escaped(table.caption) << ' '
+         << link(folder + "/" + table.name + ".csv", "data") << "</p></div>\n";
 }
 
 }  // namespace
@@ -141,10 +149,13 @@ std::string as_html(const Document& document, const std::string& figures) {
     html << "</ul></nav>\n";
     for (std::size_t i = 0; i < document.chapters.size(); ++i) {
         const Chapter& chapter = document.chapters[i];
-        html << "<h2 id=\"" << anchor_of(i) << "\">" << escaped(chapter.title) << "</h2>\n";
+        const bool sheet = chapter.figures.empty() && has_many(chapter.tables);
+        html << "<section" << (sheet ? " class=\"sheet\">" : ">") << "<h2 id=\"" << anchor_of(i)
+             << "\">" << escaped(chapter.title) << "</h2>\n";
         if (!chapter.text.empty()) html << "<p>" << escaped(chapter.text) << "</p>\n";
         for (const Figure& each : chapter.figures) write_figure(html, each, figures);
         for (const Table& each : chapter.tables) write_table(html, each, figures);
+        html << "</section>\n";
     }
     if (!document.left_out.empty()) {
         html << "<h2>Left out</h2>\n<ul>\n";
