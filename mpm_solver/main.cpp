@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
                    .what = "points from transfer_tool (.vtkhdf); without them the section is "
                            "filled with points at rest"},
         .plan = mpm::plan,
-        .run = mpm::run};
+        .run = mpm::run,
+        .numerics = mpm::numerics};
     phase.switches.push_back({.name = "--until-rest",
                               .purpose = "run until the soil rests, at most for "
                                          "/mpm/longest_duration: --set /mpm/duration=until_rest",

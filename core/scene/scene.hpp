@@ -331,8 +331,8 @@ struct LiquefiedLayer {
 struct LiquefiedZone {
     std::vector<std::size_t> regions;  ///< whose soil can liquefy
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
-    std::vector<LiquefiedLayer>
-        layers;  ///< from 0, without gaps; the last also holds what is beyond
+    /// From 0, without gaps; the last also holds what is beyond
+    std::vector<LiquefiedLayer> layers;
 };
 
 /// Which transfer times the advice is about; expressions of core/criteria over FEM telemetry.
@@ -424,8 +424,8 @@ struct Mpm {
     Wall left;
     Wall right;
     Floor floor;
-    std::vector<Vec2>
-        terrain{};  ///< ascending in x, straight beyond its ends; empty: the floor [m]
+    /// Ascending in x, straight beyond its ends; empty: the floor [m]
+    std::vector<Vec2> terrain{};
     Kernel kernel;
     double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
@@ -433,8 +433,8 @@ struct Mpm {
     AntiLocking anti_locking;
     bool gap_closure;
     OverlapCorrection overlap_correction{};
-    std::optional<double>
-        softening_length{};           ///< softening strains are those of cells this long [m]
+    /// Softening strains are those of cells this long [m]
+    std::optional<double> softening_length{};
     double stiffness_scale;           ///< factor on E, reported [-]
     std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
     double cfl;                       ///< [-]
