@@ -81,6 +81,7 @@ std::string note_of(const json& task) {
 }
 
 std::string state_shown(const json& task) {
+    if (is_yes(task, "not_reached")) return "not_reached";
     return is_yes(task, "questionable") ? "questionable" : cell(task, "state");
 }
 

@@ -18,11 +18,12 @@ constexpr std::array columns{
     ResultColumn{"transfer_time", "", number, "s", "t_T", "transfer time"},
     ResultColumn{"state", "", word, "", "state",
                  "that of the row; questionable: there is a result, but not one to rely on"},
-    ResultColumn{"runout", "/runout", number, "m", "runout", "of 99.5 % of the mobile volume"},
+    ResultColumn{"runout", "/runout", number, "m", "runout",
+                 "99 % of the mobile soil lies at most so far beyond the toe; negative: before it"},
     ResultColumn{"runout_beyond_toe", "/runout_beyond_toe", number, "m", "beyond toe",
-                 "the same beyond the toe of the section"},
+                 "the same of the soil beyond the toe; 0: there is none"},
     ResultColumn{"runout_largest", "/runout_largest", number, "m", "largest",
-                 "of the farthest point that is connected with the rest"},
+                 "of the farthest point"},
     ResultColumn{"volume_ratio", "/volume_ratio", number, "1", "volume ratio",
                  "indicator of error: volume at the end of that at the transfer"},
     ResultColumn{"numerical_share", "/energy/numerical/share", number, "1", "numerical share",
@@ -41,8 +42,7 @@ constexpr std::array columns{
     ResultColumn{"ended", "/ended", word, "", "", "what ended the MPM: at_rest or duration"},
     ResultColumn{"kinetic_share", "/kinetic_share", number, "1", "kinetic share",
                  "kinetic energy at the end, of the energy released"},
-    ResultColumn{"end_time", "/end_time", number, "s", "",
-                 "end of the MPM, counted from the transfer"},
+    ResultColumn{"end_time", "/end_time", number, "s", "", "end of the MPM, by its own clock"},
     ResultColumn{"questionable", "", yes_no, "", "",
                  "the result is not one to rely on; null: it does not say (not yet, or made by an "
                  "earlier version)"},
@@ -85,13 +85,9 @@ std::string codes_of(const json& flags) {
 }
 
 bool is_row_state(std::string_view word) {
-    if (word == "questionable") return true;
-    try {
-        task_state_named(word);
-        return true;
-    } catch (const std::exception&) {
-        return false;
-    }
+    return word == "questionable" || word == "not_reached" ||
+           std::ranges::any_of(all_task_states(),
+                               [&](TaskState each) { return name_of(each) == word; });
 }
 
 }  // namespace breach::orchestrator

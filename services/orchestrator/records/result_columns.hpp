@@ -42,7 +42,8 @@ const nlohmann::json& value_of(const ResultRow& row, std::string_view name);
 /// "still_moving;implausible": the codes of a list of flags, each once.
 std::string codes_of(const nlohmann::json& flags);
 
-/// The states that a row can be shown in: those of tasks, and "questionable".
+/// The states that a row can be shown in: those of tasks, "questionable", and "not_reached": its
+/// FEM had regularly ended before.
 bool is_row_state(std::string_view word);
 
 }  // namespace breach::orchestrator

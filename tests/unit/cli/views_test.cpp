@@ -131,6 +131,14 @@ TEST(RunList, SaysWhyARunIsQuestionable) {
     EXPECT_TRUE(is_questionable(run));
 }
 
+TEST(TransferBeyondTheFemsEnd, WasNotReachedAndHasNotFailed) {
+    json task = failed_task;
+    task["state"] = "skipped";
+    task["not_reached"] = true;
+    task["fault"] = {{"exit_code", nullptr}, {"summary", "the FEM ended entangled at 6.7 s"}};
+    EXPECT_EQ(fate_of_task(task), "not_reached: the FEM ended entangled at 6.7 s");
+}
+
 TEST(EntangledFem, HasEndedAndHasNotFailed) {
     json task = failed_task;
     task["phase"] = "fem_solver";

@@ -120,7 +120,7 @@ TEST_F(StoreTest, QuestionableResultMakesItsRowAndItsRunQuestionable) {
                      {{"runout", 12.5},
                       {"at_rest", false},
                       {"flags", {implausible, flag("still_moving", "questionable")}}});
-    const Run ended = *store.run(run.id);
+    const auto ended = *store.run(run.id);
     EXPECT_EQ(ended.state, "questionable");
     EXPECT_EQ(ended.questionable, 1);
     EXPECT_EQ(ended.message, "1 of 1 runouts still moving: lower bounds");
