@@ -253,9 +253,16 @@ TEST(Trigger, RetryArmsAgainWhatTheCancellingDisarmedAndNotWhatFired) {
     EXPECT_EQ(count_tasks(service, run, "mpm_solver"), 3);
     EXPECT_EQ(service.table(run).size(), 3u);
     std::vector<std::string> armed_again;
-    for (const json& each : service.get("/v1/events?after=0&wait=0").body.at("events"))
-        if (each.at("detail").value("what", "") == "rearm")
-            armed_again.push_back(each.at("detail").at("name"));
+    std::int64_t seen = 0;
+    while (true) {
+        const std::string page = "/v1/events?wait=0&after=" + std::to_string(seen);
+        const json events = service.get(page).body.at("events");
+        if (events.empty()) break;
+        for (const json& each : events)
+            if (each.at("detail").value("what", "") == "rearm")
+                armed_again.push_back(each.at("detail").at("name"));
+        seen = events.back().at("seq");
+    }
     EXPECT_EQ(armed_again, std::vector<std::string>{"late"});
 }
 
