@@ -31,11 +31,12 @@ constexpr const char* style =
     "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
     "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.verdict,.remark{break-inside:avoid}"
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
-    "th,td{padding:.15em .4em}td.long{overflow-wrap:anywhere}.many,.sheet{page:wide}.many "
-    "table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
+    "th,td{padding:.15em .4em}td.long{overflow-wrap:anywhere;min-width:6em}"
+    "tbody tr:first-child{break-before:avoid}.many,.sheet{page:wide}.sheet "
+    "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
 
 constexpr std::size_t many = 9;        // columns that a printed page has no room for when it stands
-constexpr std::size_t long_text = 24;  // characters that need not stay on one line
+constexpr std::size_t long_text = 12;  // characters that need not stay on one line
 
 bool is_number(const std::string& text) {
     double value = 0.0;
@@ -98,7 +99,7 @@ void write_table(std::ostream& html, const Table& table, const std::string& fold
          << "<table id=\"" << escaped(table.name) << "\"><caption>" << escaped(table.title)
          << "</caption>\n<thead><tr>";
     for (const std::string& each : table.columns) html << "<th>" << escaped(each) << "</th>";
-    html << "</tr></thead>\n";
+    html << "</tr></thead>\n<tbody>";
     for (const auto& row : table.rows) {
         html << "<tr>";
         for (const std::string& cell : row) {
@@ -106,7 +107,7 @@ void write_table(std::ostream& html, const Table& table, const std::string& fold
         }
         html << "</tr>\n";
     }
-    html << "</table>\n<p>" << escaped(table.caption) << ' '
+    html << "</tbody></table>\n<p>" << escaped(table.caption) << ' '
          << link(folder + "/" + table.name + ".csv", "data") << "</p></div>\n";
 }
 
