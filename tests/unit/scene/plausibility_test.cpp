@@ -168,6 +168,9 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"/lem/water/line", "[[0, 65], [60, 55]]", Caught::refused, "no free water does"},
         Slip{"/fem/water/line", "[[0, 17]]", Caught::flagged, "whole section is drowned"},
         Slip{"/transfer/phreatic_line", "[[0, 65]]", Caught::flagged, "stands 50 m above"},
+        Slip{"/lem/water/line", "[[0, 4], [60, 0]]", Caught::flagged,
+             "lies 6 m from that of /fem/water/line at x = 0 m"},
+        Slip{"/gravity", "0", Caught::flagged, "gravity is zero"},
         Slip{"/mpm/runout/toe", "[0, 0]", Caught::refused, "100 % of the soil that counts"},
         Slip{"/mpm/runout/toe", "[-60, 0]", Caught::refused, "x points downstream"},
         Slip{"/mpm/runout/toe", "[45, 0]", Caught::flagged, "before anything has moved"},
@@ -197,6 +200,20 @@ TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
     ASSERT_EQ(read.warnings.size(), 1U);
     for (const char* part : {"5 looks like ms", "section's natural period of about"}) {
         EXPECT_NE(read.warnings[0].message.find(part), std::string::npos) << part;
+    }
+}
+
+TEST(Plausibility, AFaultIsToldOfTheDoubtThatExplainsIt) {
+    // phi in radians below psi in degrees: the fault alone would send the reader to psi.
+    const json document = with({"/materials/fill/law/phi_deg", "0.5585", Caught::refused, ""});
+    try {
+        scene::parse_scene(document.dump(), "dam");
+        FAIL();
+    } catch (const fault::BadInput& error) {
+        for (const fault::Fault& each : error.faults()) {
+            EXPECT_NE(each.remedy.find("/materials/fill/law/phi_deg: 0.5585"), std::string::npos);
+            EXPECT_NE(each.remedy.find("looks like radians: write 32 deg"), std::string::npos);
+        }
     }
 }
 
