@@ -45,7 +45,7 @@ Box extent_of(const std::vector<Region>& regions) {
     return all;
 }
 
-/// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long at most.
+/// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long.
 void doubt_section(Doubter& d) {
     constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
     const char* pointer = "/section/regions";
