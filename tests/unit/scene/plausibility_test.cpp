@@ -71,6 +71,13 @@ json with(const Slip& slip) {
     return document;
 }
 
+/// What is said of entries; whether the cells are fine enough is another test's affair.
+std::vector<fault::Flag> doubts_of(const scene::Scene& read) {
+    std::vector<fault::Flag> doubts = read.warnings;
+    std::erase_if(doubts, [](const fault::Flag& each) { return each.code != "implausible"; });
+    return doubts;
+}
+
 class UnitSlip : public testing::TestWithParam<Slip> {};
 
 TEST_P(UnitSlip, IsCaughtAndNamed) {
@@ -80,9 +87,8 @@ TEST_P(UnitSlip, IsCaughtAndNamed) {
     try {
         const scene::Scene read = scene::parse_scene(with(slip).dump(), "dam");
         caught = Caught::flagged;
-        for (const fault::Flag& flag : read.warnings) {
+        for (const fault::Flag& flag : doubts_of(read)) {
             if (flag.pointer != slip.pointer) continue;
-            EXPECT_EQ(flag.code, "implausible");
             EXPECT_EQ(flag.severity, fault::Severity::warning);
             said += flag.message + "\n";
         }
@@ -180,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Plausibility, ADamWithoutSlipsPassesWithoutAWord) {
     const scene::Scene read = scene::parse_scene(dam().dump(), "dam");
-    for (const fault::Flag& flag : read.warnings) {
+    for (const fault::Flag& flag : doubts_of(read)) {
         ADD_FAILURE() << flag.pointer << ": " << flag.message;
     }
 }
@@ -188,7 +194,7 @@ TEST(Plausibility, ADamWithoutSlipsPassesWithoutAWord) {
 TEST(Plausibility, ShippedScenesPassWithoutAWord) {
     const auto folder = std::filesystem::path(BREACH_ROOT) / "workflows/scenes";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        for (const fault::Flag& flag : scene::read_scene(entry.path()).warnings) {
+        for (const fault::Flag& flag : doubts_of(scene::read_scene(entry.path()))) {
             ADD_FAILURE() << entry.path() << flag.pointer << ": " << flag.message;
         }
     }
@@ -197,9 +203,10 @@ TEST(Plausibility, ShippedScenesPassWithoutAWord) {
 TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
     const json document = with({"/fem/stages/1/time_step", "5", Caught::flagged, ""});
     const scene::Scene read = scene::parse_scene(document.dump(), "dam");
-    ASSERT_EQ(read.warnings.size(), 1U);
+    const auto doubts = doubts_of(read);
+    ASSERT_EQ(doubts.size(), 1U);
     for (const char* part : {"5 looks like ms", "section's natural period of about"}) {
-        EXPECT_NE(read.warnings[0].message.find(part), std::string::npos) << part;
+        EXPECT_NE(doubts[0].message.find(part), std::string::npos) << part;
     }
 }
 
@@ -220,7 +227,7 @@ TEST(Plausibility, AFaultIsToldOfTheDoubtThatExplainsIt) {
 TEST(Plausibility, ZeroMeansNone) {
     for (const char* pointer : {"/materials/fill/viscosity", "/lem/seismic_coefficient"}) {
         const json document = with({pointer, "0", Caught::flagged, ""});
-        EXPECT_TRUE(scene::parse_scene(document.dump(), "dam").warnings.empty()) << pointer;
+        EXPECT_TRUE(doubts_of(scene::parse_scene(document.dump(), "dam")).empty()) << pointer;
     }
 }
 
