@@ -54,7 +54,8 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
 }  // namespace
 
 void check_soils(const scene::Scene& scene, Findings& findings) {
-    if (!scene.transfer && !scene.mpm) return;
+    // Every scene has a /transfer by default; whether points are meant, the MPM or a mapping says.
+    if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;

@@ -1,6 +1,7 @@
 // What the phases ask of laws, materials and files; and that one list holds it all.
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "wrong.hpp"
 
@@ -16,6 +17,16 @@ TEST(Check, SandWithoutAMappingCannotBecomePoints) {
     EXPECT_TRUE(has_fault(checked, "/section/regions/3/material", "pm4sand")) << "upper dam";
     EXPECT_NE(checked.faults[0].remedy.find("{\"region\": \"lower_dam\", \"to\": ...}"),
               std::string::npos);
+}
+
+TEST(Check, SandThatNobodyMakesPointsOfNeedsNoMapping) {
+    auto document =
+        nlohmann::json::parse(file_text(BREACH_ROOT "/workflows/scenes/mochikoshi.json"));
+    document.erase("mpm");
+    document["transfer"] = nlohmann::json::object();
+    const Checked checked =
+        checked_text(document.dump(), "fem only", BREACH_ROOT "/workflows/scenes", {});
+    EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
 }
 
 TEST(Check, WetSoilNeedsVoidRatioAndPermeability) {
