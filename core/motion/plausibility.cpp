@@ -55,8 +55,14 @@ class Finder {
                                 (meant.empty() ? "check the file's units and columns" : meant));
     }
 
-    void flag(const char* code, std::string message) {
-        doubts.flags.push_back({code, fault::Severity::warning, std::move(message), pointer_});
+    /// One flag per code: a second finding becomes its second sentence.
+    void flag(const char* code, const std::string& message) {
+        const auto said = std::ranges::find(doubts.flags, code, &fault::Flag::code);
+        if (said != doubts.flags.end()) {
+            said->message += "; " + message;
+        } else {
+            doubts.flags.push_back({code, fault::Severity::warning, message, pointer_});
+        }
     }
 
     Doubts doubts;
@@ -150,7 +156,7 @@ std::optional<fault::Flag> doubt_about_step(const Series& motion, double time_st
     constexpr double fine = 0.01;  // [s] resolves 10 Hz, all that moves a dam
     const double samples = time_step / motion.dt;
     if (time_step <= fine || samples <= 2.0) return std::nullopt;
-    return fault::Flag{"implausible", fault::Severity::warning,
+    return fault::Flag{"coarse_step", fault::Severity::warning,
                        "steps of " + text(time_step, " s") + " pass over " + text(samples) +
                            " samples of the motion (" + text(motion.dt, " s") +
                            " apart): its peaks are missed; give at most " +

@@ -31,7 +31,7 @@ struct Doubts {
 /// point at `pointer`; what is refused is not flagged as well.
 Doubts doubts_about(const Recording& motion, const std::string& pointer);
 
-/// Steps of an analysis that pass over samples of the motion.
+/// "coarse_step": steps of an analysis that pass over samples of the motion.
 std::optional<fault::Flag> doubt_about_step(const Series& motion, double time_step,
                                             const std::string& pointer);
 

@@ -23,8 +23,9 @@ struct InputRule {
 
 /// A flag that only this phase knows; SessionSettings::switches has it when it was given.
 struct Switch {
-    std::string name;     ///< "--profile"
-    std::string purpose;  ///< one line for --help
+    std::string name;       ///< "--profile"
+    std::string purpose;    ///< one line for --help
+    std::string sets = {};  ///< "/json/pointer=value" that it stands for, after every --set
 };
 
 /// How a phase ended when nothing was wrong.
@@ -43,10 +44,13 @@ struct Phase {
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
         read = check::checked_scene;
     std::vector<Switch> switches = {};
+    /// Raised when the phase's numbers change for the same input, so that no earlier result is
+    /// taken for one of this program; --version says it. 0: its results are never taken again.
+    int numerics = 0;
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes
-/// (architecture.md, "What a phase promises"). Returns the exit code. Never throws.
+/// (docs/design/architecture.md, "What a phase promises"). Returns the exit code. Never throws.
 int run_phase(int argc, char** argv, const Phase& phase);
 
 }  // namespace breach::process

@@ -9,6 +9,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/process/signals.hpp"
+#include "core/version/version.hpp"
 
 namespace breach::process {
 
@@ -53,7 +54,7 @@ Session::~Session() = default;
 
 exchange::Provenance Session::provenance() const {
     return {.phase = settings_.phase,
-            .version = BREACH_VERSION,
+            .version = breach::version(),
             .scene = scene_.completed,
             .overrides = settings_.overrides,
             .inputs = digests_,

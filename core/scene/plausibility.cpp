@@ -10,6 +10,7 @@ namespace breach::scene {
 
 namespace {
 
+constexpr const char* code = "implausible";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string metres(double value) { return plain_number(value) + " m"; }
@@ -17,15 +18,19 @@ std::string seconds(double value) { return plain_number(value) + " s"; }
 
 struct Doubter {
     Reader& reader;
-    const Scene& scene;
+    Scene& scene;
     Box extent;  ///< of all regions
-    std::vector<fault::Flag> doubts{};
 
     double height() const { return extent.high.y() - extent.low.y(); }
     double width() const { return extent.high.x() - extent.low.x(); }
-    void doubt(std::string pointer, std::string message) {
-        doubts.push_back(
-            {"implausible", fault::Severity::warning, std::move(message), std::move(pointer)});
+    /// One flag per entry: what is said of it already gets a second sentence.
+    void doubt(const std::string& pointer, const std::string& message) {
+        const auto said = std::ranges::find(scene.warnings, pointer, &fault::Flag::pointer);
+        if (said != scene.warnings.end() && said->code == code) {
+            said->message += "; " + message;
+        } else {
+            scene.warnings.push_back({code, fault::Severity::warning, message, pointer});
+        }
     }
 };
 
@@ -101,9 +106,22 @@ std::string meant_step(double step, double duration) {
     return plain_number(step) + " looks like ms: write " + seconds(meant);
 }
 
+/// T = 4 H / V_s, H the section's height, V_s of its softest soil; 0 without soil.
+double natural_period(const Doubter& d) {
+    double slowest = infinity;
+    for (const Region& region : d.scene.section.regions) {
+        if (region.material >= d.scene.materials.size()) continue;
+        const Material& soil = d.scene.materials[region.material];
+        const double G = materials::elasticity(soil.law).shear_modulus();
+        slowest = std::min(slowest, std::sqrt(G / soil.density));
+    }
+    return d.height() > 0.0 && std::isfinite(slowest) ? 4.0 * d.height() / slowest : 0.0;
+}
+
 void doubt_steps(Doubter& d) {
     const Fem& fem = *d.scene.fem;
     constexpr double hopeless = 0.5;  // [s]: the motion's shortest periods that matter are 0.1 s
+    const double period = natural_period(d);
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const Stage& stage = fem.stages[i];
         if (stage.kind != StageKind::dynamic) continue;
@@ -118,6 +136,10 @@ void doubt_steps(Doubter& d) {
                 pointer,
                 "is " + seconds(stage.time_step) + ", longer than the periods of an earthquake",
                 meant_step(stage.time_step, stage.duration));
+        } else if (stage.time_step > 0.25 * period && period > 0.0) {
+            d.doubt(pointer, "four steps of " + seconds(stage.time_step) +
+                                 " are longer than the section's natural period of about " +
+                                 seconds(period));
         }
     }
 }
@@ -217,17 +239,16 @@ void doubt_toe(Doubter& d) {
 
 }  // namespace
 
-std::vector<fault::Flag> doubts_across(Reader& reader, const Scene& scene) {
+void doubt_together(Reader& reader, Scene& scene) {
     Doubter d{reader, scene, extent_of(scene.section.regions)};
     if (scene.fem) doubt_steps(d);
-    if (!(d.height() > 0.0)) return d.doubts;  // no region is sound
+    if (!(d.height() > 0.0)) return;  // no region is sound
     doubt_section(d);
     if (scene.lem && scene.lem->water) doubt_water(d, scene.lem->water->line, "/lem/water/line");
     if (scene.fem && scene.fem->water) doubt_water(d, scene.fem->water->line, "/fem/water/line");
     if (scene.transfer) doubt_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");
     doubt_sizes(d);
     if (scene.mpm) doubt_toe(d);
-    return d.doubts;
 }
 
 }  // namespace breach::scene

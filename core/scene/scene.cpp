@@ -1,11 +1,14 @@
 #include "core/scene/scene.hpp"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "core/scene/plausibility.hpp"
 #include "core/scene/reader.hpp"
 #include "core/scene/reading.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
@@ -50,6 +53,7 @@ Reading read_text(std::string_view text, const std::string& name,
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
     Scene scene{};
+    scene.warnings = std::move(doubts);
     Reader reader(document, std::move(faults));
     read_materials(reader, scene);
     read_section(reader, scene);
@@ -57,9 +61,11 @@ Reading read_text(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
-    scene.warnings = std::move(doubts);
-    for (fault::Flag& found : doubts_across(reader, scene))
-        scene.warnings.push_back(std::move(found));
+    doubt_together(reader, scene);
+    Resolved resolved = resolution_of(scene);
+    for (Fault& each : resolved.faults)
+        reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
+    std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
     if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));

@@ -1,7 +1,6 @@
 #include "fem_solver/model/absorbing_base.hpp"
 
 #include "core/check/applied_motion.hpp"
-#include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
 

@@ -8,9 +8,8 @@ namespace breach::fem {
 namespace pm4sand = materials::pm4sand;
 
 bool has_sand(const Model& model) {
-    return std::ranges::any_of(model.zones, [](const Zone& zone) {
-        return std::holds_alternative<materials::PM4Sand>(zone.law);
-    });
+    return std::ranges::any_of(
+        model.zones, [](const Zone& zone) { return materials::sand_in(zone.law) != nullptr; });
 }
 
 StressBias stress_bias(const Motion& motion) {
@@ -29,7 +28,7 @@ StressBias stress_bias(const Motion& motion) {
 StressBias begin_sand(const Model& model, Motion& motion) {
     if (!motion.sand.empty()) return stress_bias(motion);
     for (const Zone& zone : model.zones) {
-        const auto* law = std::get_if<materials::PM4Sand>(&zone.law);
+        const auto* law = materials::sand_in(zone.law);
         if (law == nullptr) continue;
         const std::size_t begin = zone.first * model.points_per_element;
         const std::size_t end = begin + zone.count * model.points_per_element;
@@ -46,7 +45,7 @@ StressBias begin_sand(const Model& model, Motion& motion) {
 SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
     std::size_t largest = 0;
     for (const Zone& zone : model.zones) {
-        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        if (!materials::sand_in(zone.law)) continue;
         largest = std::max(largest, zone.count * points_);
     }
     updates_.resize(largest);

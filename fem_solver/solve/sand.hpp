@@ -45,8 +45,9 @@ class SandPass {
 
     const materials::pm4sand::Counts& counts() const { return counts_; }
 
+    /// Per element
   private:
-    std::size_t points_;  ///< per element
+    std::size_t points_;
     std::vector<materials::pm4sand::Update> updates_;
     materials::pm4sand::Counts counts_;
 };

@@ -1,15 +1,14 @@
 #include "services/orchestrator/study/study.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "core/check/check.hpp"
 #include "core/criteria/expression.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
+#include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
 
@@ -257,12 +256,6 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 }
 
 }  // namespace
-
-std::string spelt(double time) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.6f", time);
-    return text.data();
-}
 
 Study read_study(std::string_view text) {
     json document = scene::parse_json(text, "study");

@@ -87,6 +87,7 @@ TEST(MotionPlausibility, StepsThatPassOverSamplesAreFlagged) {
     EXPECT_FALSE(doubt_about_step(series, 0.02, "/step"));
     const auto flag = doubt_about_step(series, 5.0, "/step");
     ASSERT_TRUE(flag);
+    EXPECT_EQ(flag->code, "coarse_step");
     EXPECT_EQ(flag->pointer, "/step");
     expect_says(flag->message, "pass over 500 samples");
     EXPECT_FALSE(doubt_about_step({0.001, {0.0, 1.0}}, 0.01, "/step")) << "resolves 10 Hz";

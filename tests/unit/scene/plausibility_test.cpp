@@ -191,6 +191,15 @@ TEST(Plausibility, ShippedScenesPassWithoutAWord) {
     }
 }
 
+TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
+    const json document = with({"/fem/stages/1/time_step", "5", Caught::flagged, ""});
+    const scene::Scene read = scene::parse_scene(document.dump(), "dam");
+    ASSERT_EQ(read.warnings.size(), 1U);
+    for (const char* part : {"5 looks like ms", "section's natural period of about"}) {
+        EXPECT_NE(read.warnings[0].message.find(part), std::string::npos) << part;
+    }
+}
+
 TEST(Plausibility, ZeroMeansNone) {
     for (const char* pointer : {"/materials/fill/viscosity", "/lem/seismic_coefficient"}) {
         const json document = with({pointer, "0", Caught::flagged, ""});
