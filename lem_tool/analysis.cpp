@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -87,6 +88,26 @@ std::string other_methods(const json& facts) {
     if (const json& ordinary = facts.at("ordinary"); !ordinary.is_null())
         words += spelt("; Ordinary %.3f", ordinary.at("factor_of_safety"));
     return words;
+}
+
+/// The critical surface ends where the search was not allowed to go on.
+void flag_edges(process::Session& session, const Strata& strata, const scene::SlipSearch& search,
+                const json& result) {
+    const auto look = [&](const std::array<double, 2>& range, const std::string& end) {
+        const double x = result.at(end)[0];
+        const double width = strata.right() - strata.left();
+        for (const double edge : range) {
+            const bool ground_ends = edge <= strata.left() || edge >= strata.right();
+            if (ground_ends || range[0] == range[1] || std::abs(x - edge) > 1e-3 * width) continue;
+            session.flag({"range_edge", fault::Severity::warning,
+                          "the critical surface ends at the edge of this range, x = " +
+                              spelt("%.4g m", edge) +
+                              ": a lower factor of safety may lie beyond; widen it",
+                          "/lem/search/" + end});
+        }
+    };
+    look(search.entry, "entry");
+    look(search.exit, "exit");
 }
 
 /// The answer in words, for whoever reads the log and not result.json.
@@ -181,6 +202,7 @@ process::Outcome run(process::Session& session) {
     if (lem.search) {
         found = found_by_search(scene, model, threads);
         result.update(facts_of(model, *found.critical, slices));
+        flag_edges(session, model.strata, *lem.search, result);
     }
     result["surfaces"] = facts_of(found.tally);
     result["surfaces_analysed"] = found.tally.analysed;

@@ -52,14 +52,13 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& fi
                "give the acceleration, or take it as recorded");
 }
 
-/// A motion that is none; what else can be wrong with one, core/motion knows.
+/// One value throughout is no record, whatever its unit. Zeros are a motion: core/motion doubts it.
 bool moves(const motion::Series& series, Findings& findings) {
     const auto [low, high] = std::ranges::minmax(series.values);
-    if (low != high) return true;
-    const std::string all = std::to_string(series.values.size()) + " samples";
+    if (low != high || low == 0.0) return true;
     refuse(findings, file_pointer,
-           low == 0.0 ? "holds nothing but zeros, " + all
-                      : "holds one constant value, " + text(low) + ", in " + all,
+           "holds one constant value, " + text(low) + ", in " +
+               std::to_string(series.values.size()) + " samples",
            "give a motion that moves: is the second column the right one?");
     return false;
 }

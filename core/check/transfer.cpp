@@ -3,17 +3,26 @@
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/telemetry/columns.hpp"
 
 namespace breach::check {
 
 namespace {
 
+std::vector<std::string> recorded_fields() {
+    std::vector<std::string> names;
+    for (const telemetry::Column& column : telemetry::fem_columns())
+        names.emplace_back(column.name);
+    return names;
+}
+
 void check_window(const scene::Scene& scene, Findings& findings) {
     const scene::AdviceWindow& window = *scene.transfer->window;
+    const std::vector<std::string> known = recorded_fields();
     const auto look = [&](const std::string& condition, const std::string& pointer) {
         try {
             const criteria::Expression parsed =
-                criteria::parse(condition, criteria::Kind::condition, pointer);
+                criteria::parse(condition, criteria::Kind::condition, pointer, known);
             if (!scene.fem || scene.fem->liquefaction) return;
             for (const char* field : {"liquefaction_depth", "r_u_max"}) {
                 if (std::ranges::find(parsed.fields, field) == parsed.fields.end()) continue;
@@ -29,11 +38,6 @@ void check_window(const scene::Scene& scene, Findings& findings) {
     look(window.upper, "/transfer/window/upper");
 }
 
-bool is_frictional(const scene::Material& material) {
-    const auto* law = std::get_if<materials::MohrCoulomb>(&material.law);
-    return law != nullptr && law->phi > 0.0;
-}
-
 /// Points know one stress: beside an effective one the pore pressure would be lost.
 void check_stress(const scene::Scene& scene, Findings& findings) {
     if (scene.transfer->stress != scene::TransferredStress::effective) return;
@@ -41,7 +45,7 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
     for (const scene::Soil& soil : scene::soils_of(scene)) {
         if (soil.material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soil.material];
-        if (!is_frictional(material)) continue;
+        if (!materials::traits(material.law).frictional) continue;
         refuse(findings, "/transfer/stress",
                "is effective, and \"" + material.name +
                    "\" has friction: its points would come with pore pressure, which the MPM does "
@@ -54,18 +58,19 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
 }  // namespace
 
 void check_soils(const scene::Scene& scene, Findings& findings) {
-    if (!scene.transfer && !scene.mpm) return;
+    // Every scene has a /transfer by default; whether points are meant, the MPM or a mapping says.
+    if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soils[r].material];
-        if (!std::holds_alternative<materials::PM4Sand>(material.law)) continue;
+        if (materials::is_for_particles(material.law)) continue;
         const std::string& name = scene.section.regions[r].name;
         refuse(findings, region_pointer(r, "/material"),
-               "\"" + name + "\" is of \"" + material.name +
-                   "\", whose law is pm4sand, which material points cannot have",
-               "map it in /transfer/mapping to a material of mohr_coulomb or linear_elastic: "
-               "{\"region\": \"" +
+               "\"" + name + "\" is of \"" + material.name + "\", whose law is " +
+                   materials::traits(material.law).type + ", which material points cannot have",
+               "map it in /transfer/mapping to a material of mohr_coulomb or another law of the "
+               "MPM: {\"region\": \"" +
                    name + "\", \"to\": ...}");
     }
 }

@@ -22,7 +22,7 @@ core = {
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
     "core/motion": {"core/fault"},
-    "core/check": {"core/criteria", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/scene"},
+    "core/check": {"core/criteria", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/scene", "core/telemetry"},
     "core/process": {"core/check", "core/fault", "core/scene", "core/exchange", "core/version"},
 }
 every_core_room = set(core)

@@ -1,6 +1,7 @@
 // What the phases ask of laws, materials and files; and that one list holds it all.
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "wrong.hpp"
 
@@ -16,6 +17,16 @@ TEST(Check, SandWithoutAMappingCannotBecomePoints) {
     EXPECT_TRUE(has_fault(checked, "/section/regions/3/material", "pm4sand")) << "upper dam";
     EXPECT_NE(checked.faults[0].remedy.find("{\"region\": \"lower_dam\", \"to\": ...}"),
               std::string::npos);
+}
+
+TEST(Check, SandThatNobodyMakesPointsOfNeedsNoMapping) {
+    auto document =
+        nlohmann::json::parse(file_text(BREACH_ROOT "/workflows/scenes/mochikoshi.json"));
+    document.erase("mpm");
+    document["transfer"] = nlohmann::json::object();
+    const Checked checked =
+        checked_text(document.dump(), "fem only", BREACH_ROOT "/workflows/scenes", {});
+    EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
 }
 
 TEST(Check, WetSoilNeedsVoidRatioAndPermeability) {
@@ -48,9 +59,11 @@ TEST(Check, SandAsksForSmallStrainsAndForElasticStagesFirst) {
 TEST(Check, WindowsAreReadAndAskForWhatIsRecorded) {
     expect_only(changed("mochikoshi", {"/transfer/window/lower=failure_surfaces >"}),
                 "/transfer/window/lower", "");
-    const Checked unwatched =
-        changed("mochikoshi", {"/transfer/window/lower=liquefaction_depth > 3"});
-    EXPECT_TRUE(unwatched.faults.empty()) << told(unwatched.faults);
+    expect_only(changed("mochikoshi", {"/transfer/window/lower=pore_joy > 3"}),
+                "/transfer/window/lower", "pore_joy");
+    EXPECT_TRUE(
+        has_fault(changed("slope", {R"(/transfer/window={"lower":"liquefaction_depth > 3"})"}),
+                  "/transfer/window/lower", "no soil is watched"));
 }
 
 TEST(Check, AMeshFileThatIsMissingOrNoMeshIsRefused) {
