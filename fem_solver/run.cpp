@@ -6,29 +6,47 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/check/applied_motion.hpp"
+#include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
-#include "core/motion/read_motion.hpp"
+#include "core/motion/plausibility.hpp"
 #include "fem_solver/analysis.hpp"
-#include "fem_solver/model/absorbing_base.hpp"
+#include "fem_solver/model/build_model.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 
 namespace {
 
-/// The motion as it is applied, after scaling: whoever reads the run needs no other file.
+/// The motion as it is applied, after scaling: whoever reads the run needs no other file. What it
+/// is goes to the log and, with the hash of the file it came from, to the result.
 void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
+    const motion::Recording applied = check::applied_motion(wanted);
+    const std::string name = wanted.file.filename().string();
     std::ostringstream csv;
-    motion::write_csv(csv, applied_motion(wanted),
-                      "as applied, from " + std::filesystem::path(wanted.file).filename().string());
+    motion::write_csv(csv, applied, "as applied, from " + name);
     exchange::publish_text(session.output("motion.csv"), csv.str());
+    const motion::Peaks peaks = motion::peaks_of(applied);
+    spdlog::info("motion {} as applied: {}", name, motion::summary_of(applied));
+    session.result()["motion"] = {{"file", name},
+                                  {"sha256", exchange::sha256_of_file(wanted.file)},
+                                  {"pga_g", peaks.acceleration / motion::standard_gravity},
+                                  {"pgv", peaks.velocity},
+                                  {"duration", applied.series.duration()},
+                                  {"time_step", applied.series.dt}};
 }
 
 }  // namespace
 
 process::Outcome run(process::Session& session) {
     const scene::Scene& scene = session.scene();
-    Mesh mesh = build_mesh(scene, session.settings().output);
+    Mesh mesh;
+    try {
+        mesh =
+            build_mesh(scene, session.settings().output, [&] { return session.stop_requested(); });
+    } catch (const MeshingStopped&) {
+        return process::Outcome::stopped;
+    }
     const Quality quality = quality_of(mesh);
     spdlog::info(
         "mesh: {} quads, {} nodes, edges {:.3g} to {:.3g} m, least angle {:.0f} deg, "

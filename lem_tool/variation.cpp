@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "lem_tool/blocks.hpp"
+#include "core/numerics/blocks.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/hypercube.hpp"
 
@@ -174,7 +174,7 @@ void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
     const Variations variations(scene, asked.surface, asked.layers_liquefied, threads);
     const std::vector<Strength> strengths = strengths_of(scene, asked.layers_liquefied);
     std::vector<double> factors(2 * strengths.size());
-    run_blocks(factors.size(), threads, [&](std::size_t n) {
+    numerics::run_blocks(factors.size(), threads, [&](std::size_t n) {
         scene::Scene varied = scene;
         const Strength& strength = strengths[n / 2];
         vary(varied, strength.parameter, strength.of, 1.0 + (n % 2 ? asked.change : -asked.change));
@@ -205,7 +205,7 @@ Samples add_probability(const scene::Scene& scene, int threads, json& result) {
         for (double& x : column) x = factor_at(variable, x);
         samples.factors.push_back(std::move(column));
     }
-    run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {
+    numerics::run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {
         for (std::size_t i = n * block; i < std::min(count, (n + 1) * block); ++i) {
             scene::Scene varied = scene;
             for (std::size_t v = 0; v < asked.variables.size(); ++v) {

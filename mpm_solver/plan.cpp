@@ -173,6 +173,23 @@ void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {
     wall("right", mpm.right);
 }
 
+void plan_end(const scene::Mpm& mpm, Plan& plan) {
+    const scene::Rest& rest = mpm.rest;
+    plan.push_back(
+        {"run until rest", mpm.until_rest ? Use::on : Use::left_out,
+         (mpm.until_rest ? "asked for, at most " : "soil that still moves is cut off at ") +
+             text_of(mpm.duration) + " s",
+         "/mpm/duration"});
+    plan.push_back({"end at rest", Use::on,
+                    "front still within " + text_of(rest.change) + " m over " +
+                        text_of(rest.window) + " s, not before " + text_of(rest.earliest) +
+                        " s; kinetic energy below " + text_of(100.0 * rest.kinetic_share) +
+                        " % of what is released and " + text_of(100.0 * rest.peak_share) +
+                        " % of its peak; no body of " + text_of(100.0 * rest.body_share) +
+                        " % of the soil faster than " + text_of(rest.speed) + " m/s",
+                    "/mpm/rest_window"});
+}
+
 }  // namespace
 
 Plan plan(const scene::Scene& scene) {
@@ -182,6 +199,7 @@ Plan plan(const scene::Scene& scene) {
     plan_scheme(mpm, plan);
     plan_gap_closure(scene, plan);
     plan_boundaries(mpm, plan);
+    plan_end(mpm, plan);
     plan.push_back({"total epsilon_q", Use::on, "for pictures; softening has its own", "/mpm"});
     plan.push_back({"active nodes only", Use::on, "empty cells cost nothing", "/mpm/domain_x"});
     plan.push_back(

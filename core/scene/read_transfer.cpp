@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mechanics/atmosphere.hpp"
 #include "core/scene/checks.hpp"
 #include "core/scene/reader.hpp"
 
@@ -12,7 +13,6 @@ using nlohmann::json;
 namespace {
 
 constexpr double kPa = 1e3;
-constexpr double p_atm = 101.325e3;  ///< [Pa]
 
 template <class List>
 std::optional<std::size_t> named(Reader& reader, const List& list, const std::string& name,
@@ -57,7 +57,7 @@ void read_mapping(Reader& reader, const Scene& scene, const json& transfer, Tran
     }
 }
 
-/// s_r = coefficient (sigma'_v0 / p_atm)^exponent in the middle of each layer.
+/// s_r = coefficient (sigma'_v0 / standard atmosphere)^exponent in the middle of each layer.
 struct StrengthFunction {
     std::size_t like;    ///< material that everything else is taken from
     double coefficient;  ///< [Pa]
@@ -95,7 +95,8 @@ std::size_t made_material(Scene& scene, const StrengthFunction& s_r, std::size_t
     made.name = layer_name(made, layer);
     double& peak = *materials::strength_entries(made.law).c;
     const double middle = 0.5 * (sigma_v0[0] + sigma_v0[1]);
-    const double c = s_r.coefficient * std::pow(middle / p_atm, s_r.exponent);
+    const double c =
+        s_r.coefficient * std::pow(middle / mechanics::standard_atmosphere, s_r.exponent);
     if (materials::Softening* softening = materials::softening(made.law))
         softening->c_residual *= c / peak;
     peak = c;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "fem_solver/model/pore_water.hpp"
+
 namespace breach::fem {
 namespace {
 

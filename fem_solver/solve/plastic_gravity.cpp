@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace breach::fem {
 namespace {
@@ -73,15 +75,39 @@ FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& mo
             static_step(newton, model, laws, 1.0, start, motion, prediction, trial);
         rest.iterations += outcome.iterations;
         if (outcome.end != NewtonOutcome::End::converged) {
-            if (rest.cohesion == 0.0) break;
+            if (!rest.converged) {
+                rest.cohesion = c;
+                rest.residual = outcome.residual;
+                break;
+            }
             share = std::sqrt(share);
             continue;
         }
         std::swap(motion, trial);
+        rest.converged = true;
         rest.cohesion = c;
         rest.residual = outcome.residual;
     }
     return rest;
+}
+
+std::string in_words(const FrictionalRest& rest) {
+    std::ostringstream text;
+    text << std::setprecision(3);
+    if (rest.converged) {
+        text << "friction alone rests with " << rest.cohesion / 1e3 << " kPa in " << rest.iterations
+             << " iterations, out of balance " << std::scientific << std::setprecision(2)
+             << rest.residual;
+        return text.str();
+    }
+    text << "friction alone does not rest: nothing converged, not even with " << rest.cohesion / 1e3
+         << " kPa of cohesion added (" << rest.iterations << " iterations, out of balance "
+         << std::scientific << std::setprecision(2) << rest.residual
+         << " of the weight). PM4Sand begins from the elastic stresses; what lies outside its "
+            "surfaces stays as a constant stress. Does the slope stand at rest? Ask lem_tool for "
+            "its factor of safety before motion; if that is well above 1, raise "
+            "/fem/largest_iterations or refine the mesh at the steepest face";
+    return text.str();
 }
 
 }  // namespace breach::fem

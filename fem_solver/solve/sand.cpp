@@ -7,30 +7,6 @@ namespace breach::fem {
 
 namespace pm4sand = materials::pm4sand;
 
-void check_sand(const scene::Scene& scene) {
-    const bool any = std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
-        return materials::sand_in(scene.materials[region.material].law) != nullptr;
-    });
-    if (!any) return;
-    const scene::Fem& fem = scene::fem_of(scene);
-    std::vector<fault::Fault> faults;
-    if (fem.kinematics == scene::Kinematics::updated_lagrangian) {
-        faults.push_back({"/fem/kinematics", "is updated_lagrangian, where PM4Sand cannot follow",
-                          "use small_strain"});
-    }
-    bool began = false;
-    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
-        const bool elastic = fem.stages[i].laws == scene::StageLaws::elastic;
-        if (began && elastic) {
-            faults.push_back({"/fem/stages/" + std::to_string(i) + "/laws",
-                              "is elastic after PM4Sand has begun",
-                              "put elastic stages first: the sand's memory would be lost"});
-        }
-        began = began || !elastic;
-    }
-    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
-}
-
 bool has_sand(const Model& model) {
     return std::ranges::any_of(
         model.zones, [](const Zone& zone) { return materials::sand_in(zone.law) != nullptr; });
