@@ -178,10 +178,10 @@ void check_strength(const scene::Scene& scene, Findings& findings) {
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Material* material = material_of(scene, scene.section.regions[r]);
         if (material == nullptr || material->limit_strength || open.contains(r) ||
-            !std::holds_alternative<materials::LinearElastic>(material->law))
+            materials::limit_strength(material->law))
             return;
     }
-    refuse(findings, "/lem", "finds no soil that can fail: every region is linear_elastic",
+    refuse(findings, "/lem", "finds no soil that can fail: no region has a strength",
            "give one of the materials mohr_coulomb or a limit_strength");
 }
 

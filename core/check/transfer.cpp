@@ -30,8 +30,7 @@ void check_window(const scene::Scene& scene, Findings& findings) {
 }
 
 bool is_frictional(const scene::Material& material) {
-    const auto* law = std::get_if<materials::MohrCoulomb>(&material.law);
-    return law != nullptr && law->phi > 0.0;
+    return materials::is_for_particles(material.law) && materials::traits(material.law).frictional;
 }
 
 /// Points know one stress: beside an effective one the pore pressure would be lost.
@@ -59,11 +58,11 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soils[r].material];
-        if (!std::holds_alternative<materials::PM4Sand>(material.law)) continue;
+        if (materials::is_for_particles(material.law)) continue;
         const std::string& name = scene.section.regions[r].name;
         refuse(findings, region_pointer(r, "/material"),
-               "\"" + name + "\" is of \"" + material.name +
-                   "\", whose law is pm4sand, which material points cannot have",
+               "\"" + name + "\" is of \"" + material.name + "\", whose law is " +
+                   materials::traits(material.law).type + ", which material points cannot have",
                "map it in /transfer/mapping to a material of mohr_coulomb or linear_elastic: "
                "{\"region\": \"" +
                    name + "\", \"to\": ...}");
