@@ -44,14 +44,14 @@ Order order_of(const scene::Mpm& mpm) {
     return Order::usl;
 }
 
-Choice choice_of(const scene::Mpm& mpm, const Zone& zone) {
+Choice choice_of(const scene::Mpm& mpm, const materials::Law& law, double viscosity) {
     return {.kernel = kernel_of(mpm.kernel),
             .order = order_of(mpm),
-            .law = zone.lanes.index(),
-            .averages = averages_of(mpm, zone.law),
+            .law = materials::for_particles(law).value().index(),
+            .averages = averages_of(mpm, law),
             .overlap = mpm.overlap_correction.rate > 0.0 ? Overlap::corrected : Overlap::left_alone,
-            .viscosity = zone.viscosity > 0.0 ? Viscosity::newtonian : Viscosity::none,
-            .volume_rule = zone.volume_rule};
+            .viscosity = viscosity > 0.0 ? Viscosity::newtonian : Viscosity::none,
+            .volume_rule = volume_rule_of(mpm, law)};
 }
 
 InstructionSet best_instruction_set() {
