@@ -3,6 +3,7 @@
 #include "core/process/phase.hpp"
 #include "fem_solver/element_bench/run.hpp"
 #include "fem_solver/run.hpp"
+#include "fem_solver/solve/profile.hpp"
 
 int main(int argc, char** argv) {
     const std::string_view command = argc > 1 ? argv[1] : "";
@@ -21,7 +22,8 @@ int main(int argc, char** argv) {
             "Also: fem_solver element-test, fem_solver calibrate",
         .inputs = {0, 0, "takes no input beside the scene"},
         .plan = breach::fem::plan,
-        .run = breach::fem::run};
+        .run = breach::fem::run,
+        .numerics = breach::fem::numerics};
     phase.switches.push_back(
         {breach::fem::profile_switch, "print CPU seconds by kind of work at the end"});
     return breach::process::run_phase(argc, argv, phase);

@@ -5,8 +5,8 @@
 
 namespace breach::fem {
 
-/// Asks for the table of profile.hpp on stdout (the log where stdout carries JSON lines).
-inline constexpr const char* profile_switch = "--profile";
+/// Raised when the numbers change for the same input: the cache takes no result of another one.
+inline constexpr int numerics = 4;
 
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
 process::Outcome run(process::Session& session);

@@ -6,6 +6,9 @@
 
 namespace breach::lem {
 
+/// Raised when the numbers change for the same input: the cache takes no result of another one.
+inline constexpr int numerics = 1;
+
 process::Plan plan(const scene::Scene& scene);
 
 /// Analyses what /lem asks for. result.json: factor_of_safety, circle, entry, exit, lowest_point,

@@ -8,5 +8,6 @@ int main(int argc, char** argv) {
                                .purpose = "Limit equilibrium: how stable is the section?",
                                .inputs = {.least = 0, .most = 0, .what = "no input file"},
                                .plan = lem::plan,
-                               .run = lem::run});
+                               .run = lem::run,
+                               .numerics = lem::numerics});
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/mechanics/atmosphere.hpp"
 #include "core/scene/scene.hpp"
 #include "lem_tool/strata.hpp"
 
@@ -38,13 +39,14 @@ struct Soil {
     double r_u;  ///< pore pressure over the soil's vertical stress, where no water line counts [-]
     enum class Passage {
         open,
+        /// Closed: stronger than any surface (linear elastic)
         closed
-    } passage;                 ///< closed: stronger than any surface (linear elastic)
+    } passage;
     double coefficient = 0.0;  ///< undrained strength at sigma'_v0 = p_a [Pa]
     double exponent = 1.0;     ///< [-]
 };
 
-inline constexpr double p_a = 101325.0;  // [Pa]
+inline constexpr double p_a = mechanics::standard_atmosphere;  // [Pa]
 
 /// Slices from left to right, one array per quantity; `resize`d once, then only `count` changes.
 struct Slices {
@@ -64,8 +66,8 @@ struct Slices {
                                   ///< the centre, on a floor W h tan a and horizontal moments [N/m]
     std::vector<double> shaking;  ///< moment of the soil's weight, put horizontal, over R [N/m]
     std::vector<double> lever;  ///< arm of the base's shear in Bishop's moment over R: 1 on the arc
-    std::vector<double>
-        force;  ///< (c l cos a + (W - u l cos a) tan phi) lever: Bishop's numerator [N/m]
+    /// (c l cos a + (W - u l cos a) tan phi) lever: Bishop's numerator [N/m]
+    std::vector<double> force;
     std::vector<double> c;          ///< [Pa]
     std::vector<double> tan_phi;    ///< [-]
     std::vector<double> crossings;  ///< scratch of the cutting

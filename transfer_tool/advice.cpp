@@ -14,7 +14,7 @@ namespace {
 using criteria::Criterion;
 using criteria::TelemetryLine;
 
-/// What the case document names as signs, in the order of a failure's course.
+/// What docs/design/case.md names as signs, in the order of a failure's course.
 struct KnownSign {
     const char* name;
     const char* condition;

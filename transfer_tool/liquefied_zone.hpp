@@ -26,8 +26,9 @@ class LiquefiedZone {
     /// Lowest level reached anywhere [m]; nothing liquefied: +infinity.
     double deepest_level() const { return deepest_; }
 
+    /// X where it begins -> level; +infinity: none
   private:
-    std::map<double, double> level_from_;  ///< x where it begins -> level; +infinity: none
+    std::map<double, double> level_from_;
     std::size_t nodes_ = 0;
     double deepest_;
 };

@@ -15,5 +15,6 @@ int main(int argc, char** argv) {
          .inputs = {1, 1, "a FEM snapshot (.vtkhdf)"},
          .plan = breach::transfer::plan,
          .run = breach::transfer::run,
-         .read = breach::transfer::read});
+         .read = breach::transfer::read,
+         .numerics = breach::transfer::numerics});
 }

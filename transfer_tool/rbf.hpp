@@ -47,8 +47,8 @@ class LocalInterpolant {
     Vec2 normalised(const Vec2& place) const;
 
     Vec2 middle_ = Vec2::Zero();
-    Eigen::Matrix2d axes_ =
-        Eigen::Matrix2d::Zero();   ///< columns: principal directions over the spread [1/m]
+    /// Columns: principal directions over the spread [1/m]
+    Eigen::Matrix2d axes_ = Eigen::Matrix2d::Zero();
     int directions_ = 0;           ///< in how many of them the centres spread
     std::vector<Vec2> centre_;     ///< normalised [-]
     double epsilon_ = 1.0;         ///< [-]

@@ -6,6 +6,9 @@
 
 namespace breach::transfer {
 
+/// Raised when the numbers change for the same input: the cache takes no result of another one.
+inline constexpr int numerics = 2;
+
 process::Plan plan(const scene::Scene& scene);
 process::Outcome run(process::Session& session);
 /// The scene, and whether its advice window can be read.

@@ -44,8 +44,8 @@ struct MeshSnapshot {
     // Gauss points [n_elements * gauss_per_element], element by element, in the order of
     // gauss_positions
     int gauss_per_element = 4;
-    std::vector<mechanics::Vec2>
-        gauss_positions;  ///< natural coordinates (xi, eta) of each, [gauss_per_element]
+    /// Natural coordinates (xi, eta) of each, [gauss_per_element]
+    std::vector<mechanics::Vec2> gauss_positions;
     std::vector<mechanics::Voigt> stress;   ///< effective [Pa], tension positive
     std::vector<mechanics::Voigt> strain;   ///< total, since the first dynamic stage began [-]
     std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]

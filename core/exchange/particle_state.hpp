@@ -32,8 +32,8 @@ struct ParticleState {
     // [n_particles]
     std::vector<mechanics::Vec2> position;  ///< [m]
     std::vector<mechanics::Vec2> velocity;  ///< [m/s]
-    std::vector<mechanics::Matrix2>
-        velocity_gradient;                  ///< rows: component, columns: direction [1/s]
+    /// Rows: component, columns: direction [1/s]
+    std::vector<mechanics::Matrix2> velocity_gradient;
     std::vector<double> mass;               ///< [kg] for `thickness`
     std::vector<double> volume_0;           ///< at zero mean stress, the law's reference [m3]
     std::vector<double> volume;             ///< [m3]

@@ -9,6 +9,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/process/signals.hpp"
+#include "core/version/version.hpp"
 
 namespace breach::process {
 
@@ -53,7 +54,7 @@ Session::~Session() = default;
 
 exchange::Provenance Session::provenance() const {
     return {.phase = settings_.phase,
-            .version = BREACH_VERSION,
+            .version = breach::version(),
             .scene = scene_.completed,
             .overrides = settings_.overrides,
             .inputs = digests_,
@@ -116,7 +117,8 @@ std::int64_t Session::truncate_telemetry(std::int64_t lines) {
 }
 
 void Session::flag(fault::Flag flag) {
-    spdlog::warn("{}: {}", fault::name_of(flag.severity), flag.message);
+    spdlog::warn("{}{}{}", flag.severity == fault::Severity::questionable ? "questionable: " : "",
+                 flag.pointer.empty() ? "" : flag.pointer + ": ", flag.message);
     const auto same = std::ranges::find_if(flags_, [&](const fault::Flag& each) {
         return each.code == flag.code && each.pointer == flag.pointer;
     });

@@ -331,8 +331,8 @@ struct LiquefiedLayer {
 struct LiquefiedZone {
     std::vector<std::size_t> regions;  ///< whose soil can liquefy
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
-    std::vector<LiquefiedLayer>
-        layers;  ///< from 0, without gaps; the last also holds what is beyond
+    /// From 0, without gaps; the last also holds what is beyond
+    std::vector<LiquefiedLayer> layers;
 };
 
 /// Which transfer times the advice is about; expressions of core/criteria over FEM telemetry.
@@ -405,15 +405,27 @@ struct Gauge {
     double arrival_depth;  ///< the flow has arrived when it is this deep [m]
 };
 
+/// When the mobile soil is at rest. Everything that depends on the scene's size is resolved.
+struct Rest {
+    double change;                 ///< the front moved no more than this over the window [m]
+    double window;                 ///< [s]
+    double earliest;               ///< never before [s]
+    double speed;                  ///< slower soil counts as still [m/s]
+    double body_share = 0.005;     ///< of the mobile mass: connected bodies that may move [-]
+    double kinetic_share = 0.005;  ///< of the energy released: largest kinetic energy [-]
+    double peak_share = 0.05;      ///< of the largest kinetic energy so far [-]
+};
+
 struct Mpm {
-    double cell_size;                ///< [m]
+    double cell_size;  ///< [m]
+    bool allow_coarse_cells = false;
     std::array<double, 2> domain_x;  ///< [m]
     std::array<double, 2> domain_y;  ///< [m]
     Wall left;
     Wall right;
     Floor floor;
-    std::vector<Vec2>
-        terrain{};  ///< ascending in x, straight beyond its ends; empty: the floor [m]
+    /// Ascending in x, straight beyond its ends; empty: the floor [m]
+    std::vector<Vec2> terrain{};
     Kernel kernel;
     double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
@@ -421,15 +433,14 @@ struct Mpm {
     AntiLocking anti_locking;
     bool gap_closure;
     OverlapCorrection overlap_correction{};
-    std::optional<double>
-        softening_length{};           ///< softening strains are those of cells this long [m]
+    /// Softening strains are those of cells this long [m]
+    std::optional<double> softening_length{};
     double stiffness_scale;           ///< factor on E, reported [-]
     std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
     double cfl;                       ///< [-]
     double duration;                  ///< longest [s]
-    double rest_change;               ///< the front moved less than this over rest_window: stop [m]
-    double rest_window;               ///< [s]
-    double rest_earliest;             ///< never stop before [s]
+    bool until_rest = false;          ///< asked for: `duration` is the bound on it
+    Rest rest;
     Runout runout;
     std::vector<Gauge> gauges{};
     double snapshot_interval;    ///< [s]

@@ -29,9 +29,9 @@ struct SandPoint {
 /// Laws with their state; copied for a trial, assigned on acceptance.
 struct Specimen {
     std::variant<PlainPoint, SandPoint> point;
-    double epsilon_v =
-        0.0;             ///< volumetric strain since the start of the test, compression positive
-    double gamma = 0.0;  ///< engineering shear strain since the start
+    /// Volumetric strain since the start of the test, compression positive
+    double epsilon_v = 0.0;
+    double gamma = 0.0;       ///< engineering shear strain since the start
     double epsilon_yy = 0.0;  ///< vertical strain since the start, compression positive
 };
 

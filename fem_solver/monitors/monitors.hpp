@@ -37,11 +37,11 @@ struct Reading {
     double jacobian_centre_avg = 1.0;
     double jacobian_least_avg = 1.0;
     double jacobian_least_min = 1.0;
-    double epsilon_q_avg =
-        0.0;  ///< volume average over the strained elements; 0 when there are none [-]
+    /// Volume average over the strained elements; 0 when there are none [-]
+    double epsilon_q_avg = 0.0;
     double epsilon_q_max = 0.0;  ///< [-]
-    double strained_share =
-        0.0;  ///< volume of elements with epsilon_q above the threshold over all volume [-]
+    /// Volume of elements with epsilon_q above the threshold over all volume [-]
+    double strained_share = 0.0;
     double excess_pressure_avg = 0.0;  ///< u - u_0 over the nodes with a pressure unknown, weighted
                                        ///< by mass [Pa]
     double r_u_max = 0.0;              ///< of the watched nodes [-]
@@ -55,11 +55,14 @@ struct Column {
     const char* unit;
     double Reading::*member;
 };
+/// As core/telemetry/columns.hpp has them, in its order; a test holds the two together.
 const std::vector<Column>& columns();
 
 /// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
 /// [-].
 double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element);
+/// The same of all elements of the body.
+std::vector<double> epsilon_q_of_elements(const Model& model, const Motion& motion);
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold);
 
@@ -73,5 +76,7 @@ exchange::Archive history_archive(const std::vector<Reading>& history);
 std::vector<Reading> history_from(const exchange::Archive& archive);
 
 std::size_t nearest_node(const Mesh& mesh, const Vec2& point);
+/// Mean length of the edges at a node [m].
+double element_size_at(const Mesh& mesh, std::size_t node);
 
 }  // namespace breach::fem

@@ -64,8 +64,8 @@ class InternalForce {
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     SandPass sand_;
-    std::vector<double>
-        half_angle_;  ///< updated Lagrangian: [points] half the rotation of the step [rad]
+    /// Updated Lagrangian: [points] half the rotation of the step [rad]
+    std::vector<double> half_angle_;
     std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]
     std::vector<Gradients> gradients_;    ///< updated Lagrangian: [elements]
     std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]

@@ -9,10 +9,6 @@
 
 namespace breach::fem {
 
-/// Throws BadInput where PM4Sand meets what it cannot do: the moving mesh (its histories per
-/// component do not turn), or an elastic stage after the switch.
-void check_sand(const scene::Scene& scene);
-
 bool has_sand(const Model& model);
 
 /// What the switch left as a constant stress because it lay below p_min or outside the surfaces.
@@ -49,8 +45,9 @@ class SandPass {
 
     const materials::pm4sand::Counts& counts() const { return counts_; }
 
+    /// Per element
   private:
-    std::size_t points_;  ///< per element
+    std::size_t points_;
     std::vector<materials::pm4sand::Update> updates_;
     materials::pm4sand::Counts counts_;
 };

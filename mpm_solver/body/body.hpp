@@ -19,8 +19,8 @@ struct Tally {
     double friction = 0.0;   ///< work dissipated by the floor's friction so far [J]
     double viscous = 0.0;    ///< work dissipated by viscosity so far [J]
     double pushed_in = 0.0;  ///< work that the overlap correction put in so far [J]
-    double kinetic =
-        0.0;  ///< of the points at the end of the step; not finite when any velocity is not [J]
+    /// Of the points at the end of the step; not finite when any velocity is not [J]
+    double kinetic = 0.0;
     double fastest = 0.0;  ///< largest speed of a point [m/s]
     double strayed = 0.0;  ///< no point is farther from where it was last sorted, per axis [cells]
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -52,11 +52,11 @@ struct Body {
     double widest;
     KernelKind kernel;
     Order order;
-    /// Anti-locking (A3 of mpm.md): the points of a zone in a cell share their volumetric strain
-    /// rate and mean stress. Per zone, then per cell; empty where the zone does not average.
+    /// Anti-locking (A3 of docs/design/mpm.md): the points of a zone in a cell share their
+    /// volumetric strain rate and mean stress. Per zone, then per cell; empty: no averages.
     std::vector<std::vector<CellSum>> averages;
-    std::vector<double> drift_x,
-        drift_y;               ///< MUSL: velocity that moves the points [m/s]; empty otherwise
+    /// MUSL: velocity that moves the points [m/s]; empty otherwise
+    std::vector<double> drift_x, drift_y;
     std::vector<Loops> loops;  ///< per zone
     Strips strips;
     std::shared_ptr<Team> team;

@@ -1,5 +1,5 @@
 // Overlap: soil that lies on top of soil. Points may clump although every tracked volume is right
-// (mpm.md, section 10), so a run reports it.
+// (docs/design/mpm.md, section 10), so a run reports it.
 #pragma once
 
 #include <vector>
@@ -27,8 +27,8 @@ class OverlapMeter {
     static void fill_nodes(const Body& body, std::vector<double>& filled);
     double fill_at(const std::vector<double>& filled, std::int32_t i, std::int32_t j) const;
 
-    std::vector<double>
-        capacity_x_;  ///< integral of the nodal weight over the domain, per column [m]
+    /// Integral of the nodal weight over the domain, per column [m]
+    std::vector<double> capacity_x_;
     std::vector<double> capacity_y_;
     double thickness_;
     std::vector<double> filled_;  ///< of the marks; empty in runs that never mark [m3]

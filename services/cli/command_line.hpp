@@ -1,8 +1,11 @@
-// The words of `breach`, and the door: what is thrown inside becomes a message and an exit code
-// here.
-//     0 done   2 usage   65 refused, by the server or because the study is no JSON   70 the run
-//     failed 74 a file cannot be read or written, or is not what it should be   75 the server does
-//     not answer
+// The words of `breach`, and the door: what is thrown inside becomes a message and an exit code.
+//
+//      0  done
+//      2  usage
+//     65  refused, by the server or because the study is no JSON
+//     70  the run failed
+//     74  a file cannot be read or written, or is not what it should be
+//     75  the server does not answer
 #pragma once
 
 namespace breach::cli {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "core/fault/fault.hpp"
+#include "core/version/version.hpp"
 #include "services/orchestrator/executors/supervisor.hpp"
 #include "services/orchestrator/serve_options.hpp"
 
@@ -31,7 +32,7 @@ int guarded_serve(const ServeOptions& options) {
 
 int main(int argc, char** argv) {
     CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
-    app.set_version_flag("--version", "breachline " BREACH_VERSION);
+    app.set_version_flag("--version", std::string("breachline ") + breach::version());
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     ServeOptions options(std::filesystem::canonical("/proc/self/exe"));

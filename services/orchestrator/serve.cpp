@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "services/orchestrator/executors/local_executor.hpp"
+#include "services/orchestrator/programs/numerics.hpp"
 
 namespace breach::orchestrator {
 
@@ -45,16 +46,15 @@ int serve(const ServeSettings& settings) {
     const sigset_t stop_signals = blocked_stop_signals();
     std::signal(SIGPIPE, SIG_IGN);
 
+    const Numerics numerics = numerics_of_phases(settings.dispatch.bin);
     const DataFolder data(settings.data);
     Store store(data.database());
     ProgressBoard board;
     const std::unique_ptr<Executor> executor = executor_of(settings);
     FrameReader frames;
     Dispatcher dispatcher(store, data, *executor, board, settings.dispatch);
-    Service service{store,        data,
-                    dispatcher,   board,
-                    frames,       settings.dispatch.bin,
-                    settings.web, settings.workflows};
+    Service service{store,    data,         dispatcher,        board, frames, settings.dispatch.bin,
+                    numerics, settings.web, settings.workflows};
     HttpServer server(service, settings.http);
 
     std::jthread answering([&] { server.serve(); });

@@ -1,22 +1,29 @@
-"""Checks that every #include follows the arrows of the house: a room may only include the rooms listed for it, and
-only the rooms listed may know an outside library."""
+"""Checks that every #include follows the arrows of the house: a room may only include the rooms listed for it, only the
+rooms listed may know an outside library, the floors within a room are built on each other in the order given, and no
+units (a header with its source) include each other in a circle."""
 import os
 import pathlib
 import re
 import sys
+
+sys.setrecursionlimit(10000)
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 
 # room -> rooms it may include (besides itself)
 core = {
     "core/fault": set(),
+    "core/version": set(),
     "core/criteria": {"core/fault"},
     "core/mechanics": set(),
+    "core/numerics": set(),
+    "core/telemetry": set(),
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
     "core/motion": {"core/fault"},
-    "core/process": {"core/fault", "core/scene", "core/exchange"},
+    "core/check": {"core/criteria", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/scene"},
+    "core/process": {"core/check", "core/fault", "core/scene", "core/exchange", "core/version"},
 }
 every_core_room = set(core)
 arrows = {
@@ -25,10 +32,22 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/criteria", "core/fault", "core/scene", "core/exchange"},
-    "services/cli": {"core/fault", "core/scene", "core/exchange"},
+    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/telemetry", "core/version"},
+    "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
     "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion"},
 }
+# room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
+# Folders in one set stand on one floor and do not know each other.
+floors = {
+    "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
+    "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
+    "services/orchestrator": [{"records"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"triggers"}, {"dispatch"},
+                              {"http"}],
+    "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
+}
+# units that are one thing in several files: a door that its own parts include
+one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility)$"),
+             re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {
     "hdf5.h": ["core/exchange/"],
@@ -45,8 +64,58 @@ def room_of(path):
     return "/".join(parts[:2]) if parts[0] in ("core", "services") else parts[0]
 
 
+def floor_of(room, path):
+    """(floor, folder) of a file within its room; what stands in no folder is the roof."""
+    rest = path[len(room) + 1:]
+    if "/" not in rest:
+        return len(floors[room]), "(own files)"
+    folder = rest.split("/")[0]
+    return next((k for k, folders in enumerate(floors[room]) if folder in folders), None), folder
+
+
+def floor_fault(room, name, target):
+    (here, folder), (there, other) = floor_of(room, name), floor_of(room, target)
+    for k, each in ((here, folder), (there, other)):
+        if k is None:
+            return f"the folder {room}/{each} is not in the picture"
+    if folder != other and there >= here:
+        return f"{room}: {folder} must not include {other}"
+    return None
+
+
+def circles(arrows_of_units):
+    """Strongly connected sets of more than one unit (Tarjan)."""
+    index, low, stack, found, on = {}, {}, [], [], set()
+
+    def visit(unit):
+        index[unit] = low[unit] = len(index)
+        stack.append(unit)
+        on.add(unit)
+        for other in arrows_of_units.get(unit, ()):
+            if other not in index:
+                visit(other)
+                low[unit] = min(low[unit], low[other])
+            elif other in on:
+                low[unit] = min(low[unit], index[other])
+        if low[unit] == index[unit]:
+            circle = []
+            while True:
+                circle.append(stack.pop())
+                on.discard(circle[-1])
+                if circle[-1] == unit:
+                    break
+            if len(circle) > 1:
+                found.append(sorted(circle))
+
+    for unit in sorted(arrows_of_units):
+        if unit not in index:
+            visit(unit)
+    return found
+
+
 def main():
     faults = []
+    units = {}
     files = 0
     for folder in ("core", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "services"):
         for file in sorted((root / folder).rglob("*.?pp")):
@@ -68,9 +137,19 @@ def main():
                     other = room_of(target)
                     if other != room and other not in arrows[room]:
                         faults.append(f"{name}:{number}: {room} must not include {other}")
+                    if other == room and room in floors:
+                        fault = floor_fault(room, name, target)
+                        if fault:
+                            faults.append(f"{name}:{number}: {fault} ({target})")
+                    unit, included = name.rsplit(".", 1)[0], target.rsplit(".", 1)[0]
+                    if unit != included:
+                        units.setdefault(unit, set()).add(included)
     for room in list(arrows):
         if not (root / room).is_dir():
             faults.append(f"the picture names {room}, which does not exist")
+    for circle in circles(units):
+        if not any(all(whole.match(unit) for unit in circle) for whole in one_thing):
+            faults.append("a circle of units: " + ", ".join(circle))
     print("\n".join(faults) or f"{files} files follow the arrows")
     return 1 if faults or files < 20 else 0
 

@@ -73,6 +73,37 @@ TEST_P(KilledAt, NothingIsLostAndNothingRunsTwice) {
 INSTANTIATE_TEST_SUITE_P(Place, KilledAt, ::testing::ValuesIn(places()),
                          [](const auto& each) { return each.param; });
 
+/// What the service's own threads go through, except its writing to the disk: that is the store's.
+std::vector<std::string> places_of_threads() {
+    std::vector<std::string> found;
+    for (const std::string& each : places())
+        if (!each.starts_with("store") && !each.starts_with("supervisor")) found.push_back(each);
+    return found;
+}
+
+class TroubledAt : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(TroubledAt, NoTaskIsLeftWhereNobodyMovesItOn) {
+    const Sandbox sandbox;
+    const auto token = sandbox.root() / "token";
+    std::ofstream(token) << "\n";
+    {
+        Service service(sandbox, {}, {"BREACHLINE_TROUBLE=" + GetParam() + ":1:" + token.string()});
+        const std::string run = service.submit(study("", {0.25, 0.5}));
+        const json end = service.wait_for_end(run);
+        EXPECT_EQ(end.at("state"), "succeeded") << end.dump();
+        EXPECT_FALSE(std::filesystem::exists(token)) << "not reached";
+        for (const json& row : service.table(run)) {
+            const double time = row.at("transfer_time");
+            EXPECT_EQ(row.at("runout"), 10 + time * time);
+        }
+    }
+    expect_sound_history(sandbox);
+}
+
+INSTANTIATE_TEST_SUITE_P(Place, TroubledAt, ::testing::ValuesIn(places_of_threads()),
+                         [](const auto& each) { return each.param; });
+
 TEST(Migration, KilledHalfWayIsDoneByTheNextStart) {
     const Sandbox sandbox;
     std::filesystem::create_directories(sandbox.data());

@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -55,6 +56,7 @@ Sandbox::Sandbox() {
 }
 
 Sandbox::~Sandbox() {
+    if (std::getenv("BREACH_KEEP_SANDBOX") != nullptr) return;
     std::error_code error;
     fs::remove_all(root_, error);
 }

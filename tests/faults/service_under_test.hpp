@@ -20,7 +20,8 @@ struct Answer {
     std::multimap<std::string, std::string> headers;
 };
 
-/// A temporary folder with `bin` (the four names of the phases) and `data`; removed at the end.
+/// A temporary folder with `bin` (the four names of the phases) and `data`; removed at the end,
+/// unless BREACH_KEEP_SANDBOX is set.
 class Sandbox {
   public:
     Sandbox();

@@ -45,7 +45,7 @@ def study(times):
 def phases_that_wait(folder):
     folder.mkdir()
     for name in ("fem_solver", "lem_tool", "transfer_tool", "mpm_solver"):
-        (folder / name).write_text("#!/bin/sh\nexec sleep 600\n")
+        (folder / name).write_text("#!/bin/sh\n[ \"$1\" = --version ] && echo numerics 1 && exit\nexec sleep 600\n")
         (folder / name).chmod(0o755)
     return folder
 

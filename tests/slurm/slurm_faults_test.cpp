@@ -33,11 +33,11 @@ class SlurmFaults : public ::testing::Test {
                                            "--slurm-grace", "1",     "--slurm-command-limit", "5"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const std::string path = std::getenv("PATH");
-        return std::make_unique<Service>(
-            sandbox_, arguments,
-            std::vector<std::string>{
-                "PATH=" + std::string(BREACH_ROOT) + "/tests/slurm/fake:" + path,
-                "FAKE_SLURM=" + slurm().string()});
+        std::vector<std::string> environment{
+            "PATH=" + std::string(BREACH_ROOT) + "/tests/slurm/fake:" + path,
+            "FAKE_SLURM=" + slurm().string()};
+        environment.insert(environment.end(), environment_.begin(), environment_.end());
+        return std::make_unique<Service>(sandbox_, arguments, environment);
     }
 
     /// What sbatch was asked for, in order.
@@ -73,6 +73,7 @@ class SlurmFaults : public ::testing::Test {
     }
 
     Sandbox sandbox_;
+    std::vector<std::string> environment_;  ///< of the services, beside PATH and FAKE_SLURM
 };
 
 TEST_F(SlurmFaults, SweepIsWholeAndWhatIsReadyTogetherIsOneArray) {
@@ -93,6 +94,58 @@ TEST_F(SlurmFaults, SweepIsWholeAndWhatIsReadyTogetherIsOneArray) {
     }
     EXPECT_TRUE(array);
     EXPECT_TRUE(asked_for_resources);
+}
+
+TEST_F(SlurmFaults, JobThatEndsBeforeItsAnswerHoldsUpNoOther) {
+    // sbatch has answered for the FEM, and its answer is held back until the FEM has ended, its
+    // exit record was read and the executor has forgotten it. What waits behind it, with other
+    // resources and so in another call of sbatch, must still be asked for.
+    const fs::path hold = sandbox_.root() / "hold";
+    std::ofstream(hold) << "\n";
+    environment_ = {"BREACHLINE_HOLD=sbatch_after:1:" + hold.string()};
+    const auto service = this->service();
+    json wanted = study("fem_steps=2", {0.5});
+    wanted["resources"]["lem_tool"] = {{"cores", 2}, {"memory_MB", 0}};
+    const std::string run = service->submit(wanted);
+    const auto state_of = [&](const std::string& label) {
+        for (const json& each : tasks_of(*service, run))
+            if (each.at("label") == label) return each.at("state").get<std::string>();
+        return std::string();
+    };
+    EXPECT_TRUE(eventually([&] { return state_of("fem") == "succeeded"; }, 30)) << state_of("fem");
+    EXPECT_EQ(state_of("lem"), "starting");
+    fs::remove(hold);
+    expect_whole(*service, run);
+    for (const json& each : tasks_of(*service, run))
+        EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
+}
+
+TEST_F(SlurmFaults, ExceptionBetweenTheAnswerAndItsNotingLosesNoJob) {
+    environment_ = {"BREACHLINE_TROUBLE=sbatch_after:1"};
+    const auto service = this->service();
+    const std::string run = service->submit(study("", four_times));
+    expect_whole(*service, run);
+    for (const json& each : tasks_of(*service, run))
+        EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
+}
+
+TEST_F(SlurmFaults, WhatIsWaitedForIsSaid) {
+    begin("drained");
+    const auto service = this->service();
+    const std::string run = service->submit(study("", {0.5}));
+    const auto says = [&](const std::string& words) {
+        return eventually([&] {
+            return std::ranges::any_of(tasks_of(*service, run), [&](const json& each) {
+                return each.at("message").get<std::string>().find(words) != std::string::npos;
+            });
+        });
+    };
+    EXPECT_TRUE(says("in Slurm's queue: PENDING"));
+    begin("down");
+    EXPECT_TRUE(says("squeue does not answer"));
+    end("down");
+    end("drained");
+    expect_whole(*service, run);
 }
 
 TEST_F(SlurmFaults, ControllerThatIsGoneIsWaitedFor) {

@@ -73,6 +73,10 @@ bool take_request(const fs::path& sandbox, const fs::path& output) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 2 && argv[1] == std::string("--version")) {
+        std::cout << "fem_solver 0\nnumerics 1\n";
+        return 0;
+    }
     const Wish wish = wish_from(argc, argv);
     const fs::path sandbox = fs::path(argv[0]).parent_path().parent_path();
     std::ofstream telemetry(wish.output / "telemetry.jsonl");

@@ -230,6 +230,42 @@ TEST(Trigger, CancelDisarms) {
     EXPECT_EQ(triggers_of(service, run)[0].at("state"), "disarmed");
 }
 
+TEST(Trigger, RetryArmsAgainWhatTheCancellingDisarmedAndNotWhatFired) {
+    const Live live;
+    Service service(live.sandbox);
+    json wanted = with_triggers({{{"kind", "criterion"}, {"name", "early"}, {"when", "time > 0.2"}},
+                                 {{"kind", "criterion"}, {"name", "late"}, {"when", "time > 2"}}});
+    wanted["transfer_times"] = {2.5};
+    const std::string run = service.submit(wanted);
+    ASSERT_TRUE(eventually([&] { return triggers_of(service, run)[0].at("state") == "fired"; }));
+    service.post("/v1/runs/" + run + "/cancel", "");
+    EXPECT_EQ(service.wait_for_end(run).at("state"), "cancelled");
+    EXPECT_EQ(triggers_of(service, run)[1].at("state"), "disarmed");
+
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").status, 202);
+    const json triggers = settled(service, run);
+    for (const json& each : triggers) {
+        EXPECT_EQ(each.at("state"), "fired") << each;
+        EXPECT_EQ(each.at("reason"), "") << each;
+        EXPECT_EQ(each.at("firings").size(), 1u) << each;
+    }
+    EXPECT_EQ(count_tasks(service, run, "transfer_tool"), 3);  // two triggers and a given time
+    EXPECT_EQ(count_tasks(service, run, "mpm_solver"), 3);
+    EXPECT_EQ(service.table(run).size(), 3u);
+    std::vector<std::string> armed_again;
+    std::int64_t seen = 0;
+    while (true) {
+        const std::string page = "/v1/events?wait=0&after=" + std::to_string(seen);
+        const json events = service.get(page).body.at("events");
+        if (events.empty()) break;
+        for (const json& each : events)
+            if (each.at("detail").value("what", "") == "rearm")
+                armed_again.push_back(each.at("detail").at("name"));
+        seen = events.back().at("seq");
+    }
+    EXPECT_EQ(armed_again, std::vector<std::string>{"late"});
+}
+
 TEST(Trigger, MistakesAreNamedWithPointerAndColumn) {
     const Live live;
     Service service(live.sandbox);

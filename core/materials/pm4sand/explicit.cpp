@@ -1,4 +1,4 @@
-// Sections 13.2, 13.4 and 13.5 of design/pm4sand.md, as OpenSees does them, its quirks included.
+// Sections 13.2, 13.4 and 13.5 of docs/design/pm4sand.md, as OpenSees does them, its quirks included.
 #include "core/materials/pm4sand/explicit.hpp"
 
 #include <algorithm>

@@ -47,7 +47,7 @@ void Cache::look_up(const Task& task) {
     std::string input_sha256;
     if (!task.input.empty())
         input_sha256 =
-            exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
+            exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
     std::optional<std::string> refusal;
     for (const Task& earlier : store_.answers_to(*task.recipe, input_sha256, most_candidates)) {
         refusal = damage_of(earlier);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "core/exchange/publish.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
@@ -19,6 +20,24 @@ namespace {
 
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
 constexpr auto pause_after_trouble = std::chrono::seconds(1);
+
+std::string in_seconds(double time) {
+    std::ostringstream text;
+    text << time << " s";
+    return text.str();
+}
+
+/// Why a child's time was not reached; nothing: the parent did not end regularly before it.
+/// A FEM whose mesh entangles has done its work, and so has a run without what lies beyond.
+std::optional<std::string> why_not_reached(const Task& parent, const BlockedTask& child) {
+    if (parent.not_reached && parent.fault) return parent.fault->summary;
+    const bool came_through =
+        parent.state == TaskState::succeeded || parent.state == TaskState::cached;
+    if (!came_through || !parent.result || !child.transfer_time) return std::nullopt;
+    if (parent.result->value("ended", "") != "entangled") return std::nullopt;
+    return "the FEM ended entangled at " + in_seconds(parent.result->value("end_time", 0.0)) +
+           ", before " + in_seconds(*child.transfer_time);
+}
 
 std::set<std::string> names_in(const std::filesystem::path& folder) {
     std::set<std::string> names;
@@ -82,9 +101,11 @@ void Dispatcher::serve(const std::stop_token& stop) {
             start_ready_tasks();
             wait_for_something();
         } catch (const std::exception& error) {
-            // A full disk or the like: nothing was half-stored, so look again when it may be
+            // A full disk or the like: nothing was half-stored, but what was stored may not have
+            // been acted upon, nor noted in memory. So look again as after a start, when it may be
             // better.
             spdlog::error("dispatcher: {}", error.what());
+            reconciled = false;
             std::this_thread::sleep_for(pause_after_trouble);
         }
     }
@@ -95,9 +116,14 @@ void Dispatcher::serve(const std::stop_token& stop) {
     }
 }
 
-/// What the store says was going on, held against what is.
+/// What the store says was going on, held against what is; after a start, and after trouble.
 void Dispatcher::reconcile() {
+    for (const Live& live : live_) stop_watching(live);
     live_.clear();
+    {
+        const std::lock_guard lock(registered_mutex_);
+        registered_.clear();  // all parents are looked at below
+    }
     constexpr auto all = static_cast<std::size_t>(1) << 30;
     for (const TaskState state : {TaskState::starting, TaskState::running, TaskState::cancelling}) {
         for (const Task& task : store_.tasks_in(state, all)) {
@@ -126,7 +152,7 @@ void Dispatcher::look_around() {
     for (Live& live : live_) {
         if (all || std::ranges::find(changed, live.output_watch) != changed.end())
             live.outputs_changed = true;
-        observe(live);
+        observe_alone(live);
     }
     forget_the_ended();
     triggers_.look();
@@ -136,6 +162,19 @@ void Dispatcher::look_around() {
             if (stop_.stop_requested()) return;
             settle_children(parent);
         }
+    }
+}
+
+/// One whose files cannot be read must not hold up the others: it says why it is stuck, and is
+/// looked at again.
+void Dispatcher::observe_alone(Live& live) {
+    try {
+        observe(live);
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string why = std::string("cannot be observed: ") + error.what();
+        if (board_.of(live.task.id).message != why)
+            spdlog::error("{} ({}): {}", live.task.id, live.task.label, why);
+        board_.set(live.task.id, {0.0, why});
     }
 }
 
@@ -283,7 +322,7 @@ void Dispatcher::note_latency(const Task& task) {
     if (task.release != Release::file_exists) return;
     std::error_code error;
     const auto appeared = std::filesystem::last_write_time(
-        data_.output(*store_.task(*task.parent)) / task.input, error);
+        data_.input(task, store_.task(*task.parent).value()), error);
     if (error) return;
     const auto since = std::chrono::file_clock::now() - appeared;
     snapshot_to_start_.add(std::chrono::duration<double>(since).count());
@@ -292,10 +331,9 @@ void Dispatcher::note_latency(const Task& task) {
 Order Dispatcher::order_for(const Live& live) const {
     const Task& task = live.task;
     std::vector<std::string> arguments{data_.scene(task.run)};
-    if (!task.input.empty()) {
-        const Task parent = *store_.task(*task.parent);
-        arguments.insert(arguments.end(), {"--input", data_.output(parent) / task.input});
-    }
+    if (!task.input.empty())
+        arguments.insert(arguments.end(),
+                         {"--input", data_.input(task, store_.task(*task.parent).value())});
     arguments.insert(arguments.end(), {"--output", data_.output(task)});
     for (const std::string& each : task.overrides)
         arguments.insert(arguments.end(), {"--set", each});
@@ -372,12 +410,17 @@ void Dispatcher::settle_children(const std::string& parent_id) {
             transaction.try_move_task(each, TaskEvent::release);
         for (const BlockedTask& child : children) {
             if (!std::ranges::binary_search(skipped, child.id)) continue;
-            transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
+            if (const auto beyond = why_not_reached(parent, child)) {
+                transaction.pass_over_task(child.id, *beyond);
+            } else {
+                transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
+            }
         }
     });
     for (const std::string& each : skipped) settle_children(each);
 }
 
+/// What is not got through, because an exception ends it, is got through by the next reconciling.
 void Dispatcher::settle_after_registrar() {
     std::vector<std::string> tasks;
     std::vector<std::string> looked_up;
@@ -386,9 +429,9 @@ void Dispatcher::settle_after_registrar() {
         tasks.swap(registered_);
         looked_up.swap(looked_up_);
     }
+    for (const std::string& task : looked_up) in_the_cache_.erase(task);
     for (const std::string& task : tasks) settle_children(task);
     for (const std::string& task : looked_up) {
-        in_the_cache_.erase(task);
         if (store_.task(task)->state == TaskState::ready) {
             not_cached_.insert(task);
         } else {

@@ -84,6 +84,7 @@ class Dispatcher {
     Order order_for(const Live& live) const;
     Live& attach(const Task& task, std::int64_t number);
 
+    void observe_alone(Live& live);
     void observe(Live& live);
     void read_lines(Live& live);
     void note_submission(Live& live);
@@ -95,6 +96,7 @@ class Dispatcher {
                           TaskEvent give_up, const TaskFault& fault);
     TaskFault fault_of(const Live& live, const ExitRecord& record) const;
     bool is_over(const std::string& task) const;
+    void stop_watching(const Live& live);
     void forget_the_ended();
 
     void stop_cancelled();

@@ -43,11 +43,14 @@ void Dispatcher::observe(Live& live) {
     const Vitals vitals = executor_.probe(live.folder);
     switch (vitals.life) {
         case Life::handed_over:
+            board_.set(live.task.id, {0.0, vitals.why});
             return;
         case Life::queued:
+            board_.set(live.task.id, {0.0, vitals.why});
             note_submission(live);
             return;
         case Life::alive:
+            if (!live.start_noted) board_.erase(live.task.id);
             note_start(live);  // after a wait, a restart, or when the disk was full at the start
             read_lines(live);
             return;
@@ -192,15 +195,21 @@ TaskFault Dispatcher::fault_of(const Live& live, const ExitRecord& record) const
     return fault;
 }
 
+void Dispatcher::stop_watching(const Live& live) {
+    watch_.remove(live.attempt_watch);
+    watch_.remove(live.output_watch);
+    board_.erase(live.task.id);
+}
+
 void Dispatcher::forget_the_ended() {
+    std::vector<std::string> ended;
     for (const Live& live : live_) {
         if (!live.over) continue;
-        watch_.remove(live.attempt_watch);
-        watch_.remove(live.output_watch);
-        board_.erase(live.task.id);
-        settle_children(live.task.id);
+        stop_watching(live);
+        ended.push_back(live.task.id);
     }
     std::erase_if(live_, [](const Live& live) { return live.over; });
+    for (const std::string& task : ended) settle_children(task);
 }
 
 }  // namespace breach::orchestrator

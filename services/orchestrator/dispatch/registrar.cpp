@@ -53,7 +53,8 @@ void Registrar::add(Task task) { queue_.add(std::move(task)); }
 Handled Registrar::serve(const Task& task) {
     try {
         finalize(task);
-    } catch (const StoreError& error) {
+    } catch (const std::exception& error) {
+        // The next time it goes by what the store says by then.
         spdlog::error("{}: {}; trying again", task.id, error.what());
         return Handled::again_later;
     }
@@ -64,7 +65,7 @@ Handled Registrar::serve(const Task& task) {
 /// What the task read; the key of the cache needs it. Empty: it reads no file.
 std::string Registrar::input_sha256(const Task& task) const {
     if (task.input.empty()) return {};
-    return exchange::sha256_of_file(data_.output(*store_.task(*task.parent)) / task.input);
+    return exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
 }
 
 /// The outputs of a task that failed or was stopped can be looked at, too.
@@ -83,7 +84,9 @@ void Registrar::keep_remains(const Task& task) {
 }
 
 void Registrar::finalize(const Task& task) {
-    if (store_.task(task.id)->state != TaskState::finalizing) return keep_remains(task);
+    const TaskState state = store_.task(task.id)->state;
+    if (state == TaskState::failed || state == TaskState::cancelled) return keep_remains(task);
+    if (state != TaskState::finalizing) return;  // handed in twice, or tried again meanwhile
     const std::filesystem::path output = data_.output(task);
     json result;
     std::vector<Artifact> artifacts;

@@ -6,14 +6,17 @@
 namespace breach::orchestrator {
 
 /// {"reason":"scene part changed","differs":["/mpm/cfl"],"compared_with":"<task>"}. Reasons:
-///   has not run                    it waits, or never will
-///   taken from an earlier task     it did not run; compared_with is that task
-///   reuse is switched off          by the study, or the result does not follow from the scene
-///   alone first of its kind              no earlier task of this phase scene part changed differs:
-///   pointers into the scene cache version changed          the phase's numerics are newer input
-///   changed                  same scene part, another input file earlier task did not succeed
-///   results of failed and stopped tasks are never reused earlier task had not ended     both were
-///   under way at the same time stored outputs are damaged     detail: which file
+///
+///     has not run                    it waits, or never will
+///     taken from an earlier task     it did not run; compared_with is that task
+///     reuse is switched off          by the study, or the result does not follow from the scene
+///     first of its kind              no earlier task of this phase; stands alone
+///     scene part changed             differs: pointers into the scene
+///     cache version changed          the phase's numerics are newer
+///     input changed                  same scene part, another input file
+///     earlier task did not succeed   results of failed and stopped tasks are never reused
+///     earlier task had not ended     both were under way at the same time
+///     stored outputs are damaged     detail: which file
 nlohmann::json why_it_ran(const Store& store, const Task& task);
 
 }  // namespace breach::orchestrator

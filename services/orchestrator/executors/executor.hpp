@@ -16,7 +16,7 @@ enum class Life {
 
 struct Vitals {
     Life life;
-    std::string why = {};  ///< when it is gone
+    std::string why = {};  ///< it is gone, or what it waits for
 };
 
 /// What becomes of running attempts when the service stops.

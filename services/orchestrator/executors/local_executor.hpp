@@ -30,8 +30,8 @@ class LocalExecutor final : public Executor {
     void reap();
 
     std::filesystem::path self_;
-    std::vector<Supervisor>
-        supervisors_;  ///< our children, to be reaped; liveness never hangs on the pids
+    /// Our children, to be reaped; liveness never hangs on the pids
+    std::vector<Supervisor> supervisors_;
 };
 
 }  // namespace breach::orchestrator

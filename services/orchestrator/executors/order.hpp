@@ -14,8 +14,8 @@
 namespace breach::orchestrator {
 
 struct Order {
-    std::string
-        attempt;  ///< attempt id; every process started for it carries it in its environment
+    /// Attempt id; every process started for it carries it in its environment
+    std::string attempt;
     std::filesystem::path program;
     std::vector<std::string> arguments;  ///< without the program
     double grace_seconds;                ///< between TERM and KILL

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "services/orchestrator/executors/command.hpp"
+#include "services/orchestrator/programs/command.hpp"
 
 namespace breach::orchestrator {
 

@@ -133,12 +133,31 @@ bool SlurmExecutor::heart_beats(Job& job) const {
     return job.heart_beat_at != Clock::time_point{} && Clock::now() - job.heart_beat_at < fresh;
 }
 
+/// Why a job that was handed over is not in the queue.
+std::string SlurmExecutor::what_keeps(const Job& job) {
+    const auto seconds =
+        std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - job.since).count();
+    switch (job.stage) {
+        case Stage::waiting:
+            return job.asked == 0 ? "is being handed to Slurm" : "is handed to Slurm again";
+        case Stage::asking:
+            return "sbatch was called " + std::to_string(seconds) + " s ago and has not answered";
+        case Stage::doubtful:
+            return "in doubt for " + std::to_string(seconds) + " s: " + job.why +
+                   "; looking for it in Slurm's queue";
+        case Stage::submitted:
+        case Stage::refused:
+            break;
+    }
+    return {};
+}
+
 Vitals SlurmExecutor::vitals_of(Job& job) const {
     switch (job.stage) {
         case Stage::waiting:
         case Stage::asking:
         case Stage::doubtful:
-            return {Life::handed_over};
+            return {Life::handed_over, what_keeps(job)};
         case Stage::refused:
             return {Life::gone, job.why};
         case Stage::submitted:
@@ -147,7 +166,8 @@ Vitals SlurmExecutor::vitals_of(Job& job) const {
     const bool waits = job.state.empty() || waits_its_turn(job.state);  // empty: not looked at yet
     if (waits || !answers_) {
         job.silent_since.reset();
-        return {Life::queued};
+        if (!answers_) return {Life::queued, "squeue does not answer; the job is waited for"};
+        return {Life::queued, "in Slurm's queue: " + (job.state.empty() ? "taken" : job.state)};
     }
     if (!job.silent_since) job.silent_since = Clock::now();
     // Cancelled before it began: nothing of it can come any more.
@@ -203,6 +223,7 @@ void SlurmExecutor::serve(const std::stop_token& stop) {
         }
         if (stop.stop_requested()) return;
         try {
+            recover_the_unanswered();
             std::this_thread::sleep_for(gathering);  // those that are handed over together
             submit_what_waits();
             if (Clock::now() >= next_look || must_be_found()) {
@@ -233,9 +254,8 @@ void SlurmExecutor::submit_what_waits() {
         groups;
     {
         const std::lock_guard lock(mutex_);
-        for (auto& [root, job] : jobs_) {
+        for (const auto& [root, job] : jobs_) {
             if (job.stage != Stage::waiting) continue;
-            job.stage = Stage::asking;
             groups[{job.order.cores, job.order.memory_mb, job.order.priority}].push_back(root);
         }
     }
@@ -248,44 +268,92 @@ void SlurmExecutor::submit_what_waits() {
     }
 }
 
+/// One round with sbatch. Between its opening and its closing the jobs are in `asking`, the lock is
+/// free, and anything may become of them: a quick one has ended and is forgotten, another is
+/// stopped. So the closing takes each job as it finds it; whatever a round that does not come to
+/// its closing leaves is found by recover_the_unanswered.
 void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& roots) {
-    Batch batch{.name = {}, .folders = {}, .attempts = {}, .like = {}, .throttle = 0};
-    {
-        const std::lock_guard lock(mutex_);
-        const Job& first = jobs_.at(roots.front());
-        // Asked again after a doubtful answer: a new name, because the batch may be another. Should
-        // the first job turn up after all, the attempt's lock lets only one of the two run.
-        batch.name = "breachline-" + first.order.attempt;
-        if (first.asked > 0) batch.name += "_" + std::to_string(first.asked + 1);
-        batch.like = first.order;
-        batch.throttle = settings_.throttle;
-        for (std::size_t i = 0; i < roots.size(); ++i) {
-            Job& job = jobs_.at(roots[i]);
-            job.name = {batch.name, static_cast<std::int64_t>(i)};
-            ++job.asked;
-            batch.folders.push_back(job.folder);
-            batch.attempts.push_back(job.order.attempt);
+    const Batch batch = open_round(roots);
+    if (batch.folders.empty()) return;
+    const Submitted answer = ask(batch);
+    reach(Failpoint::sbatch_after);
+    if (answer.reply != Reply::accepted) spdlog::warn("slurm: {}: {}", batch.name, answer.said);
+    close_round(batch, answer);
+}
+
+/// Those of them that still wait (one may have been stopped meanwhile) are asked for from now on.
+Batch SlurmExecutor::open_round(const std::vector<std::filesystem::path>& roots) {
+    Batch batch{
+        .name = {}, .folders = {}, .attempts = {}, .like = {}, .throttle = settings_.throttle};
+    const std::lock_guard lock(mutex_);
+    for (const auto& root : roots) {
+        const auto known = jobs_.find(root);
+        if (known == jobs_.end() || known->second.stage != Stage::waiting) continue;
+        Job& job = known->second;
+        if (batch.name.empty()) {
+            // Asked again after a doubtful answer: a new name, because the batch may be another.
+            // Should the first job turn up after all, the attempt's lock lets only one of the two
+            // run.
+            batch.name = "breachline-" + job.order.attempt;
+            if (job.asked > 0) batch.name += "_" + std::to_string(job.asked + 1);
+            batch.like = job.order;
         }
+        batch.folders.push_back(job.folder);
+        batch.attempts.push_back(job.order.attempt);
+        job.name = {batch.name, static_cast<std::int64_t>(batch.folders.size()) - 1};
+        job.stage = Stage::asking;
+        job.since = Clock::now();
+        ++job.asked;
     }
-    Submitted answer{Reply::doubtful, "not asked"};
+    return batch;
+}
+
+Submitted SlurmExecutor::ask(const Batch& batch) const {
     try {
         for (std::size_t i = 0; i < batch.folders.size(); ++i)
             write_job_name(batch.folders[i], {batch.name, static_cast<std::int64_t>(i)});
         reach(Failpoint::sbatch_before);
-        answer = slurm_.submit(batch);
-        reach(Failpoint::sbatch_after);
+        return slurm_.submit(batch);
+    } catch (const fault::IoError& error) {  // sbatch could not be started: there is no job
+        return {Reply::refused, error.what()};
     } catch (const std::exception& error) {
-        answer = {Reply::refused, error.what()};
+        return {Reply::doubtful, error.what()};
     }
-    if (answer.reply != Reply::accepted) spdlog::warn("slurm: {}: {}", batch.name, answer.said);
+}
+
+void SlurmExecutor::close_round(const Batch& batch, const Submitted& answer) {
     const std::lock_guard lock(mutex_);
-    for (const auto& root : roots) {
-        Job& job = jobs_.at(root);
+    for (const AttemptFolder& folder : batch.folders) {
+        const auto known = jobs_.find(folder.root);
+        if (known == jobs_.end() || known->second.stage != Stage::asking) continue;
+        Job& job = known->second;
         job.since = Clock::now();
-        job.stage = answer.reply == Reply::accepted  ? Stage::submitted
-                    : answer.reply == Reply::refused ? Stage::refused
-                                                     : Stage::doubtful;
-        job.why = "Slurm refused it: " + answer.said;
+        switch (answer.reply) {
+            case Reply::accepted:
+                job.stage = Stage::submitted;
+                break;
+            case Reply::refused:
+                job.stage = Stage::refused;
+                job.why = "Slurm refused it: " + answer.said;
+                break;
+            case Reply::doubtful:
+                job.stage = Stage::doubtful;
+                job.why = answer.said;
+                break;
+        }
+    }
+}
+
+/// Only the clerk opens rounds, and between two of its turns none is open: a job that is still
+/// being asked for then has lost its answer. The queue must say what became of it.
+void SlurmExecutor::recover_the_unanswered() {
+    const std::lock_guard lock(mutex_);
+    for (auto& [root, job] : jobs_) {
+        if (job.stage != Stage::asking) continue;
+        job.stage = Stage::doubtful;
+        job.since = Clock::now();
+        job.why = "its round with sbatch ended without an answer";
+        spdlog::error("slurm: {}: {}; looking for it in the queue", job.order.attempt, job.why);
     }
 }
 
@@ -320,7 +388,7 @@ void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed
     if (asked <= job.since) return;
     if (job.stage == Stage::doubtful) {  // it did not arrive
         job.stage = job.unwanted_since ? Stage::refused : Stage::waiting;
-        job.why = "stopped before it was submitted";
+        if (job.unwanted_since) job.why = "stopped before it was submitted";
         pressing_ = true;
         return;
     }

@@ -57,7 +57,7 @@ class SlurmExecutor final : public Executor {
         Stage stage = Stage::waiting;
         std::string state = {};     ///< Slurm's word when it was last listed
         std::string number = {};    ///< Slurm's number for it when it was last listed
-        std::string why = {};       ///< it was refused
+        std::string why = {};       ///< it was refused, or is in doubt
         int asked = 0;              ///< how often sbatch was called for it
         Clock::time_point since{};  ///< of this stage
         /// Since when nothing speaks for its life: not listed, or listed as over or as running, and
@@ -73,6 +73,10 @@ class SlurmExecutor final : public Executor {
     void serve(const std::stop_token& stop);
     void submit_what_waits();
     void submit_together(const std::vector<std::filesystem::path>& roots);
+    Batch open_round(const std::vector<std::filesystem::path>& roots);
+    Submitted ask(const Batch& batch) const;
+    void close_round(const Batch& batch, const Submitted& answer);
+    void recover_the_unanswered();
     void look_at_the_queue();
     void take_in(Job& job, const std::map<JobName, ListedJob>& listed, Clock::time_point asked);
     bool must_be_found();
@@ -81,6 +85,7 @@ class SlurmExecutor final : public Executor {
 
     Job* find_or_adopt(const AttemptFolder& folder);
     Vitals vitals_of(Job& job) const;
+    static std::string what_keeps(const Job& job);
     bool heart_beats(Job& job) const;
     Clock::duration grace() const;
 

@@ -1,5 +1,6 @@
 #include "services/orchestrator/files/data_folder.hpp"
 
+#include <cassert>
 #include <chrono>
 #include <thread>
 
@@ -46,6 +47,11 @@ std::filesystem::path DataFolder::task(const Task& task) const {
 
 std::filesystem::path DataFolder::output(const Task& task) const {
     return this->task(task) / "output";
+}
+
+std::filesystem::path DataFolder::input(const Task& task, const Task& parent) const {
+    assert(task.parent == parent.id && !task.input.empty());
+    return output(parent) / task.input;
 }
 
 AttemptFolder DataFolder::attempt(const Task& task, std::int64_t number) const {

@@ -41,6 +41,8 @@ class DataFolder {
     std::filesystem::path database() const { return root_ / "breachline.sqlite"; }
     std::filesystem::path scene(const std::string& run) const;
     std::filesystem::path output(const Task& task) const;
+    /// The file that a task reads, in its parent's output folder; the task reads one.
+    std::filesystem::path input(const Task& task, const Task& parent) const;
     AttemptFolder attempt(const Task& task, std::int64_t number) const;
     std::filesystem::path scratch() const { return root_ / "scratch"; }
 

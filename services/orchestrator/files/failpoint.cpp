@@ -3,41 +3,58 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string>
+#include <thread>
+
+#include "core/fault/fault.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
 
-struct Wish {
-    std::string name;
-    int time = 1;
-    std::string token;
-};
+/// What one of the variables asks for, and how often its place was reached.
+class Wish {
+  public:
+    explicit Wish(const char* variable) {
+        const char* text = std::getenv(variable);
+        if (text == nullptr) return;
+        std::istringstream parts(text);
+        std::string time;
+        std::getline(parts, name_, ':');
+        if (std::getline(parts, time, ':')) time_ = std::atoi(time.c_str());
+        std::getline(parts, file_);
+    }
+    /// It is this place's turn.
+    bool is_due(std::string_view place) {
+        return !name_.empty() && name_ == place && ++times_ == time_;
+    }
+    bool takes_the_file() const { return file_.empty() || unlink(file_.c_str()) == 0; }
+    bool has_the_file() const { return !file_.empty() && std::filesystem::exists(file_); }
 
-Wish wish_in_environment() {
-    Wish wish;
-    const char* text = std::getenv("BREACHLINE_FAILPOINT");
-    if (text == nullptr) return wish;
-    std::istringstream parts(text);
-    std::string time;
-    std::getline(parts, wish.name, ':');
-    if (std::getline(parts, time, ':')) wish.time = std::atoi(time.c_str());
-    std::getline(parts, wish.token);
-    return wish;
-}
+  private:
+    std::string name_;
+    int time_ = 1;
+    std::string file_;
+    std::atomic<int> times_ = 0;
+};
 
 }  // namespace
 
 void reach(Failpoint point) {
-    static const Wish wish = wish_in_environment();
-    static std::atomic<int> times = 0;
-    if (wish.name.empty() || wish.name != failpoint_names[static_cast<std::size_t>(point)]) return;
-    if (++times != wish.time) return;
-    if (wish.token.empty() || unlink(wish.token.c_str()) == 0) kill(getpid(), SIGKILL);
+    static Wish to_die("BREACHLINE_FAILPOINT");
+    static Wish to_throw("BREACHLINE_TROUBLE");
+    static Wish to_wait("BREACHLINE_HOLD");
+    const std::string_view place = failpoint_names[static_cast<std::size_t>(point)];
+    if (to_wait.is_due(place))
+        while (to_wait.has_the_file()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (to_die.is_due(place) && to_die.takes_the_file()) kill(getpid(), SIGKILL);
+    if (to_throw.is_due(place) && to_throw.takes_the_file())
+        throw fault::IoError("trouble at " + std::string(place) + ", asked for by a test");
 }
 
 }  // namespace breach::orchestrator

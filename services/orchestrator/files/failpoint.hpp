@@ -1,11 +1,12 @@
-// Places at which a test may kill this process, by name: before and after every write of a state,
+// Places at which a test may trouble this process, by name: before and after every write of a state,
 // and between what must follow each other.
 //
-//     BREACHLINE_FAILPOINT=name[:n[:file]]    kill -9 when `name` is reached for the n-th time;
-//     with
-//                                             a file: once only, the one that can remove the file
+//     BREACHLINE_FAILPOINT=name[:n[:file]]   kill -9 when `name` is reached for the n-th time
+//     BREACHLINE_TROUBLE=name[:n[:file]]     throws IoError there, as a full disk would
+//     BREACHLINE_HOLD=name[:n[:file]]        waits there for as long as `file` exists
 //
-// Without the variable nothing happens. Names that are not in the list do not compile.
+// With a file, the first two happen once only, to the process that can remove the file. Without
+// the variables nothing happens. Names that are not in the list do not compile.
 #pragma once
 
 #include <array>

@@ -19,6 +19,7 @@ struct Service {
     const ProgressBoard& board;
     FrameReader& frames;
     std::filesystem::path bin;        ///< the phase executables
+    Numerics numerics;                ///< what they say of themselves
     std::filesystem::path web;        ///< the dashboard's files
     std::filesystem::path workflows;  ///< the studies that are shipped, and their scenes
 };

@@ -1,4 +1,5 @@
-// Names and times: sortable unique ids of runs, tasks and attempts; ISO-8601 UTC.
+// Names and times: sortable unique ids of runs, tasks and attempts; what snapshots are called;
+// ISO-8601 UTC.
 #pragma once
 
 #include <chrono>
@@ -13,6 +14,11 @@ std::string new_run_id();
 std::string task_id(const std::string& run, std::size_t ordinal);
 /// "<task>.2"
 std::string attempt_id(const std::string& task, std::int64_t number);
+
+/// "0.500000": how a time is spelt in the names of snapshots and tasks.
+std::string spelt(double time);
+/// "snapshot_0.500000.vtkhdf"
+std::string snapshot_name(double time);
 
 /// Now as "2026-11-21T02:38:53.123Z".
 std::string utc_now();

@@ -11,19 +11,23 @@
 
 namespace breach::orchestrator {
 
-/// Who moves it on, and what a restart does with it:
-/// blocked      waits for a parent's output; the dispatcher releases or skips it; a restart looks
-/// again ready        waits for a slot cached       (final) an equal task had been done before
-/// starting     its attempt row is stored, its process perhaps started; a restart asks the
-/// attempt's lock running      its process is known to run; a restart asks the lock and the exit
-/// record finalizing   its process ended well; outputs are being hashed; a restart hashes again
-/// succeeded    (final)
-/// failed       (final)
-/// lost         the process vanished without a record; moved on in the same transaction
-/// retry_wait   waits until its retry time
-/// cancelling   its process is being stopped; a restart stops it again
-/// cancelled    (final)
-/// skipped      (final) its parent will never deliver the input
+/// Each state: who moves it on, and what a restart of the service does with it.
+///
+///     blocked      waits for a parent's output; the dispatcher releases or skips it.
+///                  Restart: looks again for the file or the parent's end.
+///     ready        waits for a slot; the dispatcher claims it. Restart: nothing to do.
+///     cached       final: an equal task had been done before.
+///     starting     its attempt's row is stored, its process is perhaps started.
+///                  Restart: asks the attempt's lock.
+///     running      its process is known to run. Restart: asks the lock and the exit record.
+///     finalizing   its process ended well, its outputs are being hashed. Restart: hashes again.
+///     succeeded    final.
+///     failed       final, until a user's redo.
+///     lost         its process vanished without a record; moved on in the same transaction.
+///     retry_wait   waits until its retry time. Restart: goes on waiting.
+///     cancelling   its process is being stopped. Restart: stops it again.
+///     cancelled    final, until a user's redo.
+///     skipped      final, until a user's redo: its parent will never deliver the input.
 enum class TaskState {
     blocked,
     ready,

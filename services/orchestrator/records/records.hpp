@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "services/orchestrator/records/flag_tally.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
 #include "services/orchestrator/records/trigger.hpp"
 
@@ -15,13 +17,18 @@ namespace breach::orchestrator {
 
 /// What lets a blocked task go: an input file that exists, or a parent that succeeded.
 enum class Release { at_once, file_exists, parent_succeeded };
+std::string_view name_of(Release release);
+Release release_named(std::string_view name);
+
+/// Of each phase; the phase says it itself (--version).
+using Numerics = std::map<std::string, std::int64_t>;
 
 /// What a phase's result depends on besides its input file; equal recipes give equal results.
 struct Recipe {
     std::string hash;  ///< SHA-256 of the three below
     std::string phase;
-    std::int64_t cache_version;
-    std::string part;  ///< of the completed scene, as far as the phase reads it, JSON
+    std::int64_t cache_version;  ///< of the phase's numerics
+    std::string part;            ///< of the completed scene, as far as the phase reads it, JSON
 };
 
 /// What a task occupies while it runs.
@@ -34,7 +41,7 @@ struct Resources {
 struct TaskPlan {
     std::string phase;                    ///< executable: "fem_solver", ...
     std::string label;                    ///< unique in the run; its folder's name
-    std::optional<double> transfer_time;  ///< t_T [s]
+    std::optional<double> transfer_time;  ///< t_T [s]; of a transfer without: left open
     std::optional<std::size_t> parent;  ///< index in the plan of the task whose output is the input
     Release release = Release::at_once;
     std::string input;                   ///< file name in the parent's output folder; empty: none
@@ -43,6 +50,12 @@ struct TaskPlan {
     Resources resources = {};
     std::string recipe = {};  ///< hash of one of the run's recipes; empty: never reused
 };
+
+void to_json(nlohmann::json& json, const TaskPlan& task);
+void from_json(const nlohmann::json& json, TaskPlan& task);
+
+/// "fem", "transfer_0.500000_soft": its phase, its transfer time and its variant.
+std::string label_of(const TaskPlan& task);
 
 struct NewRun {
     std::string id;
@@ -53,17 +66,32 @@ struct NewRun {
     std::vector<TaskPlan> tasks;
     std::vector<Recipe> recipes = {};
     std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
-    std::string firing_plan = {};            ///< tasks of one more transfer, JSON (graph.hpp)
+    std::vector<TaskPlan> firing_plan = {};  ///< of one more transfer (firing_plan.hpp)
     std::int64_t priority = 0;               ///< higher goes first
     bool sweep = false;                      ///< several points, or asked for as a sweep
+};
+
+/// A task that is added to a run: its parent is in the run already, or added before it.
+struct AddedTask {
+    TaskPlan plan;  ///< its `parent`: place in the list of added tasks
+    std::optional<std::string> parent;
+};
+
+/// More transfer times for a run that exists.
+struct Extension {
+    std::vector<double> times;     ///< those that are new
+    std::vector<AddedTask> tasks;  ///< parents first
+    std::vector<Recipe> recipes;
+    nlohmann::json study;  ///< the study's document with all times
 };
 
 struct Run {
     std::string id;
     std::string name;
     std::string title;
-    std::string
-        state;  ///< derived from the tasks: queued running succeeded partial failed cancelled
+    /// Derived: queued running succeeded questionable partial failed cancelled. questionable: all
+    /// succeeded, but a result carries a flag that forbids to rely on it.
+    std::string state;
     std::string created;
     std::optional<std::string> started;
     std::optional<std::string> finished;
@@ -73,6 +101,16 @@ struct Run {
     std::int64_t tasks_failed = 0;  ///< failed or skipped
     std::string message;            ///< why it is not simply fine
     bool paused = false;            ///< nothing new of it is started
+    std::int64_t questionable = 0;  ///< results not to rely on
+    std::vector<FlagTally> flags = {};
+};
+
+/// Which rows of a table of results: those from number `from` on that meet the rest.
+struct ResultFilter {
+    std::optional<std::string> state;
+    std::optional<std::string> flag;  ///< a code that they carry
+    std::size_t from = 0;
+    std::size_t most = static_cast<std::size_t>(1) << 30;
 };
 
 /// Which runs a list shows: newest first, after the place where the last page ended.
@@ -112,6 +150,7 @@ struct Task {
     std::optional<std::string> same_as;        ///< the task whose result it took
     std::optional<std::string> cache_refusal;  ///< why a fitting entry of the cache was not served
     std::int64_t priority = 0;
+    bool not_reached = false;  ///< skipped because its FEM had regularly ended before its time
 };
 
 /// As much of a blocked task as its release needs.
@@ -119,6 +158,7 @@ struct BlockedTask {
     std::string id;
     Release release;
     std::string input;
+    std::optional<double> transfer_time;  ///< t_T [s]
 };
 
 struct Attempt {
@@ -148,25 +188,6 @@ struct Event {
     std::optional<std::string> task;
     std::string kind;  ///< "run", "task", "attempt"
     nlohmann::json detail;
-};
-
-/// One row of the sweep's table. Numbers are absent until the runout is done.
-struct SweepRow {
-    std::string variant;  ///< empty: the study has none
-    double transfer_time;
-    std::string state;
-    std::optional<double> runout;
-    std::optional<double> runout_beyond_toe;
-    std::optional<double> runout_largest;
-    std::optional<double> volume_ratio;
-    std::optional<double> numerical_share;  ///< energy made or lost by the numerics [-]
-    std::optional<double> overlap;          ///< area of soil that lies in other soil, of all [-]
-    std::optional<double> cpu_seconds;
-    bool reused = false;  ///< taken from an earlier, equal task
-    std::string reason;
-    std::string transfer_task;
-    std::string mpm_task;
-    std::string trigger = "at_time";  ///< names of those that made the transfer
 };
 
 /// A firing and how long it took from the line that met its trigger [ms].

@@ -4,6 +4,8 @@
 #include <array>
 #include <set>
 
+#include "core/telemetry/columns.hpp"
+
 namespace breach::orchestrator {
 
 using fault::Fault;
@@ -25,10 +27,12 @@ constexpr std::array table{
     TriggerRule{S::armed, E::expire, S::expired},   TriggerRule{S::armed, E::disarm, S::disarmed},
     TriggerRule{S::holding, E::uncross, S::armed},  TriggerRule{S::holding, E::fire, S::fired},
     TriggerRule{S::holding, E::expire, S::expired}, TriggerRule{S::holding, E::disarm, S::disarmed},
+    TriggerRule{S::expired, E::rearm, S::armed},    TriggerRule{S::disarmed, E::rearm, S::armed},
 };
 constexpr std::array<std::string_view, 5> states{"armed", "holding", "fired", "expired",
                                                  "disarmed"};
-constexpr std::array<std::string_view, 5> events{"cross", "uncross", "fire", "expire", "disarm"};
+constexpr std::array<std::string_view, 6> events{"cross",  "uncross", "fire",
+                                                 "expire", "disarm",  "rearm"};
 
 constexpr double default_within_share = 0.05;    // of the dynamic stages
 constexpr double default_window_shares = 100.0;  // snapshots over the dynamic stages
@@ -125,32 +129,12 @@ TriggerState trigger_state_named(std::string_view name) {
 }
 
 const std::vector<std::string>& telemetry_fields() {
-    static const std::vector<std::string> fields{
-        "step",
-        "time",
-        "dt",
-        "iterations",
-        "residual",
-        "crest_displacement",
-        "crest_dx",
-        "crest_dy",
-        "kinetic_energy",
-        "external_work",
-        "internal_work",
-        "jacobian_ratio_avg",
-        "jacobian_ratio_min",
-        "jacobian_centre_avg",
-        "jacobian_least_avg",
-        "jacobian_least_min",
-        "epsilon_q_avg",
-        "epsilon_q_max",
-        "strained_share",
-        "softened_share",
-        "liquefaction_depth",
-        "failure_surfaces",
-        "r_u_max",
-        "critical_depth",  // not of the FEM: the stability analysis of the same run
-    };
+    static const std::vector<std::string> fields = [] {
+        std::vector<std::string> names;
+        for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()})
+            for (const telemetry::Column& column : table) names.emplace_back(column.name);
+        return names;
+    }();
     return fields;
 }
 

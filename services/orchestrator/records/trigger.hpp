@@ -1,11 +1,13 @@
 // What makes a transfer happen: the kinds of triggers, their states, and their checking at the
 // door. At-time triggers need no watching: they become transfer times of the study.
 //
-//     armed    -> holding   its condition is true (or a user asked); waits for the hold or a
-//     snapshot holding  -> armed     the condition was broken inside the hold armed, holding ->
-//     fired     in one transaction with its firing and its tasks; final armed, holding -> expired
-//     the FEM ended without what it waited for; final armed, holding -> disarmed  the run was
-//     cancelled; final
+//     armed             -> holding   its condition is true (or a user asked); it waits for the hold
+//                                    or for a snapshot
+//     holding           -> armed     the condition was broken inside the hold
+//     armed, holding    -> fired     in one transaction with its firing and its tasks; final
+//     armed, holding    -> expired   the FEM ended without what it waited for
+//     armed, holding    -> disarmed  the run was cancelled
+//     expired, disarmed -> armed     a user's retry runs again what had ended it
 //
 // A restart evaluates the telemetry again from its first line: what is stored in `armed` and
 // `holding` is for people, what is stored in `fired` is the truth.
@@ -24,9 +26,10 @@
 namespace breach::orchestrator {
 
 enum class TriggerState { armed, holding, fired, expired, disarmed };
-enum class TriggerEvent { cross, uncross, fire, expire, disarm };
+enum class TriggerEvent { cross, uncross, fire, expire, disarm, rearm };
 
 std::optional<TriggerState> next(TriggerState from, TriggerEvent event);
+/// Nothing is watched for it: only a user's retry moves it any more.
 bool is_final(TriggerState state);
 std::string_view name_of(TriggerState state);
 std::string_view name_of(TriggerEvent event);
@@ -88,7 +91,7 @@ using Work = std::variant<Manual, When, Between, Bisect>;
 /// From a checked spec.
 Work work_of(const TriggerPlan& plan);
 
-/// Fields of the FEM's telemetry, which conditions may use.
+/// What conditions may use: the columns of core/telemetry.
 const std::vector<std::string>& telemetry_fields();
 
 struct CheckedTriggers {

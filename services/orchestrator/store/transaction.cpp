@@ -1,7 +1,6 @@
 #include "services/orchestrator/store/transaction.hpp"
 
 #include "services/orchestrator/records/identity.hpp"
-#include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
 
@@ -9,16 +8,9 @@ using nlohmann::json;
 
 namespace {
 
-std::string_view name_of(Release release) {
-    switch (release) {
-        case Release::at_once:
-            return "at_once";
-        case Release::file_exists:
-            return "file_exists";
-        case Release::parent_succeeded:
-            break;
-    }
-    return "parent_succeeded";
+/// Before anything has happened: only what waits for nothing may start.
+TaskState first_state(const TaskPlan& task) {
+    return task.release == Release::at_once ? TaskState::ready : TaskState::blocked;
 }
 
 /// A log line in a detail may hold bytes that are not UTF-8.
@@ -43,22 +35,21 @@ void Transaction::add_run(const NewRun& run) {
         const TaskPlan& task = run.tasks[i];
         std::optional<std::string> parent;
         if (task.parent) parent = task_id(run.id, *task.parent);
-        insert_task(run.id, task_id(run.id, i), task, parent, run.priority);
+        insert_task(run.id, task_id(run.id, i), task, parent, run.priority, first_state(task));
     }
     add_triggers(run);
 }
 
 void Transaction::insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
-                              const std::optional<std::string>& parent, std::int64_t priority) {
-    const TaskState state =
-        task.release == Release::at_once ? TaskState::ready : TaskState::blocked;
+                              const std::optional<std::string>& parent, std::int64_t priority,
+                              TaskState state) {
     database_.change(
         "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
         "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
         "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
         {id, run, task.phase, task.label, value_or_null(task.transfer_time), value_or_null(parent),
          std::string(name_of(task.release)), task.input, json(task.overrides).dump(),
-         std::string(orchestrator::name_of(state)), task.variant, priority, task.resources.cores,
+         std::string(name_of(state)), task.variant, priority, task.resources.cores,
          task.resources.memory_mb, task.recipe.empty() ? Value(nullptr) : Value(task.recipe),
          state == TaskState::ready ? Value(epoch_ms()) : Value(nullptr)});
 }
@@ -82,7 +73,7 @@ void Transaction::extend_run(const std::string& run, const Extension& extension)
         auto parent = each.parent;
         if (each.plan.parent) parent = ids[*each.plan.parent];
         ids.push_back(task_id(run, static_cast<std::size_t>(next_ordinal(run))));
-        insert_task(run, ids.back(), each.plan, parent, priority);
+        insert_task(run, ids.back(), each.plan, parent, priority, first_state(each.plan));
     }
 }
 
@@ -115,14 +106,14 @@ void Transaction::set_state(const std::string& task, TaskState from, TaskEvent e
     database_.change(
         "UPDATE tasks SET state=?, retry_at=?, started=CASE WHEN ? THEN coalesce(started, ?) ELSE "
         "started END, ready_at=coalesce(?, ready_at), finished=? WHERE id=?",
-        {std::string(orchestrator::name_of(to)), value_or_null(retry_at),
+        {std::string(name_of(to)), value_or_null(retry_at),
          std::int64_t{event == TaskEvent::claim ? 1 : 0}, now,
          to == TaskState::ready ? Value(epoch_ms()) : Value(nullptr),
          is_final(to) ? Value(now) : Value(nullptr), task});
     if (detail.is_null()) detail = json::object();
-    detail["event"] = orchestrator::name_of(event);
-    detail["from"] = orchestrator::name_of(from);
-    detail["to"] = orchestrator::name_of(to);
+    detail["event"] = name_of(event);
+    detail["from"] = name_of(from);
+    detail["to"] = name_of(to);
     add_event(run_of(task), task, "task", detail);
 }
 
@@ -137,9 +128,8 @@ std::optional<TaskState> Transaction::try_move_task(const std::string& task, Tas
 TaskState Transaction::move_task(const std::string& task, TaskEvent event, json detail) {
     const auto to = try_move_task(task, event, std::move(detail));
     if (!to) {
-        throw IllegalMove("task " + task + " is " +
-                          std::string(orchestrator::name_of(state_of(task))) + ", event " +
-                          std::string(orchestrator::name_of(event)) + " is not allowed");
+        throw IllegalMove("task " + task + " is " + std::string(name_of(state_of(task))) +
+                          ", event " + std::string(name_of(event)) + " is not allowed");
     }
     return *to;
 }
@@ -159,6 +149,13 @@ void Transaction::fail_task(const std::string& task, TaskEvent event, const Task
     move_task(task, event, detail);
     database_.change("UPDATE tasks SET fault_exit=?, fault_summary=? WHERE id=?",
                      {value_or_null(fault.exit_code), fault.summary, task});
+}
+
+void Transaction::pass_over_task(const std::string& task, const std::string& why) {
+    if (!next(state_of(task), TaskEvent::skip)) return;  // cancelled meanwhile
+    // Before the move: the trigger that counts a run's failures looks at this column.
+    database_.change("UPDATE tasks SET not_reached=1, fault_summary=? WHERE id=?", {why, task});
+    move_task(task, TaskEvent::skip, {{"summary", why}, {"not_reached", true}});
 }
 
 void Transaction::finish_task(const std::string& task, const json& result,
@@ -222,7 +219,7 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     const auto to = from ? next(*from, event) : std::nullopt;
     if (!to) {
         throw IllegalMove("attempt " + attempt_id(task, number) + ": event " +
-                          std::string(orchestrator::name_of(event)) + " is not allowed");
+                          std::string(name_of(event)) + " is not allowed");
     }
     const std::string now = utc_now();
     const Value started = event == AttemptEvent::submit ? Value(now) : Value(nullptr);
@@ -231,13 +228,13 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
         "UPDATE attempts SET state=?, started=coalesce(started, ?), finished=?, exit_code=?, "
         "signal=?, "
         "wall_seconds=?, cpu_seconds=? WHERE task=? AND number=?",
-        {std::string(orchestrator::name_of(*to)), started, finished, value_or_null(end.exit_code),
+        {std::string(name_of(*to)), started, finished, value_or_null(end.exit_code),
          value_or_null(end.signal), value_or_null(end.wall_seconds), value_or_null(end.cpu_seconds),
          task, number});
     json detail{{"number", number},
-                {"event", orchestrator::name_of(event)},
-                {"from", orchestrator::name_of(*from)},
-                {"to", orchestrator::name_of(*to)}};
+                {"event", name_of(event)},
+                {"from", name_of(*from)},
+                {"to", name_of(*to)}};
     if (end.exit_code) detail["exit_code"] = *end.exit_code;
     if (end.signal) detail["signal"] = *end.signal;
     if (!end.reason.empty()) detail["stopped_for"] = end.reason;
@@ -286,15 +283,21 @@ bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
 std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
     std::vector<std::pair<std::string, std::string>> tasks;
     bool known = false;
-    database_.query("SELECT id, state, release FROM tasks WHERE run=? ORDER BY id", {run},
-                    [&](const Row& row) {
-                        known = true;
-                        if (next(task_state_named(row.text(1)), TaskEvent::redo))
-                            tasks.emplace_back(row.text(0), row.text(2));
-                    });
+    database_.query(
+        "SELECT id, state, release FROM tasks WHERE run=? AND not_reached=0 ORDER BY id", {run},
+        [&](const Row& row) {
+            known = true;
+            if (next(task_state_named(row.text(1)), TaskEvent::redo))
+                tasks.emplace_back(row.text(0), row.text(2));
+        });
     if (!known) return std::nullopt;
-    if (!tasks.empty())
-        add_event(run, std::nullopt, "run", {{"event", "retry"}, {"tasks", tasks.size()}});
+    std::set<std::string> ids;
+    for (const auto& [task, release] : tasks) ids.insert(task);
+    const std::vector<Trigger> triggers = triggers_to_rearm(run, ids);
+    if (!tasks.empty() || !triggers.empty())
+        add_event(run, std::nullopt, "run",
+                  {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
+    for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
     for (const auto& [task, release] : tasks) {
         // What broke down is wanted again, not answered by its like: it loses its recipe.
         database_.change(

@@ -2,6 +2,8 @@
 // the lifecycle's table decides the new state. A Transaction exists only inside Store::write.
 #pragma once
 
+#include <set>
+
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/store/connection.hpp"
 
@@ -15,8 +17,6 @@ struct AttemptEnd {
     std::optional<double> cpu_seconds;
     std::string reason;  ///< "cancel", "shutdown" when the service stopped it; else empty
 };
-
-struct Extension;
 
 class Transaction {
   public:
@@ -38,6 +38,9 @@ class Transaction {
     /// Ends the task without a result (exit_badly, give_up, refuse_outputs, skip) and keeps the
     /// reason.
     void fail_task(const std::string& task, TaskEvent event, const TaskFault& fault);
+    /// Skips a task whose time its FEM, which ended regularly, did not come to: no failure, and no
+    /// retry can mend it. Keeps the reason. Nothing happens when it waits no more.
+    void pass_over_task(const std::string& task, const std::string& why);
     /// `input_sha256`: of the file that the task read; empty: it reads none.
     void finish_task(const std::string& task, const nlohmann::json& result,
                      const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
@@ -65,8 +68,10 @@ class Transaction {
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
-    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries. Returns how
-    /// many; nothing: no such run.
+    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; what was not
+    /// reached stays so. Triggers that the cancelling disarmed are armed again, and those that had
+    /// expired on a FEM that now runs again; what fired stays. Returns how many tasks; nothing: no
+    /// such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 
     /// On one FEM of the run; an empty name is made up. Returns its id.
@@ -83,14 +88,16 @@ class Transaction {
 
   private:
     void insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
-                     const std::optional<std::string>& parent, std::int64_t priority);
+                     const std::optional<std::string>& parent, std::int64_t priority,
+                     TaskState state);
     std::int64_t next_ordinal(const std::string& run);
     void add_triggers(const NewRun& run);
     void disarm_triggers(const std::string& run, const std::string& why);
+    std::vector<Trigger> triggers_to_rearm(const std::string& run,
+                                           const std::set<std::string>& tasks_tried_again) const;
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
-    std::string add_fired_task(const std::string& run, const std::string& parent,
-                               const std::string& label, const nlohmann::json& task, double time,
-                               std::int64_t priority);
+    std::string add_fired_task(const std::string& run, const TaskPlan& task,
+                               const std::string& parent, std::int64_t priority);
     bool mark_paused(const std::string& run, std::int64_t paused, const char* event);
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,

@@ -1,22 +1,13 @@
 // Triggers and their firings in the store: the writing and the reading half.
-#include <map>
-
+#include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"
-#include "services/orchestrator/study/study.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
 
 namespace {
-
-std::string with_time(std::string text, double time) {
-    const std::string open(open_time_text);
-    const auto at = text.find(open);
-    if (at != std::string::npos) text.replace(at, open.size(), spelt(time));
-    return text;
-}
 
 constexpr const char* trigger_columns =
     "SELECT id, run, fem_task, name, kind, spec, state, reason, result FROM triggers ";
@@ -40,7 +31,7 @@ Trigger trigger_from(const Row& row) {
 void Transaction::add_triggers(const NewRun& run) {
     if (!run.firing_plan.empty())
         database_.change("INSERT INTO firing_plans (run, tasks) VALUES (?,?)",
-                         {run.id, run.firing_plan});
+                         {run.id, json(run.firing_plan).dump()});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         if (run.tasks[i].phase != "fem_solver") continue;
         for (const TriggerPlan& each : run.triggers) add_trigger(run.id, task_id(run.id, i), each);
@@ -72,15 +63,14 @@ bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json 
     const auto to = from ? next(*from, event) : std::nullopt;
     if (!to) return false;
     if (detail.is_null()) detail = json::object();
-    database_.change(
-        "UPDATE triggers SET state=?, reason=?, changed=? WHERE id=?",
-        {std::string(orchestrator::name_of(*to)), detail.value("why", ""), utc_now(), trigger.id});
+    database_.change("UPDATE triggers SET state=?, reason=?, changed=? WHERE id=?",
+                     {std::string(name_of(*to)), detail.value("why", ""), utc_now(), trigger.id});
     detail["event"] = "trigger";
     detail["trigger"] = trigger.id;
     detail["name"] = trigger.name;
-    detail["what"] = orchestrator::name_of(event);
-    detail["from"] = orchestrator::name_of(*from);
-    detail["to"] = orchestrator::name_of(*to);
+    detail["what"] = name_of(event);
+    detail["from"] = name_of(*from);
+    detail["to"] = name_of(*to);
     add_event(trigger.run, trigger.fem_task, "run", detail);
     return true;
 }
@@ -109,46 +99,38 @@ bool Transaction::add_firing(const Trigger& trigger, const Firing& firing) {
 
 /// What is there already (an at-time transfer, another trigger on the same snapshot) is shared.
 void Transaction::add_transfer(const std::string& run, const std::string& fem_task, double time) {
-    json plan = json::array();
+    std::vector<TaskPlan> plan;
+    std::string fem_label;
     std::int64_t priority = 0;
-    std::map<std::string, std::string> id_of_label;
     database_.query(
         "SELECT firing_plans.tasks, tasks.label, tasks.priority FROM tasks JOIN firing_plans ON "
         "firing_plans.run = tasks.run WHERE tasks.id=?",
         {fem_task}, [&](const Row& row) {
-            plan = json::parse(row.text(0));
-            id_of_label[row.text(1)] = fem_task;
+            plan = read_firing_plan(json::parse(row.text(0)));
+            fem_label = row.text(1);
             priority = row.integer(2);
         });
-    for (const json& task : plan) {
-        const auto parent = id_of_label.find(with_time(task.at("parent"), time));
-        if (parent == id_of_label.end()) continue;  // of another variant's FEM
-        const std::string label = with_time(task.at("label"), time);
-        std::string id;
-        database_.query("SELECT id FROM tasks WHERE run=? AND label=?", {run, label},
-                        [&](const Row& row) { id = row.text(0); });
-        if (id.empty()) id = add_fired_task(run, parent->second, label, task, time, priority);
-        id_of_label[label] = id;
+    std::vector<std::string> ids(plan.size());  // empty: of another variant's FEM
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        if (!plan[i].parent) {
+            if (plan[i].label == fem_label) ids[i] = fem_task;
+            continue;
+        }
+        const std::string& parent = ids[*plan[i].parent];
+        if (parent.empty()) continue;
+        const TaskPlan task = at_time(plan[i], time);
+        database_.query("SELECT id FROM tasks WHERE run=? AND label=?", {run, task.label},
+                        [&](const Row& row) { ids[i] = row.text(0); });
+        if (ids[i].empty()) ids[i] = add_fired_task(run, task, parent, priority);
     }
 }
 
-std::string Transaction::add_fired_task(const std::string& run, const std::string& parent,
-                                        const std::string& label, const json& task, double time,
-                                        std::int64_t priority) {
-    const std::string id = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
+std::string Transaction::add_fired_task(const std::string& run, const TaskPlan& task,
+                                        const std::string& parent, std::int64_t priority) {
+    std::string id = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
     // Its snapshot exists: a transfer has nothing to wait for.
-    const bool ready = task.at("release") == "file_exists";
-    const std::string recipe = task.at("recipe");
-    database_.change(
-        "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
-        "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
-        "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-        {id, run, task.at("phase").get<std::string>(), label, time, parent,
-         task.at("release").get<std::string>(), with_time(task.at("input"), time),
-         task.at("overrides").dump(), std::string(ready ? "ready" : "blocked"),
-         task.at("variant").get<std::string>(), priority, task.at("cores").get<std::int64_t>(),
-         task.at("memory_MB").get<std::int64_t>(), recipe.empty() ? Value(nullptr) : Value(recipe),
-         ready ? Value(epoch_ms()) : Value(nullptr)});
+    const bool ready = task.release == Release::file_exists;
+    insert_task(run, id, task, parent, priority, ready ? TaskState::ready : TaskState::blocked);
     return id;
 }
 
@@ -161,6 +143,20 @@ void Transaction::disarm_triggers(const std::string& run, const std::string& why
     database_.query(std::string(trigger_columns) + "WHERE run=? AND state IN ('armed', 'holding')",
                     {run}, [&](const Row& row) { open.push_back(trigger_from(row)); });
     for (const Trigger& each : open) move_trigger(each, TriggerEvent::disarm, {{"why", why}});
+}
+
+std::vector<Trigger> Transaction::triggers_to_rearm(
+    const std::string& run, const std::set<std::string>& tasks_tried_again) const {
+    std::vector<Trigger> found;
+    database_.query(
+        std::string(trigger_columns) + "WHERE run=? AND state IN ('disarmed', 'expired')", {run},
+        [&](const Row& row) {
+            Trigger trigger = trigger_from(row);
+            if (trigger.state == TriggerState::disarmed ||
+                tasks_tried_again.contains(trigger.fem_task))
+                found.push_back(std::move(trigger));
+        });
+    return found;
 }
 
 // ---------------------------------------------------------------- reading

@@ -35,7 +35,7 @@ CREATE TABLE firings (
     PRIMARY KEY (trigger, transfer_time)
 ) STRICT;
 
--- The tasks that one more transfer needs, with the time left open (graph.cpp).
+-- The tasks that one more transfer needs, with the time left open (firing_plan.hpp).
 CREATE TABLE firing_plans (
     run TEXT PRIMARY KEY REFERENCES runs(id),
     tasks TEXT NOT NULL CHECK (json_valid(tasks))

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
+#include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 
 namespace breach::orchestrator {
@@ -21,9 +23,54 @@ json snapshot_times(const json& scene, const std::vector<double>& transfer_times
     return times;
 }
 
+enum class Sharing { wanted, never };
+
+/// Tasks of several variants, equal ones as one.
+class TaskList {
+  public:
+    explicit TaskList(const Study& study) : study_(study) {}
+
+    std::size_t add(TaskPlan task, const Variant& variant, Sharing sharing) {
+        const Identity identity{task.recipe, task.parent, task.input};
+        if (sharing == Sharing::wanted) {
+            if (const auto same = known_.find(identity); same != known_.end()) {
+                ++users_[same->second];
+                return same->second;
+            }
+            known_.emplace(identity, tasks_.size());
+        }
+        task.variant = variant.name;
+        task.overrides.insert(task.overrides.begin(), variant.overrides.begin(),
+                              variant.overrides.end());
+        if (const auto ask = study_.resources.find(task.phase); ask != study_.resources.end())
+            task.resources = ask->second;
+        tasks_.push_back(std::move(task));
+        users_.push_back(sharing == Sharing::wanted ? 1 : 0);
+        return tasks_.size() - 1;
+    }
+
+    std::vector<TaskPlan> named() && {
+        for (std::size_t i = 0; i < tasks_.size(); ++i) {
+            if (users_[i] == study_.variants.size()) tasks_[i].variant.clear();
+            tasks_[i].label = label_of(tasks_[i]);
+            if (!study_.reuse) tasks_[i].recipe.clear();
+        }
+        return std::move(tasks_);
+    }
+
+  private:
+    using Identity = std::tuple<std::string, std::optional<std::size_t>, std::string>;
+
+    const Study& study_;
+    std::map<Identity, std::size_t> known_;
+    std::vector<TaskPlan> tasks_;
+    std::vector<std::size_t> users_;  ///< how many variants each task serves
+};
+
 class Planner {
   public:
-    explicit Planner(const Study& study) : study_(study) {}
+    Planner(const Study& study, const Numerics& numerics)
+        : study_(study), numerics_(numerics), tasks_(study), open_(study) {}
 
     void plan(const Variant& variant) {
         json scene = variant.scene;
@@ -38,131 +85,80 @@ class Planner {
         for (const char* phase : {"fem_solver", "lem_tool", "transfer_tool", "mpm_solver"})
             if (phase != std::string("lem_tool") || study_.stability)
                 recipes_of_variant_[phase] = recipe(phase, scene);
-        const std::size_t fem = add({.phase = "fem_solver",
-                                     .label = "fem",
-                                     .transfer_time = {},
-                                     .parent = {},
-                                     .release = Release::at_once,
-                                     .input = {},
-                                     .overrides = std::move(wishes)},
-                                    Sharing::wanted);
-        if (study_.stability) {
-            add({.phase = "lem_tool",
-                 .label = "lem",
-                 .transfer_time = {},
-                 .parent = {},
-                 .release = Release::at_once,
-                 .input = {},
-                 .overrides = {}},
-                Sharing::wanted);
-        }
-        for (const double time : study_.transfer_times) plan_transfer(fem, time);
+        const std::size_t fem = add_first(tasks_, "fem_solver", std::move(wishes));
+        if (study_.stability) add_first(tasks_, "lem_tool", {});
+        for (const double time : study_.transfer_times) plan_transfer(tasks_, fem, time);
+        plan_transfer(open_, add_first(open_, "fem_solver", {}), std::nullopt);
     }
 
-    TaskGraph finished() {
+    TaskGraph finished() && {
         TaskGraph graph;
-        for (std::size_t i = 0; i < tasks_.size(); ++i) {
-            TaskPlan& task = tasks_[i];
-            if (users_[i] == study_.variants.size()) task.variant.clear();
-            if (!task.variant.empty()) task.label += "_" + task.variant;
-            if (!study_.reuse) task.recipe.clear();
-            graph.tasks.push_back(std::move(task));
-        }
+        graph.tasks = std::move(tasks_).named();
+        graph.one_more_transfer = std::move(open_).named();
         for (auto& [hash, each] : recipes_) graph.recipes.push_back(std::move(each));
         return graph;
     }
 
   private:
-    enum class Sharing { wanted, never };
+    /// A task that waits for nothing.
+    std::size_t add_first(TaskList& list, const std::string& phase,
+                          std::vector<std::string> wishes) {
+        return list.add({.phase = phase,
+                         .label = {},
+                         .transfer_time = {},
+                         .parent = {},
+                         .release = Release::at_once,
+                         .input = {},
+                         .overrides = std::move(wishes),
+                         .recipe = recipes_of_variant_.at(phase)},
+                        *variant_, Sharing::wanted);
+    }
 
-    void plan_transfer(std::size_t fem, double time) {
-        const std::size_t transfer = add({.phase = "transfer_tool",
-                                          .label = "transfer_" + spelt(time),
-                                          .transfer_time = time,
-                                          .parent = fem,
-                                          .release = Release::file_exists,
-                                          .input = snapshot_name(time),
-                                          .overrides = {}},
-                                         Sharing::wanted);
+    void plan_transfer(TaskList& list, std::size_t fem, std::optional<double> time) {
+        TaskPlan transfer{.phase = "transfer_tool",
+                          .label = {},
+                          .transfer_time = {},
+                          .parent = fem,
+                          .release = Release::file_exists,
+                          .input = {},
+                          .overrides = {},
+                          .recipe = recipes_of_variant_.at("transfer_tool")};
+        if (time) transfer = at_time(std::move(transfer), *time);
+        const std::size_t parent = list.add(std::move(transfer), *variant_, Sharing::wanted);
         // Never one task for two variants: each has its row in the table of results.
-        add({.phase = "mpm_solver",
-             .label = "mpm_" + spelt(time),
-             .transfer_time = time,
-             .parent = transfer,
-             .release = Release::parent_succeeded,
-             .input = "particles.vtkhdf",
-             .overrides = {}},
-            Sharing::never);
+        list.add({.phase = "mpm_solver",
+                  .label = {},
+                  .transfer_time = time,
+                  .parent = parent,
+                  .release = Release::parent_succeeded,
+                  .input = "particles.vtkhdf",
+                  .overrides = {},
+                  .recipe = recipes_of_variant_.at("mpm_solver")},
+                 *variant_, Sharing::never);
     }
 
     std::string recipe(const std::string& phase, const json& scene) {
-        Recipe made = recipe_of(phase, scene);
+        Recipe made = recipe_of(phase, scene, numerics_.at(phase));
         std::string hash = made.hash;
         recipes_.emplace(hash, std::move(made));
         return hash;
     }
 
-    std::size_t add(TaskPlan task, Sharing sharing) {
-        task.recipe = recipes_of_variant_.at(task.phase);
-        const Identity identity{task.recipe, task.parent, task.input};
-        if (sharing == Sharing::wanted) {
-            if (const auto same = known_.find(identity); same != known_.end()) {
-                ++users_[same->second];
-                return same->second;
-            }
-            known_.emplace(identity, tasks_.size());
-        }
-        task.variant = variant_->name;
-        task.overrides.insert(task.overrides.begin(), variant_->overrides.begin(),
-                              variant_->overrides.end());
-        if (const auto ask = study_.resources.find(task.phase); ask != study_.resources.end())
-            task.resources = ask->second;
-        tasks_.push_back(std::move(task));
-        users_.push_back(sharing == Sharing::wanted ? 1 : 0);
-        return tasks_.size() - 1;
-    }
-
-    using Identity = std::tuple<std::string, std::optional<std::size_t>, std::string>;
-
     const Study& study_;
+    const Numerics& numerics_;
     const Variant* variant_ = nullptr;
     std::map<std::string, std::string> recipes_of_variant_;
     std::map<std::string, Recipe> recipes_;
-    std::map<Identity, std::size_t> known_;
-    std::vector<TaskPlan> tasks_;
-    std::vector<std::size_t> users_;  ///< how many variants each task serves
+    TaskList tasks_;
+    TaskList open_;  ///< of one more transfer
 };
 
 }  // namespace
 
-std::string snapshot_name(double time) { return "snapshot_" + spelt(time) + ".vtkhdf"; }
-
-TaskGraph plan_tasks(const Study& study) {
-    Planner planner(study);
+TaskGraph plan_tasks(const Study& study, const Numerics& numerics) {
+    Planner planner(study, numerics);
     for (const Variant& each : study.variants) planner.plan(each);
-    return planner.finished();
-}
-
-std::string firing_plan(const Study& study) {
-    Study one_more = study;
-    one_more.transfer_times = {open_time};
-    const TaskGraph graph = plan_tasks(one_more);
-    json plan = json::array();
-    for (const TaskPlan& task : graph.tasks) {
-        if (!task.transfer_time) continue;
-        plan.push_back(
-            {{"phase", task.phase},
-             {"label", task.label},
-             {"parent", graph.tasks[*task.parent].label},
-             {"release", task.release == Release::file_exists ? "file_exists" : "parent_succeeded"},
-             {"input", task.input},
-             {"overrides", task.overrides},
-             {"variant", task.variant},
-             {"cores", task.resources.cores},
-             {"memory_MB", task.resources.memory_mb},
-             {"recipe", task.recipe}});
-    }
-    return plan.dump();
+    return std::move(planner).finished();
 }
 
 }  // namespace breach::orchestrator

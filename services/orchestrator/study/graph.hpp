@@ -17,16 +17,9 @@ namespace breach::orchestrator {
 struct TaskGraph {
     std::vector<TaskPlan> tasks;  ///< in the order in which slots are given; parents come first
     std::vector<Recipe> recipes;  ///< of all tasks, each once
+    std::vector<TaskPlan> one_more_transfer;  ///< for every variant (records/firing_plan.hpp)
 };
 
-TaskGraph plan_tasks(const Study& study);
-
-/// The tasks of one more transfer, for every variant, with the time left open (open_time_text
-/// stands for it in labels and inputs) and parents by label: JSON, kept with the run until a
-/// trigger fires.
-std::string firing_plan(const Study& study);
-
-/// "snapshot_0.500000.vtkhdf"
-std::string snapshot_name(double time);
+TaskGraph plan_tasks(const Study& study, const Numerics& numerics);
 
 }  // namespace breach::orchestrator

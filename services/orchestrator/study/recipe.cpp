@@ -20,23 +20,21 @@ enum class Materials {
 };
 
 struct Reading {
-    std::int64_t version;  ///< raised when the phase's numbers change for the same input
     std::vector<std::string> parts;
     Materials materials;
     Regions regions;
 };
 
 const std::map<std::string, Reading> readings{
-    {"lem_tool", {1, {"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
-    {"fem_solver", {3, {"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    {"lem_tool", {{"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
+    {"fem_solver", {{"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
     {"transfer_tool",
-     {2,
-      {"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
+     {{"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
        "/mpm/right", "/mpm/floor", "/mpm/terrain", "/mpm/kernel", "/mpm/gimp_half_size"},
       Materials::all,
       Regions::names_and_materials}},
     {"mpm_solver",
-     {3, {"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
+     {{"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
 };
 
 json materials_part(const json& scene, Materials wanted) {
@@ -102,7 +100,7 @@ void collect(const json& a, const json& b, const std::string& at, std::vector<st
 
 }  // namespace
 
-Recipe recipe_of(const std::string& phase, const json& scene) {
+Recipe recipe_of(const std::string& phase, const json& scene, std::int64_t numerics) {
     const Reading& reading = readings.at(phase);
     json part{{"section", section_part(scene, reading.regions)},
               {"materials", materials_part(scene, reading.materials)}};
@@ -115,10 +113,9 @@ Recipe recipe_of(const std::string& phase, const json& scene) {
         if (part.contains(at) && part[at].is_string())
             part[at] = content_of(part[at].get<std::string>());
     }
-    Recipe recipe{
-        .hash = {}, .phase = phase, .cache_version = reading.version, .part = part.dump()};
-    recipe.hash = exchange::sha256_of_text(phase + "\n" + std::to_string(reading.version) + "\n" +
-                                           recipe.part);
+    Recipe recipe{.hash = {}, .phase = phase, .cache_version = numerics, .part = part.dump()};
+    recipe.hash =
+        exchange::sha256_of_text(phase + "\n" + std::to_string(numerics) + "\n" + recipe.part);
     return recipe;
 }
 

@@ -16,7 +16,8 @@
 namespace breach::orchestrator {
 
 /// `scene`: completed, all overrides applied. A file that cannot be read stands for its name.
-Recipe recipe_of(const std::string& phase, const nlohmann::json& scene);
+/// `numerics`: what the phase says of itself.
+Recipe recipe_of(const std::string& phase, const nlohmann::json& scene, std::int64_t numerics);
 
 /// Pointers at which two JSON values differ, deepest first found in order of the keys: an array of
 /// another length differs as a whole.

@@ -34,17 +34,10 @@ struct Study {
     double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]
 };
 
-/// Stands in a firing plan for the time that is not known yet.
-inline constexpr double open_time = -1.0;
-inline constexpr std::string_view open_time_text = "-1.000000";
-
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
 Study read_study(std::string_view text);
 
 /// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
 nlohmann::json read_whole_scene(std::string_view text);
-
-/// "0.500000": how a time is spelt in snapshot and task names.
-std::string spelt(double time);
 
 }  // namespace breach::orchestrator

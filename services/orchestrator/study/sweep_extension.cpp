@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/fault/fault.hpp"
+#include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
 
 namespace breach::orchestrator {
@@ -13,9 +14,9 @@ using nlohmann::json;
 namespace {
 
 /// The study as it was submitted, with these times.
-Study study_with(const Store& store, const std::string& run, const json& times) {
-    json document = *store.study_of(run);
-    document["scene"] = json::parse(*store.scene_of(run));
+Study study_with(const RunSoFar& run, const json& times) {
+    json document = run.study;
+    document["scene"] = json::parse(run.scene);
     document["transfer_times"] = times;
     return read_study(document.dump());
 }
@@ -33,17 +34,16 @@ std::string free_label(const std::map<std::string, Task>& present, const std::st
 
 }  // namespace
 
-Extension plan_extension(const Store& store, const DataFolder& data, const std::string& run,
+Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                          const json& wanted) {
     std::map<std::string, Task> present;
     std::vector<double> known;
-    for (Task& each : store.tasks_of(run)) {
+    for (const Task& each : run.tasks) {
         if (each.phase == "transfer_tool") known.push_back(*each.transfer_time);
-        std::string label = each.label;
-        present.emplace(std::move(label), std::move(each));
+        present.emplace(each.label, each);
     }
     Extension extension;
-    for (const double time : study_with(store, run, wanted).transfer_times)
+    for (const double time : study_with(run, wanted).transfer_times)
         if (!contains(known, time)) extension.times.push_back(time);
     std::vector<double> all = known;
     all.insert(all.end(), extension.times.begin(), extension.times.end());
@@ -51,9 +51,9 @@ Extension plan_extension(const Store& store, const DataFolder& data, const std::
     const auto repeated = std::ranges::unique(all);  // variants
     all.erase(repeated.begin(), repeated.end());
 
-    const Study study = study_with(store, run, all);
+    const Study study = study_with(run, all);
     extension.study = study.document;
-    TaskGraph graph = plan_tasks(study);
+    TaskGraph graph = plan_tasks(study, numerics);
     extension.recipes = std::move(graph.recipes);
     const auto has_snapshots = [&](const Task& fem) {
         return std::ranges::all_of(extension.times, [&](double time) {

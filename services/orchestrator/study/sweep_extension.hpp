@@ -4,25 +4,18 @@
 #pragma once
 
 #include "services/orchestrator/files/data_folder.hpp"
-#include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {
 
-/// A task that is added to a run: its parent is in the run already, or added before it.
-struct AddedTask {
-    TaskPlan plan;  ///< its `parent`: place in the list of added tasks
-    std::optional<std::string> parent;
-};
-
-struct Extension {
-    std::vector<double> times;     ///< those that are new
-    std::vector<AddedTask> tasks;  ///< parents first
-    std::vector<Recipe> recipes;
-    nlohmann::json study;  ///< the study's document with all times
+/// A run as it is stored.
+struct RunSoFar {
+    nlohmann::json study;  ///< without its scene
+    std::string scene;     ///< JSON
+    std::vector<Task> tasks;
 };
 
 /// `wanted`: "transfer_times" as in a study, list or range. Throws BadInput.
-Extension plan_extension(const Store& store, const DataFolder& data, const std::string& run,
+Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                          const nlohmann::json& wanted);
 
 }  // namespace breach::orchestrator

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "core/exchange/provenance.hpp"
+#include "core/fault/fault.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
-#include "services/orchestrator/study/study.hpp"
 #include "services/orchestrator/triggers/bisection.hpp"
 
 namespace breach::orchestrator {
@@ -88,13 +88,26 @@ std::int64_t written_at(const std::filesystem::path& file) {
 void TriggerWatch::look() {
     watch_.changes();
     load_open_triggers();
-    for (auto& [id, fem] : fems_) {
+    for (auto& [id, fem] : fems_) look_alone(fem);
+}
+
+/// Files of one FEM that cannot be read must not hold up the others: it is looked at again.
+void TriggerWatch::look_alone(Fem& fem) {
+    std::string trouble;
+    try {
         read_on(fem);
         for (Armed& each : fem.armed) {
             feed(fem, each);
             if (each.lines_taken == fem.lines.size()) settle(fem, each);
         }
+    } catch (const fault::IoError& error) {
+        trouble = error.what();
+    } catch (const std::filesystem::filesystem_error& error) {
+        trouble = error.what();
     }
+    if (!trouble.empty() && trouble != fem.trouble)
+        spdlog::error("{}: its triggers wait: {}", fem.task.id, trouble);
+    fem.trouble = trouble;
 }
 
 std::chrono::milliseconds TriggerWatch::patience() const {

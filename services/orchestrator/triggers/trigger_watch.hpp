@@ -60,9 +60,11 @@ class TriggerWatch {
         std::chrono::steady_clock::time_point asked{};
         /// Of the run's stability analysis once that has ended; NaN when there is none [m].
         std::optional<double> critical_depth{};
+        std::string trouble = {};  ///< what kept the last look from its end
     };
 
     void load_open_triggers();
+    void look_alone(Fem& fem);
     void arm(Fem& fem, const Trigger& trigger);
     void read_on(Fem& fem);
     void feed(const Fem& fem, Armed& armed);

@@ -14,8 +14,8 @@ struct Choice {
     std::vector<double> snapshot_times;  ///< of contours and meshes [s]; empty: four over the run
     std::vector<double> transfer_times;  ///< of geometries [s]; empty: half and full runout
     std::filesystem::path motion;        ///< file; empty: where the scene says
-    std::vector<std::filesystem::path>
-        companions;                       ///< other runs whose variants belong to this one
+    /// Other runs whose variants belong to this one
+    std::vector<std::filesystem::path> companions;
     std::filesystem::path element_tests;  ///< folder of fem_solver element-test; empty: none
 };
 

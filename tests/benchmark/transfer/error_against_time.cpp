@@ -1,8 +1,8 @@
 // Error of the interpolated stress against run time: mode, neighbours and mesh, for a smooth field,
 // a shear band and a jump between two regions (squares at one side that widen to aspect 1:10 at the
 // other, 3 x 3 points per element); error of the round trip against n, neighbours and mode on the
-// case document's graded elements; and time against size. One thread, CPU seconds, but for the last
-// table.
+// graded elements of docs/design/case.md; and time against size. One thread, CPU seconds, but for
+// the last table.
 #include <sys/resource.h>
 
 #include <chrono>

@@ -3,16 +3,26 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "core/fault/fault.hpp"
+#include "core/scene/file_paths.hpp"
+#include "core/telemetry/columns.hpp"
 #include "services/orchestrator/dispatch/verdict.hpp"
+#include "services/orchestrator/programs/command.hpp"
+#include "services/orchestrator/programs/numerics.hpp"
+#include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/study/graph.hpp"
+#include "services/orchestrator/study/recipe.hpp"
 
 namespace breach::orchestrator {
 namespace {
 
 using nlohmann::json;
+
+const Numerics numerics{
+    {"lem_tool", 1}, {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}};
 
 json slope_study() {
     std::ifstream stream(BREACH_ROOT "/workflows/scenes/slope.json");
@@ -84,6 +94,83 @@ TEST(Study, AllFaultsOfStudyAndSceneAreReportedAtOnceWithPointersIntoTheStudy) {
     EXPECT_TRUE(holds(pointers, "/scene/mpm"));
 }
 
+json whole(const std::string& name) {
+    const std::filesystem::path file = BREACH_ROOT "/workflows/studies/" + name;
+    std::ifstream stream(file);
+    json study = json::parse(stream);
+    const auto scene = file.parent_path() / study["scene"].get<std::string>();
+    std::ifstream scene_stream(scene);
+    study["scene"] = json::parse(scene_stream);
+    scene::make_files_absolute(study["scene"], scene.parent_path());
+    scene::make_override_files_absolute(study, scene.parent_path());
+    return study;
+}
+
+TEST(Study, EveryShippedStudyPassesTheCheck) {
+    std::size_t studies = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(BREACH_ROOT "/workflows/studies")) {
+        if (entry.path().extension() != ".json") continue;
+        const std::string name = entry.path().filename();
+        ++studies;
+        try {
+            read_study(whole(name).dump());
+        } catch (const fault::BadInput& error) {
+            ADD_FAILURE() << name << ": " << error.what();
+        }
+    }
+    EXPECT_GE(studies, 11u);
+}
+
+TEST(Study, FaultsOfStudySceneAndALaterVariantStandInOneList) {
+    json study = whole("mochikoshi_quarter.json");
+    study["nam"] = "typo";                                        // the study's schema
+    study["transfer_times"] = {1.0, 99.0};                        // after the FEM's end
+    study["scene"]["materials"]["tailings"]["density"] = -1;      // the scene's schema
+    study["scene"]["fem"]["supports"][0]["from"] = {-40, -5.01};  // drawn beside the section
+    study["scene"]["fem"]["supports"][0]["to"] = {280, -5.01};
+    study["scene"]["mpm"]["runout"]["toe"] = {900, 0};  // outside the grid
+    study["variants"] =
+        json::array({{{"name", "sound"}, {"overrides", {"/mpm/duration=30"}}},
+                     {{"name", "lost"}, {"overrides", {"/fem/motion/file=/nowhere/record.at2"}}}});
+    const auto pointers = pointers_of_faults(study);
+    EXPECT_TRUE(holds(pointers, "/nam"));
+    EXPECT_TRUE(holds(pointers, "/transfer_times"));
+    EXPECT_TRUE(holds(pointers, "/scene/materials/tailings/density"));
+    EXPECT_TRUE(holds(pointers, "/scene/fem/supports/0"));
+    EXPECT_TRUE(holds(pointers, "/scene/mpm/runout/toe"));
+    EXPECT_TRUE(holds(pointers, "/variants/1/overrides"));
+    EXPECT_FALSE(holds(pointers, "/variants/0/overrides")) << "the scene's own are not repeated";
+}
+
+TEST(Study, AVariantThatEndsBeforeItsTransfersIsRefused) {
+    json study = slope_study();
+    study["variants"] =
+        json::array({{{"name", "long"}, {"overrides", json::array()}},
+                     {{"name", "short"}, {"overrides", {"/fem/stages/1/duration=0.75"}}}});
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/variants/1/overrides"});
+}
+
+TEST(Study, ARelativeFileIsRefusedInOverridesAsWell) {
+    json study = slope_study();
+    study["variants"] =
+        json::array({{{"name", "meshed"}, {"overrides", {"/fem/msh_file=meshes/slope.msh"}}}});
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/variants/0/overrides"});
+}
+
+TEST(Study, TriggersOnWhatTheRunDoesNotRecordAreRefused) {
+    json study = slope_study();  // without water, and without stages of liquefaction
+    study["triggers"] = json::array(
+        {{{"kind", "criterion"}, {"when", "liquefaction_depth > 2"}},
+         {{"kind", "window"}, {"lower", "crest_dx > 1"}, {"upper", "crest_dy > critical_depth"}}});
+    EXPECT_EQ(pointers_of_faults(study),
+              (std::vector<std::string>{"/triggers/0/when", "/triggers/1/upper"}));
+}
+
+TEST(Study, ASceneInPlaceOfAStudyIsNamedAsSuch) {
+    EXPECT_EQ(pointers_of_faults(slope_study()["scene"]), std::vector<std::string>{"/format"});
+}
+
 TEST(Study, SceneByPathAndRelativeMeshFileAreRefused) {
     json study = slope_study();
     study["scene"] = "../scenes/slope.json";
@@ -106,7 +193,7 @@ TEST(Study, OverridesEnterTheCompletedScene) {
 
 TEST(Graph, EachTransferTimeHasATransferFedByTheFemAndAnMpmFedByTheTransfer) {
     const Study study = read_study(slope_study().dump());
-    const auto tasks = plan_tasks(study).tasks;
+    const auto tasks = plan_tasks(study, numerics).tasks;
     ASSERT_EQ(tasks.size(), 6u);
     EXPECT_EQ(tasks[0].phase, "fem_solver");
     EXPECT_EQ(tasks[0].overrides, std::vector<std::string>{"/fem/snapshot_times=[0.5,1.0]"});
@@ -128,9 +215,139 @@ TEST(Graph, SnapshotsOfTheSceneAreKeptAndStabilityCanBeLeftOut) {
     json study = slope_study();
     study["scene"]["fem"]["snapshot_times"] = {0.75, 1.0};
     study["stability"] = false;
-    const auto tasks = plan_tasks(read_study(study.dump())).tasks;
+    const auto tasks = plan_tasks(read_study(study.dump()), numerics).tasks;
     EXPECT_EQ(tasks[0].overrides, std::vector<std::string>{"/fem/snapshot_times=[0.5,0.75,1.0]"});
     EXPECT_EQ(tasks[1].phase, "transfer_tool");
+}
+
+json study_with_variants() {
+    json study = slope_study();
+    // One changes what the FEM reads, the other only the MPM: it shares the first one's FEM.
+    study["variants"] = {
+        {{"name", "as_is"}, {"overrides", json::array()}},
+        {{"name", "short"}, {"overrides", {"/mpm/duration=1"}}},
+        {{"name", "light"}, {"overrides", {"/materials/slope_soil/density=1700"}}}};
+    return study;
+}
+
+/// All that a task's row is made from.
+std::vector<std::string> rows_of(const std::vector<TaskPlan>& tasks) {
+    std::vector<std::string> rows;
+    for (TaskPlan task : tasks) {
+        if (!task.transfer_time) continue;
+        const std::string parent = tasks[*task.parent].label;
+        task.parent.reset();  // places differ between the lists
+        rows.push_back(json(task).dump() + " of " + parent);
+    }
+    std::ranges::sort(rows);
+    return rows;
+}
+
+TEST(Graph, OneMoreTransferIsTheTasksThatTheStudyWouldHaveMadeForThatTime) {
+    json study = study_with_variants();
+    study["transfer_times"] = {0.5};
+    const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
+    // Kept as text in the database, and read again.
+    std::vector<TaskPlan> added =
+        read_firing_plan(json::parse(json(graph.one_more_transfer).dump()));
+    for (TaskPlan& each : added)
+        if (each.parent) each = at_time(std::move(each), 0.5);
+    EXPECT_EQ(rows_of(added), rows_of(graph.tasks));
+    EXPECT_EQ(rows_of(added).size(), 5u);  // two transfers, three runouts
+}
+
+TEST(Graph, FiringPlanOfADatabaseOfVersion010IsReadAsWhatItMeant) {
+    const json old{{{"phase", "transfer_tool"},
+                    {"label", "transfer_-1.000000_light"},
+                    {"parent", "fem_light"},
+                    {"release", "file_exists"},
+                    {"input", "snapshot_-1.000000.vtkhdf"},
+                    {"overrides", {"/gravity=9.8"}},
+                    {"variant", "light"},
+                    {"cores", 2},
+                    {"memory_MB", 300},
+                    {"recipe", "abc"}},
+                   {{"phase", "mpm_solver"},
+                    {"label", "mpm_-1.000000_light"},
+                    {"parent", "transfer_-1.000000_light"},
+                    {"release", "parent_succeeded"},
+                    {"input", "particles.vtkhdf"},
+                    {"overrides", json::array()},
+                    {"variant", "light"},
+                    {"cores", 1},
+                    {"memory_MB", 0},
+                    {"recipe", ""}}};
+    const std::vector<TaskPlan> plan = read_firing_plan(old);
+    ASSERT_EQ(plan.size(), 3u);
+    EXPECT_EQ(plan[0].label, "fem_light");
+    EXPECT_FALSE(plan[0].parent);
+    const TaskPlan transfer = at_time(plan[1], 0.25);
+    EXPECT_EQ(transfer.label, "transfer_0.250000_light");
+    EXPECT_EQ(transfer.input, "snapshot_0.250000.vtkhdf");
+    EXPECT_EQ(transfer.transfer_time, 0.25);
+    EXPECT_EQ(transfer.parent, 0u);
+    EXPECT_EQ(transfer.overrides, std::vector<std::string>{"/gravity=9.8"});
+    EXPECT_EQ(transfer.resources.cores, 2);
+    EXPECT_EQ(transfer.resources.memory_mb, 300);
+    EXPECT_EQ(transfer.recipe, "abc");
+    const TaskPlan mpm = at_time(plan[2], 0.25);
+    EXPECT_EQ(mpm.label, "mpm_0.250000_light");
+    EXPECT_EQ(mpm.input, "particles.vtkhdf");
+    EXPECT_EQ(mpm.parent, 1u);
+    EXPECT_EQ(mpm.release, Release::parent_succeeded);
+}
+
+TEST(Recipe, FollowsTheNumericsThatThePhaseSays) {
+    const json scene = read_study(slope_study().dump()).scene;
+    const Recipe recipe = recipe_of("mpm_solver", scene, 3);
+    EXPECT_EQ(recipe.hash, recipe_of("mpm_solver", scene, 3).hash);
+    EXPECT_NE(recipe.hash, recipe_of("mpm_solver", scene, 4).hash);
+    EXPECT_EQ(recipe.cache_version, 3);
+}
+
+/// A folder with four programs that answer --version so.
+class NumericsOfPhases : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        std::string pattern = std::filesystem::temp_directory_path() / "breach-phases-XXXXXX";
+        bin_ = mkdtemp(pattern.data());
+        for (const auto& [phase, number] : numerics)
+            write(phase, "echo " + phase + " 0.1.0; echo numerics " + std::to_string(number));
+    }
+    void TearDown() override { std::filesystem::remove_all(bin_); }
+    void write(const std::string& phase, const std::string& what) const {
+        std::ofstream(bin_ / phase) << "#!/bin/sh\n" << what << "\n";
+        std::filesystem::permissions(bin_ / phase, std::filesystem::perms::owner_all);
+    }
+    std::string complaint() const {
+        try {
+            numerics_of_phases(bin_);
+        } catch (const fault::IoError& error) {
+            return error.what();
+        }
+        return {};
+    }
+    std::filesystem::path bin_;
+};
+
+TEST_F(NumericsOfPhases, AreWhatTheProgramsSay) { EXPECT_EQ(numerics_of_phases(bin_), numerics); }
+
+TEST_F(NumericsOfPhases, ProgramThatIsMissingOrOldIsNamedWithARemedy) {
+    write("mpm_solver", "echo mpm_solver 0.1.0");
+    EXPECT_NE(complaint().find((bin_ / "mpm_solver").string() + " --version does not say"),
+              std::string::npos)
+        << complaint();
+    write("mpm_solver", "echo numerics 3; exit 1");
+    EXPECT_NE(complaint().find("does not say"), std::string::npos);
+    std::filesystem::remove(bin_ / "mpm_solver");
+    EXPECT_NE(complaint().find("there is no such program"), std::string::npos);
+    EXPECT_NE(complaint().find("--bin"), std::string::npos);
+}
+
+TEST(Command, ThatClosesItsOutputAndGoesOnIsEnded) {
+    const CommandResult result =
+        run_command({"sh", "-c", "exec >&- 2>&-; sleep 3600"}, "", std::chrono::milliseconds(300));
+    EXPECT_FALSE(result.exit_code);
 }
 
 TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
@@ -149,6 +366,19 @@ TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
     EXPECT_EQ(verdict({}, 9, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict(0, {}, StopReason::shutdown), Verdict::well);
     EXPECT_EQ(verdict(70, {}, StopReason::shutdown), Verdict::badly);
+}
+
+TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {
+    for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()}) {
+        for (const telemetry::Column& each : table) {
+            json study = slope_study();
+            study["triggers"] = {
+                {{"kind", "criterion"}, {"when", std::string(each.name) + " > 0.5"}}};
+            EXPECT_TRUE(pointers_of_faults(study).empty()) << each.name;
+            EXPECT_NE(std::string(each.unit), "") << each.name;
+            EXPECT_NE(std::string(each.meaning), "") << each.name;
+        }
+    }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Parameters, initial states and state functions against the numbers of design/pm4sand.md, section
-// 19 (an independent implementation), kPa.
+// Parameters, initial states and state functions against the numbers of
+// docs/design/pm4sand.md, section 19 (an independent implementation), kPa.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -144,7 +144,7 @@ TEST(SandColumn, LiquefiesAndKeepsItsPressureRatioWhenStepsAreHalved) {
     }
     double largest = 0.0;
     for (const Row& row : usual) largest = std::max(largest, row[0]);
-    // Mean stress stalls at about 1 kPa (design note, 18.9): 20 kPa vertically at 2.5 m.
+    // Mean stress stalls at about 1 kPa (docs/design/pm4sand.md, 18.9): 20 kPa vertically at 2.5 m.
     expect_error("2.5 m deep: 1 less the largest r_u", std::abs(1.0 - largest), 0.15);
     expect_error("r_u with half the time step", apart(usual, shaken(1e-3, "corrected")), 0.03);
 }

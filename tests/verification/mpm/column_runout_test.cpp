@@ -50,9 +50,9 @@ double published(double a) {
 }
 
 // 33 %: the scaling fits sands of different friction on rough bases to about 15 %, Mohr-Coulomb
-// codes overshoot it when they are refined (mpm.md, section 4, allows 30 %), and repeated runs
-// scatter by 3 %, which another machine's libm may spend. The front is the 99th percentile; cells:
-// 12 over L0.
+// codes overshoot it when they are refined (docs/design/mpm.md, section 4, allows 30 %), and
+// repeated runs scatter by 3 %, which another machine's libm may spend. The front is the 99th
+// percentile; cells: 12 over L0.
 TEST(GranularColumn, RunsAsFarAsPublishedScalingSays) {
     for (const double a : {0.5, 1.0, 1.5, 2.0}) {
         const double L_0 = 6.0;

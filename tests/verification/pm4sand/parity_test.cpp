@@ -1,6 +1,6 @@
 // The reference scheme against OpenSees, step by step: its strain history is replayed and the
 // stress compared. Tolerances are those of the issue; the remaining difference comes from drift
-// passes and from the number of parts, which round-off decides (design/pm4sand.md, 13.2, 19.8).
+// passes and from the number of parts, which round-off decides (docs/design/pm4sand.md, 13.2, 19.8).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "services/orchestrator/executors/command.hpp"
+#include "services/orchestrator/programs/command.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -10,6 +10,7 @@
 #include <cassert>
 #include <csignal>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/fault/fault.hpp"
@@ -80,6 +81,22 @@ void drain(Pipe& pipe, short happened, std::string& text) {
     text.append(buffer.data(), static_cast<std::size_t>(size));
 }
 
+/// Its status when it has ended by itself until then, or was killed with what it started: one that
+/// has closed its output may go on for ever.
+int end_of(pid_t pid, Clock::time_point deadline) {
+    constexpr auto pause = std::chrono::milliseconds(2);
+    int status = 0;
+    while (true) {
+        const pid_t ended = waitpid(pid, &status, WNOHANG);
+        if (ended == pid) return status;
+        if (Clock::now() >= deadline) break;
+        std::this_thread::sleep_for(pause);
+    }
+    kill(-pid, SIGKILL);
+    waitpid(pid, &status, 0);
+    return status;
+}
+
 }  // namespace
 
 CommandResult run_command(std::vector<std::string> words, const std::string& input,
@@ -105,9 +122,8 @@ CommandResult run_command(std::vector<std::string> words, const std::string& inp
         drain(out, wanted[0].revents, result.out);
         drain(err, wanted[1].revents, result.err);
     }
-    if (out.ends[0] >= 0 || err.ends[0] >= 0) kill(-pid, SIGKILL);
-    int status = 0;
-    waitpid(pid, &status, 0);
+    const bool silent = out.ends[0] < 0 && err.ends[0] < 0;
+    const int status = end_of(pid, silent ? deadline : Clock::now());
     if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
     return result;
 }

@@ -1,4 +1,4 @@
-#include "services/orchestrator/study/plan_question.hpp"
+#include "services/orchestrator/programs/plan_question.hpp"
 
 #include <array>
 #include <chrono>
@@ -6,7 +6,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
-#include "services/orchestrator/executors/command.hpp"
+#include "services/orchestrator/programs/command.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {

@@ -1,0 +1,45 @@
+#include "services/orchestrator/programs/numerics.hpp"
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <sstream>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/programs/command.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+constexpr auto longest_answer = std::chrono::seconds(20);
+constexpr std::array phases{"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"};
+constexpr std::string_view word = "numerics ";
+
+std::int64_t numerics_of(const std::filesystem::path& program) {
+    const std::string remedy =
+        "; give the folder of the phases of this build with --bin";
+    if (!std::filesystem::exists(program))
+        throw fault::IoError(program.string() + ": there is no such program" + remedy);
+    const CommandResult result = run_command({program.string(), "--version"}, "", longest_answer);
+    std::istringstream lines(result.out);
+    for (std::string line; result.exit_code == 0 && std::getline(lines, line);) {
+        if (!line.starts_with(word)) continue;
+        std::int64_t number = 0;
+        const auto parsed =
+            std::from_chars(line.data() + word.size(), line.data() + line.size(), number);
+        if (parsed.ec == std::errc{} && number > 0) return number;
+    }
+    throw fault::IoError(program.string() +
+                         " --version does not say the version of its numerics" + remedy);
+}
+
+}  // namespace
+
+Numerics numerics_of_phases(const std::filesystem::path& bin) {
+    Numerics found;
+    for (const char* phase : phases) found[phase] = numerics_of(bin / phase);
+    return found;
+}
+
+}  // namespace breach::orchestrator

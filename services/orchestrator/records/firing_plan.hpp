@@ -1,0 +1,16 @@
+// The tasks that one more transfer needs, for every variant: planned with the run, kept beside it,
+// and added to it when a trigger fires. Their transfer time is open until then. The FEMs that they
+// come from stand in the list as well, so that parents are places in it.
+#pragma once
+
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+/// The task with its time put in, and what is named after that: its label, its snapshot.
+TaskPlan at_time(TaskPlan open, double time);
+
+/// From a database; also as version 0.1.0 wrote it.
+std::vector<TaskPlan> read_firing_plan(const nlohmann::json& document);
+
+}  // namespace breach::orchestrator

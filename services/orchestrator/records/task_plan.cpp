@@ -1,0 +1,75 @@
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+template <class T>
+json or_null(const std::optional<T>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+template <class T>
+std::optional<T> unless_null(const json& value) {
+    if (value.is_null()) return std::nullopt;
+    return value.get<T>();
+}
+
+}  // namespace
+
+std::string_view name_of(Release release) {
+    switch (release) {
+        case Release::at_once:
+            return "at_once";
+        case Release::file_exists:
+            return "file_exists";
+        case Release::parent_succeeded:
+            break;
+    }
+    return "parent_succeeded";
+}
+
+Release release_named(std::string_view name) {
+    if (name == name_of(Release::at_once)) return Release::at_once;
+    if (name == name_of(Release::file_exists)) return Release::file_exists;
+    return Release::parent_succeeded;
+}
+
+std::string label_of(const TaskPlan& task) {
+    std::string label = task.phase.substr(0, task.phase.find('_'));
+    if (task.transfer_time) label += "_" + spelt(*task.transfer_time);
+    if (!task.variant.empty()) label += "_" + task.variant;
+    return label;
+}
+
+void to_json(json& document, const TaskPlan& task) {
+    document = {{"phase", task.phase},
+                {"label", task.label},
+                {"transfer_time", or_null(task.transfer_time)},
+                {"parent", or_null(task.parent)},
+                {"release", name_of(task.release)},
+                {"input", task.input},
+                {"overrides", task.overrides},
+                {"variant", task.variant},
+                {"cores", task.resources.cores},
+                {"memory_MB", task.resources.memory_mb},
+                {"recipe", task.recipe}};
+}
+
+void from_json(const json& document, TaskPlan& task) {
+    task = {.phase = document.at("phase"),
+            .label = document.at("label"),
+            .transfer_time = unless_null<double>(document.at("transfer_time")),
+            .parent = unless_null<std::size_t>(document.at("parent")),
+            .release = release_named(document.at("release").get<std::string>()),
+            .input = document.at("input"),
+            .overrides = document.at("overrides"),
+            .variant = document.at("variant"),
+            .resources = {.cores = document.at("cores"), .memory_mb = document.at("memory_MB")},
+            .recipe = document.at("recipe")};
+}
+
+}  // namespace breach::orchestrator
