@@ -30,12 +30,12 @@ install_packages() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# build programs|tests: configures and builds the release preset. Programs alone need no test libraries; a folder that
+# build programs|tests [PRESET]: configures and builds; the preset is release unless given. Programs alone need no test libraries; a folder that
 # has been configured with tests keeps them.
 build() {
-    local options=()
+    local options=() preset=${2:-release}
     [ "$1" = tests ] && options=(-DBREACH_TESTS=ON)
-    [ "$1" = programs ] && [ ! -f "$root/build/release/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
-    say "building ($1)"
-    (cd "$root" && cmake --preset release "${options[@]}" && cmake --build --preset release)
+    [ "$1" = programs ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
+    say "building ($1, $preset)"
+    (cd "$root" && cmake --preset "$preset" "${options[@]}" && cmake --build --preset "$preset")
 }

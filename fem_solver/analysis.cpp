@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fem_solver/model/ground_water.hpp"
-#include "fem_solver/run.hpp"
+#include "fem_solver/model/pore_water.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
@@ -29,9 +29,9 @@ constexpr double least_load_step = 1e-4;  // share of gravity
 /// collapse needs the true, unsymmetric tangent. Measured on the slope scene, 150 steps: LDL^T 886
 /// iterations, 0.77 s; LU 822 iterations, 1.12 s.
 Symmetry symmetry_for(const Stage& stage, const std::vector<materials::Law>& laws) {
-    const bool plastic = std::ranges::any_of(
-        laws, [](const auto& law) { return std::holds_alternative<materials::MohrCoulomb>(law); });
-    const bool general = stage.kind == StageKind::static_equilibrium && plastic;
+    const bool symmetric = std::ranges::all_of(
+        laws, [](const auto& law) { return materials::traits(law).symmetric_tangent; });
+    const bool general = stage.kind == StageKind::static_equilibrium && !symmetric;
     return general ? Symmetry::general : Symmetry::symmetric;
 }
 
@@ -49,11 +49,12 @@ Analysis::Analysis(process::Session& session, Model model)
       model_(std::move(model)),
       motion_(at_rest(model_)),
       trial_(motion_),
-      crest_node_(nearest_node(model_.mesh, fem_.crest)),
-      watch_(fem_, model_) {
+      watch_(fem_, model_),
+      crest_node_(nearest_node(watch_.body(), fem_.crest)) {
     if (session.settings().switches.contains(profile_switch)) seconds_.clock = cpu_clock;
     for (const Stage& stage : fem_.stages) span_ += stage.duration;
     prediction_ = prediction_for(model_);
+    report_crest();
     const bool resumed = session.settings().start == process::Start::resume &&
                          std::filesystem::exists(session.output("checkpoint.h5"));
     if (resumed) {
@@ -83,14 +84,16 @@ Outcome Analysis::run() {
         }
         counts_ = newton_->counts();
         newton_.reset();
+        if (end == StageEnd::entangled) break;
         position_.stage_begun = false;
         position_.load = 0.0;
         position_.dt = 0.0;
     }
-    position_.stage = stages - 1;  // the last one, for the checkpoint and the facts
+    position_.stage = std::min(position_.stage, stages - 1);
     write_last_snapshot();
     write_history();
-    report_facts("all stages were run");
+    report_facts();
+    report_end();
     print_profile();
     session_.progress(1.0, "done");
     return Outcome::done;
@@ -156,10 +159,14 @@ void Analysis::begin_laws(const Stage& stage) {
                       Symmetry::general, seconds_);
         const FrictionalRest rest =
             rest_with_friction(newton, model_, motion_, prediction_, trial_);
-        spdlog::info(
-            "  friction alone rests with {:.3g} kPa in {} iterations, out of balance {:.2e}",
-            rest.cohesion / 1e3, rest.iterations, rest.residual);
+        if (rest.converged) {
+            spdlog::info("  {}", in_words(rest));
+        } else {
+            session_.flag({"no_frictional_rest", fault::Severity::warning, in_words(rest),
+                           "/fem/stages/" + std::to_string(position_.stage)});
+        }
         session_.result()["geostatic"][stage.name]["friction"] = {
+            {"converged", rest.converged},
             {"cohesion", rest.cohesion},
             {"iterations", rest.iterations},
             {"out_of_balance", rest.residual}};
@@ -227,18 +234,27 @@ Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
         if (step_is_too_coarse(stage, dt)) continue;
         const Distortion distortion = trial_distortion();
         if (distortion.least <= fem_.least_jacobian_ratio) {
-            const std::size_t e = distortion.worst_element;
-            const Vec2 where = corners_of(model_.mesh, e).rowwise().mean();
-            give_up("the mesh is entangled at " + text_of(position_.time + dt) + " s: element " +
-                    std::to_string(e) + " (first at " + text_of(where.x()) + ", " +
-                    text_of(where.y()) + ") has a least corner Jacobian ratio of " +
-                    text_of(distortion.least));
+            entanglement_ = entanglement_of(session_.scene().section, model_, watch_, motion_,
+                                            distortion, position_.time + dt);
+            if (position_.time == 0.0) refuse_the_mesh();
+            return StageEnd::entangled;
         }
         distortion_ = distortion;
         accept(dt, next_stop(stage_end), outcome);
         if (checkpoint_is_due()) write_checkpoint();
     }
     return StageEnd::reached;
+}
+
+/// What folds in the very first step was never in equilibrium: no failure, a fault of the scene.
+void Analysis::refuse_the_mesh() {
+    const Entanglement& what = *entanglement_;
+    give_up("the mesh entangles in its first step, before anything has moved: element " +
+            std::to_string(what.element) + " of '" + what.region_name + "' at (" +
+            text_of(what.where.x()) + ", " + text_of(what.where.y()) +
+            ") has a least corner Jacobian ratio of " + text_of(what.least_ratio) +
+            "; look there for a gap between regions, a missing support or a mapped corner that is "
+            "too sharp, or take a smaller time step");
 }
 
 Distortion Analysis::trial_distortion() {

@@ -4,6 +4,7 @@
 
 #include "core/process/phase.hpp"
 #include "fem_solver/checkpoint.hpp"
+#include "fem_solver/monitors/entanglement.hpp"
 #include "fem_solver/monitors/watch.hpp"
 #include "fem_solver/solve/step.hpp"
 
@@ -14,8 +15,10 @@ class Analysis {
     /// Goes on from the session's checkpoint when it is resumed and there is one.
     Analysis(process::Session& session, Model model);
 
-    /// All stages. Throws Breakdown when the mesh is entangled or the least step does not converge;
-    /// the last good state is then in a snapshot and in the checkpoint.
+    /// All stages, or as many as the mesh lives to see: entangled is a regular end, with the last
+    /// good state in a snapshot. Throws Breakdown when the mesh entangles in its very first step or
+    /// the least step does not converge; the last good state is then in a snapshot and in the
+    /// checkpoint.
     process::Outcome run();
 
     const Model& model() const { return model_; }
@@ -25,7 +28,7 @@ class Analysis {
     const std::vector<Reading>& history() const { return history_; }
 
   private:
-    enum class StageEnd { reached, stopped };
+    enum class StageEnd { reached, stopped, entangled };
 
     StageEnd static_stage(const scene::Stage& stage);
     StageEnd dynamic_stage(const scene::Stage& stage);
@@ -48,8 +51,11 @@ class Analysis {
     void write_history();
     void resume();
     bool checkpoint_is_due() const;
+    [[noreturn]] void refuse_the_mesh();
     [[noreturn]] void give_up(const std::string& cause);
-    void report_facts(const std::string& end);
+    void report_facts();
+    void report_crest();
+    void report_end();
     void print_profile();
     double stage_begin(std::int64_t stage) const;
 
@@ -68,8 +74,9 @@ class Analysis {
     Work before_;          ///< of the run that is resumed
     Distortion distortion_;
     std::vector<Reading> history_;
-    std::size_t crest_node_;
     Watch watch_;
+    std::size_t crest_node_;
+    std::optional<Entanglement> entanglement_;
     double step_error_ = 0.0;          ///< of the last step [m]
     double span_ = 0.0;                ///< all dynamic stages [s]
     double checkpoint_written_ = 0.0;  ///< wall clock [s]

@@ -1,12 +1,13 @@
 // What an analysis writes: telemetry, history, snapshots, checkpoints and the facts of its end.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <sstream>
 
 #include "fem_solver/analysis.hpp"
-#include "fem_solver/run.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
 
@@ -16,6 +17,13 @@ namespace {
 constexpr double checkpoint_interval = 20.0;  // wall clock [s]
 constexpr const char* geostatic =
     "geostatic";  // facts of stages that a resumed run does not repeat
+
+std::string shown(double value) {
+    std::ostringstream text;
+    text.precision(4);
+    text << value;
+    return text.str();
+}
 }  // namespace
 
 void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
@@ -161,7 +169,83 @@ nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double 
 
 }  // namespace
 
-void Analysis::report_facts(const std::string& end) {
+/// Which node stands for the scene's crest. One that is far away measures another place.
+void Analysis::report_crest() {
+    const Mesh& body = watch_.body();
+    const Vec2& node = body.nodes[crest_node_];
+    const double distance = (node - fem_.crest).norm();
+    const double size = element_size_at(body, crest_node_);
+    std::ostringstream text;
+    text << "the crest's displacement is that of the node at (" << node.x() << ", " << node.y()
+         << "), " << distance << " m from /fem/crest";
+    session_.result()["crest"] = {{"x", node.x()}, {"y", node.y()}, {"distance", distance}};
+    constexpr double near = 2.0;  // element sizes
+    if (distance <= near * size) {
+        spdlog::info("{}", text.str());
+        return;
+    }
+    text << ", which is " << std::round(distance / size)
+         << " element sizes: another place than was asked for; give a point on the ground";
+    session_.flag({"far_crest", fault::Severity::warning, text.str(), "/fem/crest"});
+}
+
+namespace {
+
+/// Time of the first line with a failure surface [s].
+std::optional<double> first_surface_in(const std::vector<Reading>& history) {
+    const auto first = std::ranges::find_if(
+        history, [](const Reading& each) { return each.failure_surfaces >= 1.0; });
+    if (first == history.end()) return std::nullopt;
+    return first->time;
+}
+
+}  // namespace
+
+/// How it ended and what it came to, as facts and in plain words.
+void Analysis::report_end() {
+    auto& facts = session_.result();
+    facts["ended"] = entanglement_ ? "entangled" : "complete";
+    facts["end_time"] = position_.time;
+    if (entanglement_) {
+        facts["entanglement"] = as_json(*entanglement_);
+        session_.flag(flag_of(*entanglement_));
+    }
+    if (!position_.moving) {
+        spdlog::info("ended as planned: all stages were run, none of them dynamic");
+        return;
+    }
+    Reading last = read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
+    watch_.read(model_, motion_, beginning_, last);
+    const auto surface = first_surface_in(history_);
+    double depth = last.liquefaction_depth;
+    for (const Reading& each : history_) depth = std::max(depth, each.liquefaction_depth);
+    facts["crest"].update(
+        {{"displacement", last.crest_displacement}, {"dx", last.crest_dx}, {"dy", last.crest_dy}});
+    facts["failure_surfaces"] = static_cast<std::int64_t>(last.failure_surfaces);
+    facts["first_failure_surface_time"] =
+        surface ? nlohmann::json(*surface) : nlohmann::json(nullptr);
+    if (fem_.liquefaction) facts["largest_liquefaction_depth"] = depth;
+    spdlog::info("{}", entanglement_ ? "ended before its duration, at " + shown(position_.time) +
+                                           " of " + shown(span_) + " s: " + in_words(*entanglement_)
+                                     : "ended as planned, at " + shown(position_.time) + " s");
+    if (facts.contains("motion")) {
+        spdlog::info("shaken with a PGA of {} g, as applied, by a motion of {} s",
+                     shown(facts["motion"]["pga_g"].get<double>()),
+                     shown(facts["motion"]["duration"].get<double>()));
+    }
+    spdlog::info("the crest moved {} m (x {}, y {})", shown(last.crest_displacement),
+                 shown(last.crest_dx), shown(last.crest_dy));
+    spdlog::info("{}", surface ? "the first failure surface was there at " + shown(*surface) +
+                                     " s; at the end there are " + shown(last.failure_surfaces)
+                               : std::string("no failure surface cut through to the ground"));
+    if (fem_.liquefaction) {
+        spdlog::info("{}", depth > 0.0
+                               ? "liquefied to a depth of " + shown(depth) + " m where watched"
+                               : std::string("nothing liquefied where it was watched"));
+    }
+}
+
+void Analysis::report_facts() {
     const Quality quality = quality_of(model_.mesh);
     const Unknowns unknowns = model_.unknowns(Solved::motion_and_pressure);
     double largest = 0.0;
@@ -169,8 +253,6 @@ void Analysis::report_facts(const std::string& end) {
         largest = std::max(largest, motion_.u.segment<2>(i).norm());
     }
     auto& facts = session_.result();
-    facts["end"] = end;
-    facts["end_time"] = position_.time;
     facts["steps"] = position_.step;
     facts["cut_steps"] = position_.cut_steps;
     facts["iterations"] = counts_.iterations;

@@ -3,6 +3,7 @@
 #include "core/process/phase.hpp"
 #include "fem_solver/element_bench/run.hpp"
 #include "fem_solver/run.hpp"
+#include "fem_solver/solve/profile.hpp"
 
 int main(int argc, char** argv) {
     const std::string_view command = argc > 1 ? argv[1] : "";

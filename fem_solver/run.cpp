@@ -6,29 +6,47 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/check/applied_motion.hpp"
+#include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
-#include "core/motion/read_motion.hpp"
+#include "core/motion/plausibility.hpp"
 #include "fem_solver/analysis.hpp"
-#include "fem_solver/model/absorbing_base.hpp"
+#include "fem_solver/model/build_model.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 
 namespace breach::fem {
 
 namespace {
 
-/// The motion as it is applied, after scaling: whoever reads the run needs no other file.
+/// The motion as it is applied, after scaling: whoever reads the run needs no other file. What it
+/// is goes to the log and, with the hash of the file it came from, to the result.
 void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
+    const motion::Recording applied = check::applied_motion(wanted);
+    const std::string name = wanted.file.filename().string();
     std::ostringstream csv;
-    motion::write_csv(csv, applied_motion(wanted),
-                      "as applied, from " + std::filesystem::path(wanted.file).filename().string());
+    motion::write_csv(csv, applied, "as applied, from " + name);
     exchange::publish_text(session.output("motion.csv"), csv.str());
+    const motion::Peaks peaks = motion::peaks_of(applied);
+    spdlog::info("motion {} as applied: {}", name, motion::summary_of(applied));
+    session.result()["motion"] = {{"file", name},
+                                  {"sha256", exchange::sha256_of_file(wanted.file)},
+                                  {"pga_g", peaks.acceleration / motion::standard_gravity},
+                                  {"pgv", peaks.velocity},
+                                  {"duration", applied.series.duration()},
+                                  {"time_step", applied.series.dt}};
 }
 
 }  // namespace
 
 process::Outcome run(process::Session& session) {
     const scene::Scene& scene = session.scene();
-    Mesh mesh = build_mesh(scene, session.settings().output);
+    Mesh mesh;
+    try {
+        mesh =
+            build_mesh(scene, session.settings().output, [&] { return session.stop_requested(); });
+    } catch (const MeshingStopped&) {
+        return process::Outcome::stopped;
+    }
     const Quality quality = quality_of(mesh);
     spdlog::info(
         "mesh: {} quads, {} nodes, edges {:.3g} to {:.3g} m, least angle {:.0f} deg, "
@@ -67,21 +85,39 @@ PlanLine on_if(bool on, const std::string& feature, const std::string& why_on,
     return {feature, on ? Use::on : Use::left_out, on ? why_on : why_not, pointer};
 }
 
+/// "Mohr-Coulomb in a, b; ...": every law that yields with its regions; PM4Sand has a line of its
+/// own.
+std::string plastic_regions(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const scene::Material& material : scene.materials) {
+        const std::string name = materials::traits(material.law).name;
+        const bool stands_here =
+            materials::traits(material.law).yields && !materials::sand_in(material.law);
+        if (stands_here && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::string text;
+    for (const std::string& name : names) {
+        const std::string regions = regions_where(scene, [&](const scene::Region& region) {
+            return name == materials::traits(scene.materials[region.material].law).name;
+        });
+        if (regions.empty()) continue;
+        text += (text.empty() ? "" : "; ") + name + " in " + regions;
+    }
+    return text;
+}
+
 }  // namespace
 
 process::Plan plan(const scene::Scene& scene) {
     const scene::Fem& fem = scene::fem_of(scene);
-    const auto soil_of = [&](const scene::Region& region) {
-        return std::get_if<materials::MohrCoulomb>(&scene.materials[region.material].law);
+    const auto law_of = [&](const scene::Region& region) -> const materials::Law& {
+        return scene.materials[region.material].law;
     };
-    const std::string plastic =
-        regions_where(scene, [&](const auto& region) { return soil_of(region) != nullptr; });
-    const std::string sand = regions_where(scene, [&](const auto& region) {
-        return std::holds_alternative<materials::PM4Sand>(scene.materials[region.material].law);
-    });
-    const std::string softening = regions_where(scene, [&](const auto& region) {
-        return soil_of(region) != nullptr && soil_of(region)->softening.has_value();
-    });
+    const std::string plastic = plastic_regions(scene);
+    const std::string sand = regions_where(
+        scene, [&](const auto& region) { return materials::sand_in(law_of(region)); });
+    const std::string softening = regions_where(
+        scene, [&](const auto& region) { return materials::softening(law_of(region)); });
     const std::string unstructured = regions_where(
         scene, [](const auto& region) { return region.mesh == scene::RegionMesh::unstructured; });
     const bool moves = std::ranges::any_of(
@@ -105,7 +141,7 @@ process::Plan plan(const scene::Scene& scene) {
                   : "no static stage of the scene's laws follows elastic gravity; what lies "
                     "outside the surfaces stays as a constant stress",
               "/fem/stages"),
-        on_if(!plastic.empty(), "plasticity", "Mohr-Coulomb in " + plastic, "no Mohr-Coulomb soil",
+        on_if(!plastic.empty(), "plasticity", plastic, "no material flows plastically",
               "/materials"),
         on_if(!softening.empty(), "softening",
               "in " + softening + "; explicit per step, so shear bands are one element wide",

@@ -6,10 +6,7 @@
 namespace breach::fem {
 
 /// Raised when the numbers change for the same input: the cache takes no result of another one.
-inline constexpr int numerics = 3;
-
-/// Asks for the table of profile.hpp on stdout (the log where stdout carries JSON lines).
-inline constexpr const char* profile_switch = "--profile";
+inline constexpr int numerics = 4;
 
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
 process::Outcome run(process::Session& session);

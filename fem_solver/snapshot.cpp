@@ -60,9 +60,9 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         s.epsilon_q.push_back(mechanics::epsilon_q(motion.strain[p]));
         s.epsilon_q_plastic.push_back(motion.points[p].epsilon_q);
     }
-    // PM4Sand has no elastic range to tell plastic strain from: its total strain drives softening.
+    // A law without an elastic range cannot tell plastic strain: its total strain drives softening.
     for (const Zone& zone : model.zones) {
-        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        if (materials::traits(zone.law).tells_plastic_strain) continue;
         const std::size_t begin = zone.first * model.points_per_element;
         const std::size_t end =
             std::min(points, (zone.first + zone.count) * model.points_per_element);

@@ -1,6 +1,9 @@
 #include "lem_tool/analysis.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 
 #include "core/exchange/archive.hpp"
@@ -65,6 +68,42 @@ void write_table(process::Session& session, const std::string& kind, const std::
     stream.close();
     if (!stream) throw fault::IoError(file.string() + ": cannot be written");
     session.announce(file, {{"kind", kind}});
+}
+
+std::string spelt(const char* format, double value) {
+    char words[48];
+    std::snprintf(words, sizeof words, format, value);
+    return words;
+}
+
+std::string place(const json& point) {
+    return spelt("(%.4g, ", point[0]) + spelt("%.4g)", point[1]);
+}
+
+std::string other_methods(const json& facts) {
+    std::string words;
+    if (const json& spencer = facts.at("spencer"); !spencer.is_null())
+        words += spelt("; Spencer %.3f", spencer.at("factor_of_safety"));
+    if (const json& ordinary = facts.at("ordinary"); !ordinary.is_null())
+        words += spelt("; Ordinary %.3f", ordinary.at("factor_of_safety"));
+    return words;
+}
+
+/// The answer in words, for whoever reads the log and not result.json.
+void say(const json& result) {
+    const double F = result.at("factor_of_safety");
+    spdlog::info("least factor of safety {:.3f} (simplified Bishop{}): {}", F,
+                 other_methods(result), F < 1.0 ? "the slope fails" : "the slope stands");
+    spdlog::info("its circle about {}, radius {:.4g} m, enters at {}, leaves at {}, lowest at {}",
+                 place(result.at("circle").at("center")),
+                 result.at("circle").at("radius").get<double>(), place(result.at("entry")),
+                 place(result.at("exit")), place(result.at("lowest_point")));
+    if (!result.contains("stages")) return;
+    for (const json& stage : result.at("stages"))
+        spdlog::info("liquefied to {:.4g} m: factor of safety {:.3f}",
+                     stage.at("liquefied_depth").get<double>(),
+                     stage.at("factor_of_safety").get<double>());
+    spdlog::info("critical depth {:.4g} m", result.at("critical_depth").get<double>());
 }
 
 }  // namespace
@@ -149,6 +188,8 @@ process::Outcome run(process::Session& session) {
     if (!lem.liquefaction.empty()) {
         add_stages(scene, model, found, threads, result);
         write_table(session, "stages", table_of(result.at("stages")));
+        for (fault::Flag& each : flags_of_stages(result.at("stages")))
+            session.flag(std::move(each));
     }
     if (lem.sensitivity) add_sensitivity(scene, threads, result);
     if (lem.probability) {
@@ -157,6 +198,7 @@ process::Outcome run(process::Session& session) {
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
     result["seconds"] = took.count();
+    say(result);
     session.progress(1.0, "factor of safety " + result["factor_of_safety"].dump());
     return process::Outcome::done;
 }

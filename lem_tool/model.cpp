@@ -1,24 +1,15 @@
-#include <cmath>
-#include <variant>
-
 #include "lem_tool/search.hpp"
 
 namespace breach::lem {
 
 namespace {
 
-struct AsSoil {
-    Soil operator()(const materials::LinearElastic&) const {
-        return {0.0, 0.0, 0.0, Soil::Passage::closed};
-    }
-    Soil operator()(const materials::MohrCoulomb& law) const {
-        return {law.c, std::tan(law.phi), 0.0, Soil::Passage::open};
-    }
-    /// Sand at critical state: friction alone.
-    Soil operator()(const materials::PM4Sand& law) const {
-        return {0.0, std::tan(law.ready.parameters.phi_cv), 0.0, Soil::Passage::open};
-    }
-};
+/// No surface passes through what cannot fail.
+Soil soil_of(const materials::Law& law) {
+    const auto strength = materials::limit_strength(law);
+    if (!strength) return {0.0, 0.0, 0.0, Soil::Passage::closed};
+    return {strength->c, strength->tan_phi, 0.0, Soil::Passage::open};
+}
 
 /// phi = 0; r_u still says what sigma'_v0 was.
 void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soils) {
@@ -33,7 +24,7 @@ Model make_model(const scene::Scene& scene) {
     const scene::Lem& lem = scene::lem_of(scene);
     Model model{make_strata(scene), {}, lem.slices, lem.seismic_coefficient};
     for (const scene::Region& region : scene.section.regions) {
-        model.soils.push_back(std::visit(AsSoil{}, scene.materials[region.material].law));
+        model.soils.push_back(soil_of(scene.materials[region.material].law));
     }
     for (const scene::PorePressureRatio& each : lem.pore_pressure_ratios) {
         model.soils[each.region].r_u = each.r_u;

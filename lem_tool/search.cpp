@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "lem_tool/blocks.hpp"
+#include "core/numerics/blocks.hpp"
 #include "lem_tool/simplex.hpp"
 #include "lem_tool/slip_circle.hpp"
 
@@ -149,7 +149,8 @@ class Search {
         std::vector<Probe> probes;
         probes.reserve(starts.size());
         for (std::size_t i = 0; i < starts.size(); ++i) probes.push_back(probe(model_.slices));
-        run_blocks(starts.size(), threads_, [&](std::size_t i) { follow(starts[i], probes[i]); });
+        numerics::run_blocks(starts.size(), threads_,
+                             [&](std::size_t i) { follow(starts[i], probes[i]); });
         for (const Probe& each : probes) {
             result_.tally += each.tally();
             const bool lower =
@@ -176,7 +177,7 @@ class Search {
         const auto exits = static_cast<std::size_t>(ranges_.exit_points);
         pairs_.resize(entries * exits);
         std::vector<Tally> tallies(entries);
-        run_blocks(entries, threads_, [&](std::size_t i) {
+        numerics::run_blocks(entries, threads_, [&](std::size_t i) {
             Probe here = probe(std::min(model_.slices, coarse_slices));
             for (std::size_t j = 0; j < exits; ++j) {
                 pairs_[i * exits + j] =

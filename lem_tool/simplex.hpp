@@ -4,14 +4,13 @@
 #include <array>
 #include <functional>
 
+#include "core/numerics/simplex.hpp"
+
 namespace breach::lem {
 
-struct Corner {
-    std::array<double, 3> at;
-    double value;
-};
+using Corner = numerics::Corner<std::array<double, 3>>;
 
-/// Nelder & Mead (1965) from `start` with edges `step`; variables with step 0 stay. Coordinates are
+/// Nelder and Mead from `start` with edges `step`; variables with step 0 stay. Coordinates are
 /// kept in [0, 1] by clamping. Started afresh around its own answer, mirrored, until a start gains
 /// less than `gain` relative: kinked valleys (a circle that touches a layer) collapse a simplex
 /// before its time.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/mechanics/atmosphere.hpp"
 #include "core/scene/scene.hpp"
 #include "lem_tool/strata.hpp"
 
@@ -45,7 +46,7 @@ struct Soil {
     double exponent = 1.0;     ///< [-]
 };
 
-inline constexpr double p_a = 101325.0;  // [Pa]
+inline constexpr double p_a = mechanics::standard_atmosphere;  // [Pa]
 
 /// Slices from left to right, one array per quantity; `resize`d once, then only `count` changes.
 struct Slices {

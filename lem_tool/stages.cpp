@@ -16,8 +16,9 @@ double bottom_of(const scene::Region& region) {
     return scene::bounding_box(region.polygon).low.y();
 }
 
-/// Depth at which F falls through 1, linear between the stages around it.
+/// Depth at which F falls through 1, linear between the stages around it; 0 when it begins below.
 json depth_at_one(const json& stages) {
+    if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
     for (std::size_t i = 1; i < stages.size(); ++i) {
         const double before = stages[i - 1].at("factor_of_safety");
         const double after = stages[i].at("factor_of_safety");
@@ -27,6 +28,19 @@ json depth_at_one(const json& stages) {
         return from + (to - from) * (before - 1.0) / (before - after);
     }
     return nullptr;
+}
+
+/// Depth of the lowest point of the stage with the least F; 0 when the slope fails without any
+/// liquefaction, because then nothing has to liquefy.
+double critical_depth(const json& stages) {
+    if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
+    const auto lowest =
+        std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
+            // a stage that repeats the minimum adds nothing: the earlier one counts
+            return a.at("factor_of_safety").get<double>() <
+                   b.at("factor_of_safety").get<double>() * (1.0 - 1e-6);
+        });
+    return lowest->at("lowest_point_depth");
 }
 
 }  // namespace
@@ -52,16 +66,30 @@ void add_stages(const scene::Scene& scene, const Model& sound, const SearchResul
         analysed += found.tally.analysed;
         stages.push_back(stage);
     }
-    const auto lowest =
-        std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
-            // a stage that repeats the minimum adds nothing: the earlier one counts
-            return a.at("factor_of_safety").get<double>() <
-                   b.at("factor_of_safety").get<double>() * (1.0 - 1e-6);
-        });
     result["stages"] = stages;
-    result["critical_depth"] = lowest->at("lowest_point_depth");
+    result["critical_depth"] = critical_depth(stages);
     result["depth_at_fs_1"] = depth_at_one(stages);
     result["surfaces_analysed_in_stages"] = analysed;
+}
+
+std::vector<fault::Flag> flags_of_stages(const json& stages) {
+    const double dry = stages.front().at("factor_of_safety");
+    double least = dry;
+    for (const json& stage : stages)
+        least = std::min(least, stage.at("factor_of_safety").get<double>());
+    std::ostringstream words;
+    words.precision(3);
+    if (dry < 1.0) {
+        words << "the factor of safety is " << dry
+              << " before any layer has liquefied: the slope fails as it stands, critical_depth is "
+                 "0 and every trigger on it fires at once; check strength and water";
+        return {{"fails_unliquefied", fault::Severity::warning, words.str(), "/lem"}};
+    }
+    if (least < 1.0) return {};
+    words << "the factor of safety is " << least
+          << " at least with every layer liquefied: critical_depth is where that surface lies, not "
+             "a depth at which the slope fails";
+    return {{"stands_liquefied", fault::Severity::warning, words.str(), "/lem/liquefaction"}};
 }
 
 std::string table_of(const json& stages) {

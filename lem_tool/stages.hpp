@@ -12,6 +12,10 @@ namespace breach::lem {
 void add_stages(const scene::Scene& scene, const Model& sound, const SearchResult& unliquefied,
                 int threads, nlohmann::json& result);
 
+/// What a reader of the critical depth must know: that the slope fails without liquefaction, or
+/// stands with all of it.
+std::vector<fault::Flag> flags_of_stages(const nlohmann::json& stages);
+
 /// The stages as a table with one line per stage.
 std::string table_of(const nlohmann::json& stages);
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "lem_tool/blocks.hpp"
+#include "core/numerics/blocks.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/hypercube.hpp"
 
@@ -27,10 +27,10 @@ void scale(scene::UndrainedStrength& strength, double factor) {
 void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double factor) {
     switch (parameter) {
         case Parameter::cohesion:
-            std::get<materials::MohrCoulomb>(scene.materials[of].law).c *= factor;
+            *materials::strength_entries(scene.materials[of].law).c *= factor;
             break;
         case Parameter::friction_angle: {
-            double& phi = std::get<materials::MohrCoulomb>(scene.materials[of].law).phi;
+            double& phi = *materials::strength_entries(scene.materials[of].law).phi;
             phi = std::min(phi * factor, steepest_friction);
             break;
         }
@@ -124,9 +124,11 @@ struct Strength {
 std::vector<Strength> strengths_of(const scene::Scene& scene, std::size_t layers) {
     std::vector<Strength> strengths;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const auto* law = std::get_if<materials::MohrCoulomb>(&scene.materials[i].law);
-        if (law && law->c > 0.0) strengths.push_back({Parameter::cohesion, i});
-        if (law && law->phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
+        const materials::Law& law = scene.materials[i].law;
+        if (!materials::traits(law).c_and_phi) continue;
+        const auto strength = materials::limit_strength(law);
+        if (strength->c > 0.0) strengths.push_back({Parameter::cohesion, i});
+        if (strength->tan_phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
     }
     for (std::size_t i = 0; i < scene.lem->undrained.size(); ++i) {
         strengths.push_back({Parameter::undrained_strength, i});
@@ -172,7 +174,7 @@ void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
     const Variations variations(scene, asked.surface, asked.layers_liquefied, threads);
     const std::vector<Strength> strengths = strengths_of(scene, asked.layers_liquefied);
     std::vector<double> factors(2 * strengths.size());
-    run_blocks(factors.size(), threads, [&](std::size_t n) {
+    numerics::run_blocks(factors.size(), threads, [&](std::size_t n) {
         scene::Scene varied = scene;
         const Strength& strength = strengths[n / 2];
         vary(varied, strength.parameter, strength.of, 1.0 + (n % 2 ? asked.change : -asked.change));
@@ -203,7 +205,7 @@ Samples add_probability(const scene::Scene& scene, int threads, json& result) {
         for (double& x : column) x = factor_at(variable, x);
         samples.factors.push_back(std::move(column));
     }
-    run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {
+    numerics::run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {
         for (std::size_t i = n * block; i < std::min(count, (n + 1) * block); ++i) {
             scene::Scene varied = scene;
             for (std::size_t v = 0; v < asked.variables.size(); ++v) {

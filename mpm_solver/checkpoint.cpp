@@ -9,7 +9,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 5;
+constexpr int version = 6;
 constexpr const char* records_prefix = "records.";
 
 /// The numbers of the run that are not per point. Calls visit(name, value).

@@ -4,16 +4,19 @@
 
 int main(int argc, char** argv) {
     using namespace breach;
-    return process::run_phase(
-        argc, argv,
-        {.name = "mpm_solver",
-         .purpose =
-             "Runout of a failing mass by the material point method (plane strain, explicit)",
-         .inputs = {.least = 0,
-                    .most = 1,
-                    .what = "points from transfer_tool (.vtkhdf); without them the section is "
-                            "filled with points at rest"},
-         .plan = mpm::plan,
-         .run = mpm::run,
-         .numerics = mpm::numerics});
+    process::Phase phase{
+        .name = "mpm_solver",
+        .purpose = "Runout of a failing mass by the material point method (plane strain, explicit)",
+        .inputs = {.least = 0,
+                   .most = 1,
+                   .what = "points from transfer_tool (.vtkhdf); without them the section is "
+                           "filled with points at rest"},
+        .plan = mpm::plan,
+        .run = mpm::run,
+        .numerics = mpm::numerics};
+    phase.switches.push_back({.name = "--until-rest",
+                              .purpose = "run until the soil rests, at most for "
+                                         "/mpm/longest_duration: --set /mpm/duration=until_rest",
+                              .sets = "/mpm/duration=until_rest"});
+    return process::run_phase(argc, argv, phase);
 }

@@ -17,10 +17,10 @@ std::string text_of(double value) {
     return text.str();
 }
 
-void plan_softening(const scene::Scene& scene, const std::string& name,
-                    const materials::MohrCoulomb& law, Plan& plan) {
+void plan_softening(const scene::Scene& scene, const std::string& name, const materials::Law& law,
+                    Plan& plan) {
     const std::string pointer = "/materials/" + name + "/law/softening";
-    if (!law.softening) {
+    if (!materials::softening(law)) {
         plan.push_back({"softening of " + name, Use::left_out,
                         "the law has none: its strength is constant", pointer});
         return;
@@ -45,21 +45,21 @@ void plan_viscosity(const scene::Material& material, Plan& plan) {
 process::PlanLine plan_anti_locking(const scene::Mpm& mpm, const scene::Material& soil) {
     const std::string pointer = "/mpm/anti_locking";
     const std::string what = "anti-locking of " + soil.name;
-    const bool plastic = std::holds_alternative<materials::MohrCoulomb>(soil.law);
+    const Use use = averages_of(mpm, soil.law) == Averages::per_cell ? Use::on : Use::left_out;
     switch (mpm.anti_locking) {
         case scene::AntiLocking::on:
-            return {what, Use::on,
+            return {what, use,
                     "volumetric increment and mean stress averaged per cell and material", pointer};
         case scene::AntiLocking::off:
-            return {what, Use::left_out, "switched off", pointer};
-        default:
+            return {what, use, "switched off", pointer};
+        case scene::AntiLocking::automatic:
             break;
     }
-    const bool on = plastic || materials::elasticity(soil.law).nu > locking_nu;
-    return {what, on ? Use::on : Use::left_out,
-            plastic ? "plastic flow keeps its volume"
-            : on    ? "nearly incompressible"
-                    : "elastic and compressible: it does not lock, averaging would take energy",
+    return {what, use,
+            materials::traits(soil.law).yields ? "plastic flow keeps its volume"
+            : use == Use::on
+                ? "nearly incompressible"
+                : "elastic and compressible: it does not lock, averaging would take energy",
             pointer};
 }
 
@@ -67,20 +67,17 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
     for (const scene::Material& material : scene.materials) {
         const std::string pointer = "/materials/" + material.name + "/law";
         plan_viscosity(material, plan);
-        if (std::holds_alternative<materials::PM4Sand>(material.law)) {
+        const materials::Traits law = materials::traits(material.law);
+        const std::string name = law.name;
+        if (!materials::is_for_particles(material.law)) {
             plan.push_back({"law of " + material.name, Use::left_out,
-                            "PM4Sand belongs to the FEM: no particle may have it", pointer});
+                            name + " belongs to the FEM: no particle may have it", pointer});
             continue;
         }
         plan.push_back(plan_anti_locking(*scene.mpm, material));
-        const auto* mohr_coulomb = std::get_if<materials::MohrCoulomb>(&material.law);
-        if (!mohr_coulomb) {
-            plan.push_back({"law of " + material.name, Use::on, "linear elastic", pointer});
-            continue;
-        }
-        plan.push_back(
-            {"law of " + material.name, Use::on, "Mohr-Coulomb with tension cut-off", pointer});
-        plan_softening(scene, material.name, *mohr_coulomb, plan);
+        plan.push_back({"law of " + material.name, Use::on,
+                        law.opens ? name + " with tension cut-off" : name, pointer});
+        if (law.yields) plan_softening(scene, material.name, material.law, plan);
     }
     plan.push_back({"dispatch of laws", scene.materials.size() > 1 ? Use::on : Use::left_out,
                     scene.materials.size() > 1
@@ -140,9 +137,8 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
 
 void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
     const bool opens = std::any_of(
-        scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
-            return std::holds_alternative<materials::MohrCoulomb>(material.law);
-        });
+        scene.materials.begin(), scene.materials.end(),
+        [](const scene::Material& material) { return materials::traits(material.law).opens; });
     const bool closes = opens && scene.mpm->gap_closure;
     plan.push_back({"gap closure after tension", closes ? Use::on : Use::left_out,
                     !opens    ? "no law opens in tension"
@@ -177,6 +173,23 @@ void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {
     wall("right", mpm.right);
 }
 
+void plan_end(const scene::Mpm& mpm, Plan& plan) {
+    const scene::Rest& rest = mpm.rest;
+    plan.push_back(
+        {"run until rest", mpm.until_rest ? Use::on : Use::left_out,
+         (mpm.until_rest ? "asked for, at most " : "soil that still moves is cut off at ") +
+             text_of(mpm.duration) + " s",
+         "/mpm/duration"});
+    plan.push_back({"end at rest", Use::on,
+                    "front still within " + text_of(rest.change) + " m over " +
+                        text_of(rest.window) + " s, not before " + text_of(rest.earliest) +
+                        " s; kinetic energy below " + text_of(100.0 * rest.kinetic_share) +
+                        " % of what is released and " + text_of(100.0 * rest.peak_share) +
+                        " % of its peak; no body of " + text_of(100.0 * rest.body_share) +
+                        " % of the soil faster than " + text_of(rest.speed) + " m/s",
+                    "/mpm/rest_window"});
+}
+
 }  // namespace
 
 Plan plan(const scene::Scene& scene) {
@@ -186,6 +199,7 @@ Plan plan(const scene::Scene& scene) {
     plan_scheme(mpm, plan);
     plan_gap_closure(scene, plan);
     plan_boundaries(mpm, plan);
+    plan_end(mpm, plan);
     plan.push_back({"total epsilon_q", Use::on, "for pictures; softening has its own", "/mpm"});
     plan.push_back({"active nodes only", Use::on, "empty cells cost nothing", "/mpm/domain_x"});
     plan.push_back(

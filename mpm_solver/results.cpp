@@ -1,9 +1,13 @@
 #include "mpm_solver/results.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
+#include "mpm_solver/measure/doubts.hpp"
 
 namespace breach::mpm {
 
@@ -59,7 +63,29 @@ json gauges_json(const Simulation& simulation) {
     return result;
 }
 
-void conclude(Session& session, const Simulation& simulation, double speed) {
+json rest_json(const scene::Mpm& mpm, const Ending& ending) {
+    return {{"change", mpm.rest.change},
+            {"window", mpm.rest.window},
+            {"earliest", mpm.rest.earliest},
+            {"speed", mpm.rest.speed},
+            {"longest_duration", mpm.duration},
+            {"moving", ending.moving ? json(*ending.moving) : json(nullptr)}};
+}
+
+Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
+    const Row& row = simulation.last_row();
+    const double scale = simulation.scale_of_energy();
+    const auto share = [&](double J) { return scale > 0.0 ? J / scale : 0.0; };
+    return {.time = simulation.clock().time,
+            .moving = simulation.moving(),
+            .kinetic_share = share(row.kinetic_mobile),
+            .numerical_share = share(row.energy_numerical),
+            .volume_ratio = row.volume_ratio,
+            .overlap = row.overlap,
+            .until_rest = mpm.until_rest};
+}
+
+void conclude(Session& session, const Simulation& simulation, const Ending& ending, double speed) {
     const Row& row = simulation.last_row();
     const Clock& clock = simulation.clock();
     const scene::Mpm& mpm = *session.scene().mpm;
@@ -73,7 +99,10 @@ void conclude(Session& session, const Simulation& simulation, double speed) {
     result["area_beyond_toe"] = row.area_beyond_toe;
     result["gauges"] = gauges_json(simulation);
     result["at_rest"] = simulation.verdict() == Verdict::rests;
+    result["ended"] = simulation.verdict() == Verdict::rests ? "at_rest" : "duration";
     result["end_time"] = clock.time;
+    result["kinetic_share"] = ending.kinetic_share;
+    result["rest"] = rest_json(mpm, ending);
     result["transfer_time"] = clock.transfer_time;
     result["energy"] = energy_json(simulation, row);
     result["volume_ratio"] = row.volume_ratio;
@@ -99,21 +128,50 @@ void write_history(const Session& session, const Simulation& simulation) {
 
 /// The deposit as a table: for other programs, and for the eye.
 void write_profile(Session& session, const Simulation& simulation) {
-    const std::vector<double> places = profile_places(simulation.view());
+    const FlowView& view = simulation.view();
+    const Points& points = simulation.body().points;
+    const Grid& grid = simulation.body().grid;
+    const std::vector<double> places = profile_places(view);
     const std::vector<Flow> profile = simulation.profile();
+    std::vector<double> bottom(places.size(), session.scene().mpm->floor.level);
+    for (std::size_t k = 0; grid.terrain && k < places.size(); ++k)
+        bottom[k] = grid.terrain->level(places[k]);
+    const std::vector<double> ground = ground_profile(points, view, std::move(bottom));
+    const std::vector<double> surface = surface_profile(points, view, ground);
     std::ostringstream table;
     table.precision(10);
-    const Grid& grid = simulation.body().grid;
-    const double floor = session.scene().mpm->floor.level;
-    table << "x_m,ground_m,depth_m,velocity_m_per_s\n";
+    table << "x_m,ground_m,depth_m,surface_m,velocity_m_per_s\n";
     for (std::size_t k = 0; k < places.size(); ++k) {
-        const double ground = grid.terrain ? grid.terrain->level(places[k]) : floor;
-        table << places[k] << "," << ground << "," << profile[k].depth << "," << profile[k].velocity
-              << "\n";
+        table << places[k] << "," << ground[k] << "," << profile[k].depth << "," << surface[k]
+              << "," << profile[k].velocity << "\n";
     }
     const auto file = session.output("profile.csv");
     exchange::publish_text(file, table.str());
     session.announce(file, {{"kind", "profile"}, {"time", simulation.clock().time}});
+}
+
+/// What a person wants to know first, for the log.
+void say(const Session& session, const Ending& ending, const Row& row) {
+    std::string flags;
+    for (const fault::Flag& each : session.flags())
+        flags += (flags.empty() ? "" : ", ") + each.code + " (" + name_of(each.severity) + ")";
+    char text[512];
+    std::snprintf(text, sizeof text,
+                  "runout %.2f m: 99 %% of the mobile soil lies at most so far beyond the toe; of "
+                  "what lies beyond it %.2f m; farthest grain %.2f m",
+                  row.runout, row.runout_beyond_toe, row.runout_largest);
+    spdlog::info("{}", text);
+    if (ending.moving) {
+        spdlog::warn("ended at {:.2f} s, STILL MOVING: {}", ending.time, *ending.moving);
+    } else {
+        spdlog::info("at rest at {:.2f} s", ending.time);
+    }
+    std::snprintf(text, sizeof text,
+                  "volume ratio %.3f, numerical share of the released energy %+.1f %%, overlap "
+                  "%.1f %%; flags: %s",
+                  row.volume_ratio, 100.0 * ending.numerical_share, 100.0 * row.overlap,
+                  flags.empty() ? "none" : flags.c_str());
+    spdlog::info("{}", text);
 }
 
 }  // namespace
@@ -121,7 +179,10 @@ void write_profile(Session& session, const Simulation& simulation) {
 void write_results(Session& session, const Simulation& simulation, double speed) {
     write_history(session, simulation);
     write_profile(session, simulation);
-    conclude(session, simulation, speed);
+    const Ending ending = ending_of(*session.scene().mpm, simulation);
+    conclude(session, simulation, ending, speed);
+    for (fault::Flag& each : doubts_of(ending)) session.flag(std::move(each));
+    say(session, ending, simulation.last_row());
 }
 
 }  // namespace breach::mpm

@@ -99,7 +99,9 @@ void show_progress(Session& session, const Simulation& simulation) {
     const double time = simulation.clock().time;
     char message[64];
     std::snprintf(message, sizeof message, "t = %.2f s", time);
-    session.progress(time / session.scene().mpm->duration, message);
+    const scene::Mpm& mpm = *session.scene().mpm;
+    // When soil will rest nobody knows: the share then only grows towards 1.
+    session.progress(time / (mpm.until_rest ? time + mpm.rest.earliest : mpm.duration), message);
 }
 
 void look_and_write(Session& session, Simulation& simulation) {

@@ -84,6 +84,7 @@ const Row& Simulation::look() {
          .runout_front = front - toe_x,
          .area_beyond_toe = runout.volume_beyond / scene_.thickness,
          .kinetic_energy = now.kinetic,
+         .kinetic_mobile = kinetic_energy_of(body_.points, view_.mobile),
          .gravitational_energy = now.gravitational,
          .elastic_energy = now.elastic,
          .plastic_dissipation = now.plastic,
@@ -100,6 +101,7 @@ const Row& Simulation::look() {
         break_down(*complaint);
     }
     if (const auto complaint = ground_complaint(body_)) break_down(*complaint);
+    moving_ = why_moving(records_.history, start_.energy, body_, view_.mobile, mpm_.rest);
     const double interval = mpm_.telemetry_interval;
     clock_.looks =
         interval > 0.0 ? static_cast<std::int64_t>(std::floor(clock_.time / interval)) + 1 : 0;
@@ -108,8 +110,14 @@ const Row& Simulation::look() {
 }
 
 Verdict Simulation::verdict() const {
-    if (at_rest(records_.history, mpm_)) return Verdict::rests;
+    if (!moving_) return Verdict::rests;
     return clock_.time >= mpm_.duration ? Verdict::time_is_up : Verdict::goes_on;
+}
+
+double Simulation::scale_of_energy() const {
+    const Energy now{.gravitational = last_row().gravitational_energy};
+    return energy_scale(mpm_.rest, released(start_.energy, now),
+                        mass_of(body_.points, view_.mobile));
 }
 
 exchange::ParticleState Simulation::stamped(const Points& points, double time,

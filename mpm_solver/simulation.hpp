@@ -10,6 +10,7 @@
 #include "mpm_solver/measure/guard.hpp"
 #include "mpm_solver/measure/history.hpp"
 #include "mpm_solver/measure/overlap.hpp"
+#include "mpm_solver/measure/rest.hpp"
 #include "mpm_solver/measure/runout.hpp"
 
 namespace breach::mpm {
@@ -57,6 +58,10 @@ class Simulation {
     /// Measures, checks the budget (throws Breakdown) and adds a row to the history.
     const Row& look();
     Verdict verdict() const;
+    /// Why the soil was not at rest at the last look; empty: it was.
+    const std::optional<std::string>& moving() const { return moving_; }
+    /// What energies at the end are measured by, see energy_scale [J].
+    double scale_of_energy() const;
 
     const Body& body() const { return body_; }
     const Clock& clock() const { return clock_; }
@@ -86,6 +91,7 @@ class Simulation {
     OverlapMeter overlap_;
     Limits limits_;
     LastGood last_good_;
+    std::optional<std::string> moving_ = "nobody has looked yet";
 };
 
 }  // namespace breach::mpm

@@ -1,6 +1,6 @@
 #include "transfer_tool/dense_system.hpp"
 
-#include "transfer_tool/share.hpp"
+#include "core/numerics/blocks.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -46,7 +46,7 @@ Solved solve_in_place(MatrixXd& A, MatrixXd& B, int threads, const Watch& watch)
         // A column's sums do not depend on which columns are worked on beside it, as long as the
         // parts begin at multiples of the block.
         const auto blocks = static_cast<std::size_t>((N - k - b + block - 1) / block);
-        share(blocks, threads, [&](std::size_t begin, std::size_t end, std::size_t) {
+        numerics::run_parts(blocks, threads, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 const Index from = k + b + static_cast<Index>(i) * block;
                 update_columns(A, k, b, from, std::min(from + block, N));

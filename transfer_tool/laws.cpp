@@ -20,9 +20,8 @@ void start_softening(scene::SofteningStart start, std::span<const materials::Law
     for (std::size_t p = 0; p < state.size(); ++p) {
         if (start == scene::SofteningStart::zero) state.epsilon_q_plastic[p] = 0.0;
         if (start == scene::SofteningStart::zero) continue;
-        const auto* law = std::get_if<materials::MohrCoulomb>(&laws[state.region[p]]);
-        if (law != nullptr && law->softening &&
-            law->softening->driver == materials::SofteningDriver::total)
+        const auto* softening = materials::softening(laws[state.region[p]]);
+        if (softening != nullptr && softening->driver == materials::SofteningDriver::total)
             state.epsilon_q_plastic[p] = state.epsilon_q[p];
     }
 }
@@ -39,10 +38,9 @@ std::vector<SofteningShare> softening_of(std::span<const materials::Law> laws,
     }
     std::vector<SofteningShare> softening;
     for (std::size_t i = 0; i < laws.size(); ++i) {
-        const auto* law = std::get_if<materials::MohrCoulomb>(&laws[i]);
-        if (law == nullptr || !law->softening || mass[i] == 0.0) continue;
-        softening.push_back(
-            {i, law->softening->driver, shares[i].mean / mass[i], shares[i].largest});
+        const auto* own = materials::softening(laws[i]);
+        if (own == nullptr || mass[i] == 0.0) continue;
+        softening.push_back({i, own->driver, shares[i].mean / mass[i], shares[i].largest});
     }
     return softening;
 }
@@ -51,16 +49,15 @@ YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
                                     exchange::ParticleState& state) {
     YieldReport report;
     for (std::size_t p = 0; p < state.size(); ++p) {
-        const auto* law = std::get_if<materials::MohrCoulomb>(&laws[state.region[p]]);
-        if (law == nullptr) continue;
+        const materials::Law& law = laws[state.region[p]];
         const materials::State old{state.stress[p], state.epsilon_q_plastic[p]};
-        const double excess = materials::yield_excess(*law, old);
+        const double excess = materials::yield_excess(law, old);
         if (excess <= 0.0) continue;
         if (excess > round_off * old.sigma.norm()) {
             ++report.returned;
             report.largest_excess = std::max(report.largest_excess, excess);
         }
-        state.stress[p] = materials::integrate(*law, old, mechanics::Voigt::Zero()).state.sigma;
+        state.stress[p] = materials::return_to_surface(law, old);
     }
     return report;
 }

@@ -14,24 +14,30 @@ std::vector<const scene::Material*> materials_of_points(const scene::Scene& scen
     std::vector<const scene::Material*> materials;
     for (const scene::Soil& soil : scene::soils_of(scene)) {
         const scene::Material* material = &scene.materials[soil.material];
-        if (std::ranges::find(materials, material) == materials.end())
+        if (materials::is_for_particles(material->law) &&
+            std::ranges::find(materials, material) == materials.end())
             materials.push_back(material);
     }
     return materials;
 }
 
-bool yields(const scene::Material* material) {
-    return std::holds_alternative<materials::MohrCoulomb>(material->law);
-}
+bool yields(const scene::Material* material) { return materials::traits(material->law).yields; }
 
 bool softens(const scene::Material* material) {
-    const auto* law = std::get_if<materials::MohrCoulomb>(&material->law);
-    return law != nullptr && law->softening.has_value();
+    return materials::softening(material->law) != nullptr;
 }
 
-bool rubs(const scene::Material* material) {
-    const auto* law = std::get_if<materials::MohrCoulomb>(&material->law);
-    return law != nullptr && law->phi > 0.0;
+bool rubs(const scene::Material* material) { return materials::traits(material->law).frictional; }
+
+/// "Mohr-Coulomb, ...": the laws that yield, each once.
+std::string names_of_yielding(const scene::Scene& scene) {
+    std::string names;
+    for (const scene::Material* material : materials_of_points(scene)) {
+        const std::string name = materials::traits(material->law).name;
+        if (!yields(material) || names.find(name) != std::string::npos) continue;
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    return names;
 }
 
 PlanLine stress_line(const scene::Scene& scene, const scene::Transfer& settings) {
@@ -125,9 +131,9 @@ PlanLine softening_line(const scene::Scene& scene, const scene::Transfer& settin
 
 process::Plan plan(const scene::Scene& scene) {
     const scene::Transfer& settings = scene::transfer_of(scene);
-    const bool any_yields = std::ranges::any_of(materials_of_points(scene), yields);
-    return {{"return to the yield surface", any_yields ? Use::on : Use::left_out,
-             any_yields ? "a Mohr-Coulomb material" : "all materials are elastic", "/materials"},
+    const std::string yielding = names_of_yielding(scene);
+    return {{"return to the yield surface", yielding.empty() ? Use::left_out : Use::on,
+             yielding.empty() ? "all materials are elastic" : "of " + yielding, "/materials"},
             softening_line(scene, settings),
             gauss_line(settings),
             interpolation_line(settings),

@@ -7,7 +7,7 @@
 #include <nanoflann.hpp>
 
 #include "core/fault/fault.hpp"
-#include "transfer_tool/share.hpp"
+#include "core/numerics/blocks.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -105,21 +105,22 @@ std::optional<Interpolated> interpolate_locally(const Task& task, std::size_t ne
                         none};
     std::mutex reporting;
     std::atomic<bool> stopped = false;
-    share(task.to.region.size(), work.threads,
-          [&](std::size_t begin, std::size_t end, std::size_t thread) {
-              GaussFieldReport own = none;
-              for (std::size_t g = begin; g < end && !stopped; ++g) {
-                  const double done =
-                      static_cast<double>(g - begin) / static_cast<double>(end - begin);
-                  if (thread == 0 && g % groups_between_looks == 0 && !work.watch.go_on(done))
-                      stopped = true;
-                  carry_group(task, neighbourhoods, g, result.value, own);
-              }
-              const std::lock_guard lock(reporting);
-              result.report.merged_centres += own.merged_centres;
-              result.report.smallest_neighbourhood =
-                  std::min(result.report.smallest_neighbourhood, own.smallest_neighbourhood);
-          });
+    numerics::run_parts(
+        task.to.region.size(), work.threads,
+        [&](std::size_t begin, std::size_t end, std::size_t thread) {
+            GaussFieldReport own = none;
+            for (std::size_t g = begin; g < end && !stopped; ++g) {
+                const double done =
+                    static_cast<double>(g - begin) / static_cast<double>(end - begin);
+                if (thread == 0 && g % groups_between_looks == 0 && !work.watch.go_on(done))
+                    stopped = true;
+                carry_group(task, neighbourhoods, g, result.value, own);
+            }
+            const std::lock_guard lock(reporting);
+            result.report.merged_centres += own.merged_centres;
+            result.report.smallest_neighbourhood =
+                std::min(result.report.smallest_neighbourhood, own.smallest_neighbourhood);
+        });
     if (stopped) return std::nullopt;
     return result;
 }
@@ -142,10 +143,11 @@ std::optional<Interpolated> interpolate_globally(const Task& task, const Work& w
     const auto interpolant =
         GlobalInterpolant::through(std::move(centres), work.threads, work.watch);
     if (!interpolant) return std::nullopt;
-    share(task.to.place.size(), work.threads, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t p = begin; p < end; ++p)
-            interpolant->at(task.to.place[p], result.value.row(static_cast<Eigen::Index>(p)));
-    });
+    numerics::run_parts(
+        task.to.place.size(), work.threads, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t p = begin; p < end; ++p)
+                interpolant->at(task.to.place[p], result.value.row(static_cast<Eigen::Index>(p)));
+        });
     return result;
 }
 

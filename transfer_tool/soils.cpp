@@ -12,9 +12,8 @@ using exchange::StressMeasure;
 
 /// Only a law with friction can tell an effective stress from a total one.
 StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
-    const auto* frictional = std::get_if<materials::MohrCoulomb>(&law);
-    const bool effective = frictional != nullptr && frictional->phi > 0.0 &&
-                           wanted == scene::TransferredStress::effective;
+    const bool effective =
+        materials::traits(law).frictional && wanted == scene::TransferredStress::effective;
     return effective ? StressMeasure::effective : StressMeasure::total;
 }
 
@@ -71,10 +70,11 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
                           measure_for(material.law, settings.stress)});
     }
     for (const std::size_t region : match) {
-        if (std::holds_alternative<materials::PM4Sand>(soils_[region].law))
+        if (const materials::Law& law = soils_[region].law; !materials::is_for_particles(law))
             faults.push_back(
                 {"/section/regions/" + std::to_string(region) + "/material",
-                 "\"" + soils_[region].material + "\" is pm4sand, which particles cannot have",
+                 "\"" + soils_[region].material + "\" is " + materials::traits(law).type +
+                     ", which particles cannot have",
                  "map \"" + soils_[region].region + "\" to another material in /transfer/mapping"});
         add_rule(scene, soils, region);
     }

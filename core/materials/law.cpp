@@ -2,21 +2,13 @@
 
 namespace breach::materials {
 
-Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon) {
-    return {{old.sigma + mechanics::elastic_stress(law.elasticity, d_epsilon), old.epsilon_q},
-            Voigt::Zero(),
-            Return::elastic};
-}
-
-Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon,
-                 Matrix4& tangent) {
-    tangent = mechanics::elastic_stiffness(law.elasticity);
-    return integrate(law, old, d_epsilon);
-}
-
-const mechanics::Elasticity& elasticity(const Law& law) {
-    return std::visit(
-        [](const auto& each) -> const mechanics::Elasticity& { return each.elasticity; }, law);
+Law scaled(Law law, double stiffness, double softening_strains) {
+    std::visit([&](auto& each) { each.elasticity.E *= stiffness; }, law);
+    if (Softening* softens = softening(law)) {
+        softens->epsilon_q_start *= softening_strains;
+        softens->epsilon_q_end *= softening_strains;
+    }
+    return law;
 }
 
 }  // namespace breach::materials

@@ -1,97 +1,78 @@
-// The list of all constitutive laws and the one way to call them. Laws are pure: (parameters,
-// state, strain increment) -> (new state[, tangent]); no I/O, nothing hidden. Dispatch is per zone:
-// visit the Law once, then loop over the zone's points with the concrete law.
+// The list of all constitutive laws and the one way to ask them. Laws are pure: (parameters, state,
+// strain increment) -> (new state[, tangent]); no I/O, nothing hidden. Dispatch is per zone: visit
+// the Law once, make it `ready`, then loop over the zone's points with the concrete law.
 #pragma once
 
-#include <optional>
+#include <concepts>
+#include <utility>
 #include <variant>
 
-#include "core/materials/pm4sand/pm4sand.hpp"
-#include "core/mechanics/elasticity.hpp"
-#include "core/mechanics/tensor.hpp"
+#include "core/materials/drucker_prager/drucker_prager.hpp"
+#include "core/materials/linear_elastic.hpp"
+#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
+#include "core/materials/pm4sand/law.hpp"
+#include "core/materials/traits.hpp"
 
 namespace breach::materials {
 
-using mechanics::Matrix4;
-using mechanics::Voigt;
+using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, PM4Sand>;
 
-struct LinearElastic {
-    mechanics::Elasticity elasticity;
-};
+template <class... Each>
+constexpr bool each_answers(const std::variant<Each...>*) {
+    return (Answers<Each> && ...);
+}
+static_assert(each_answers(static_cast<const Law*>(nullptr)),
+              "a law does not answer everything that traits.hpp lists");
 
-/// Which epsilon_q drives softening: plastic deviatoric strain, or total deviatoric strain.
-enum class SofteningDriver { plastic, total };
+/// The same answers of whichever law it is. (`IsLaw`: never by conversion from one of them.)
+template <class T>
+concept IsLaw = std::same_as<T, Law>;
 
-/// c and tan(phi) fall linearly from their peak at `start` to the residual values at `end` (Sordo
-/// et al. 2024).
-struct Softening {
-    double epsilon_q_start;   ///< [-]
-    double epsilon_q_end;     ///< [-], > start
-    double c_residual;        ///< [Pa]
-    double tan_phi_residual;  ///< [-]
-    SofteningDriver driver = SofteningDriver::plastic;
-};
+template <IsLaw L>
+Traits traits(const L& law) {
+    return std::visit([](const auto& each) { return traits(each); }, law);
+}
+template <IsLaw L>
+const mechanics::Elasticity& elasticity(const L& law) {
+    return std::visit(
+        [](const auto& each) -> const mechanics::Elasticity& { return each.elasticity; }, law);
+}
+template <IsLaw L>
+std::optional<Strength> limit_strength(const L& law) {
+    return std::visit([](const auto& each) { return limit_strength(each); }, law);
+}
+template <IsLaw L>
+const Softening* softening(const L& law) {
+    return std::visit([](const auto& each) { return softening(each); }, law);
+}
+template <IsLaw L>
+Softening* softening(L& law) {
+    return const_cast<Softening*>(softening(std::as_const(law)));
+}
+template <IsLaw L>
+StrengthEntries strength_entries(L& law) {
+    return std::visit([](auto& each) { return strength_entries(each); }, law);
+}
+template <IsLaw L>
+double yield_excess(const L& law, const State& state) {
+    return std::visit([&](const auto& each) { return yield_excess(each, state); }, law);
+}
+template <IsLaw L>
+Voigt return_to_surface(const L& law, const State& state) {
+    return std::visit([&](const auto& each) { return return_to_surface(each, state); }, law);
+}
+template <IsLaw L>
+std::optional<LawLanes> for_particles(const L& law) {
+    return std::visit([](const auto& each) { return for_particles(each); }, law);
+}
 
-/// Mohr-Coulomb with tension cut-off; sigma_1 - sigma_3 + (sigma_1 + sigma_3) sin phi <= 2 c cos
-/// phi, tension positive.
-struct MohrCoulomb {
-    mechanics::Elasticity elasticity;
-    double c;               ///< peak cohesion [Pa]
-    double phi;             ///< peak friction angle [rad]
-    double psi;             ///< dilatancy angle [rad]
-    double tension_cutoff;  ///< largest principal stress allowed [Pa], clipped to the cone's apex c
-                            ///< / tan(phi)
-    std::optional<Softening> softening;
-};
+/// Particles can have it.
+inline bool is_for_particles(const Law& law) { return for_particles(law).has_value(); }
 
-/// PM4Sand (pm4sand.hpp). Its points remember more than State holds: whoever runs it keeps a
-/// pm4sand::State beside it, whose stress State mirrors. There is no `integrate` for it here.
-struct PM4Sand {
-    mechanics::Elasticity elasticity;  ///< of the stages before pm4sand::initialise: G = G_0 p_atm
-    pm4sand::Ready ready;
-    pm4sand::Options options;
-};
+/// The law whose points remember a pm4sand::State, or null.
+inline const PM4Sand* sand_in(const Law& law) { return std::get_if<PM4Sand>(&law); }
 
-using Law = std::variant<LinearElastic, MohrCoulomb, PM4Sand>;
-
-/// What a point remembers. epsilon_q accumulates sqrt(2/3 de:de) of the law's softening driver
-/// (plastic strain unless the law says total).
-struct State {
-    Voigt sigma;             ///< effective stress [Pa]
-    double epsilon_q = 0.0;  ///< accumulated equivalent deviatoric strain [-]
-};
-
-/// Where on the yield surface a return ended.
-enum class Return { elastic, plane, edge_major, edge_minor, apex, tension };
-
-struct Update {
-    State state;
-    Voigt d_epsilon_plastic;  ///< plastic strain of the increment, engineering shear [-]
-    Return kind;
-};
-
-/// Strength in force at a given epsilon_q.
-struct Strength {
-    double c;        ///< [Pa]
-    double tan_phi;  ///< [-]
-};
-Strength strength(const MohrCoulomb& law, double epsilon_q);
-
-/// New state after the strain increment d_epsilon; softening is explicit (strength at the old
-/// epsilon_q).
-Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon);
-Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon);
-
-/// The same, and the consistent tangent d sigma / d epsilon [Pa] at fixed strength (not symmetric
-/// when psi != phi).
-Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon,
-                 Matrix4& tangent);
-Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon,
-                 Matrix4& tangent);
-
-/// Amount by which sigma lies outside the yield surface at this epsilon_q [Pa]; <= 0 inside.
-double yield_excess(const MohrCoulomb& law, const State& state);
-
-const mechanics::Elasticity& elasticity(const Law& law);
+/// E and, where given, the strains of softening multiplied.
+Law scaled(Law law, double stiffness, double softening_strains);
 
 }  // namespace breach::materials

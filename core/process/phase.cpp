@@ -77,6 +77,10 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
     } catch (const CLI::ParseError& error) {
         return {std::nullopt, app.exit(error) == 0 ? ExitCode::done : ExitCode::usage};
     }
+    for (const Switch& each : phase.switches) {
+        if (!each.sets.empty() && a.settings.switches.contains(each.name))
+            a.settings.overrides.push_back(each.sets);
+    }
     if (plan) a.question = Question::plan;
     if (check) a.question = Question::check;
     a.settings.start = resume ? Start::resume : Start::fresh;
@@ -143,26 +147,37 @@ void make_output_folder(const std::filesystem::path& folder, Start start) {
     if (start == Start::fresh) std::filesystem::remove(folder / "checkpoint.h5", error);
 }
 
-ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene) {
+/// What of a run is known when it breaks down: fault.json has it as result.json would.
+json known_of(Session& session, const Plan& plan) {
+    json known = session.result();
+    known["phase"] = session.settings().phase;
+    known["scene"] = session.scene().name;
+    known["plan"] = as_json(plan);
+    known["flags"] = as_json(session.flags());
+    known["questionable"] = fault::is_questionable(session.flags());
+    known["wall_seconds"] = session.wall_seconds();
+    known["cpu_seconds"] = session.cpu_seconds();
+    known["provenance"] = as_json(session.provenance());
+    return known;
+}
+
+ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, json& known) {
     const Plan plan = phase.plan(scene);
     spdlog::info("plan\n{}", as_text(plan));
     make_output_folder(arguments.settings.output, arguments.settings.start);
     Session session(arguments.settings, std::move(scene));
     exchange::publish_text(session.output("scene.completed.json"),
                            json::parse(session.scene().completed).dump(2) + "\n");
-    if (phase.run(session) == Outcome::stopped) {
-        spdlog::warn("stopped; go on with --resume");
-        return code_of_stop();
+    try {
+        if (phase.run(session) == Outcome::stopped) {
+            spdlog::warn("stopped; go on with --resume");
+            return code_of_stop();
+        }
+    } catch (...) {
+        known = known_of(session, plan);
+        throw;
     }
-    json result = session.result();
-    result["phase"] = phase.name;
-    result["scene"] = session.scene().name;
-    result["plan"] = as_json(plan);
-    result["flags"] = as_json(session.flags());
-    result["questionable"] = fault::is_questionable(session.flags());
-    result["wall_seconds"] = session.wall_seconds();
-    result["cpu_seconds"] = session.cpu_seconds();
-    result["provenance"] = as_json(session.provenance());
+    json result = known_of(session, plan);
     exchange::publish_text(session.output("result.json"), result.dump(2) + "\n");
     if (session.settings().progress == ProgressStyle::json) {
         result.erase("provenance");
@@ -172,24 +187,26 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene) 
     return ExitCode::done;
 }
 
-ExitCode answer(const Phase& phase, Arguments& arguments) {
+ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     scene::Scene scene = phase.read(arguments.scene, arguments.settings.overrides);
-    if (arguments.question == Question::none) return simulate(phase, arguments, std::move(scene));
+    if (arguments.question == Question::none)
+        return simulate(phase, arguments, std::move(scene), known);
     const Plan plan = phase.plan(scene);
     if (arguments.question == Question::plan) {
         std::cout << as_text(plan);
-        for (const fault::Flag& each : scene.warnings)
-            std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     } else {
         std::cout << arguments.scene.string() << ": no faults\n";
     }
+    for (const fault::Flag& each : scene.warnings)
+        std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     return ExitCode::done;
 }
 
 /// Says what went wrong to people (stderr), to the scheduler (fault.json) and to a listener
-/// (--progress json).
-ExitCode report(const Arguments& arguments, ExitCode code, const std::string& summary,
-                const std::vector<fault::Fault>& faults) {
+/// (--progress json). `known`: facts and provenance as far as the phase came; empty before it
+/// began.
+ExitCode report(const Arguments& arguments, const json& known, ExitCode code,
+                const std::string& summary, const std::vector<fault::Fault>& faults) {
     std::cerr << arguments.settings.phase << ": " << summary << "\n";
     json line{
         {"exit_code", static_cast<int>(code)}, {"summary", summary}, {"faults", json::array()}};
@@ -199,7 +216,10 @@ ExitCode report(const Arguments& arguments, ExitCode code, const std::string& su
     }
     try {
         if (std::filesystem::is_directory(arguments.settings.output)) {
-            exchange::publish_text(arguments.settings.output / "fault.json", line.dump(2) + "\n");
+            json document = known;
+            document.update(line);
+            exchange::publish_text(arguments.settings.output / "fault.json",
+                                   document.dump(2) + "\n");
         }
     } catch (const fault::IoError& error) {
         std::cerr << error.what() << "\n";
@@ -212,20 +232,21 @@ ExitCode report(const Arguments& arguments, ExitCode code, const std::string& su
 }
 
 ExitCode guarded(const Phase& phase, Arguments& arguments) {
+    json known = json::object();
     try {
-        return answer(phase, arguments);
+        return answer(phase, arguments, known);
     } catch (const fault::BadInput& error) {
-        return report(arguments, ExitCode::bad_input, error.what(), error.faults());
+        return report(arguments, known, ExitCode::bad_input, error.what(), error.faults());
     } catch (const fault::Breakdown& error) {
-        return report(arguments, ExitCode::breakdown, error.what(), {});
+        return report(arguments, known, ExitCode::breakdown, error.what(), {});
     } catch (const fault::IoError& error) {
-        return report(arguments, ExitCode::io, error.what(), {});
+        return report(arguments, known, ExitCode::io, error.what(), {});
     } catch (const std::bad_alloc&) {
-        return report(arguments, ExitCode::try_again, "not enough memory", {});
+        return report(arguments, known, ExitCode::try_again, "not enough memory", {});
     } catch (const std::filesystem::filesystem_error& error) {
-        return report(arguments, ExitCode::io, error.what(), {});
+        return report(arguments, known, ExitCode::io, error.what(), {});
     } catch (const std::exception& error) {
-        return report(arguments, ExitCode::breakdown,
+        return report(arguments, known, ExitCode::breakdown,
                       std::string("internal fault: ") + error.what(), {});
     }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/check/check.hpp"
 #include "core/process/plan.hpp"
 #include "core/process/session.hpp"
 #include "core/scene/scene.hpp"
@@ -22,8 +23,9 @@ struct InputRule {
 
 /// A flag that only this phase knows; SessionSettings::switches has it when it was given.
 struct Switch {
-    std::string name;     ///< "--profile"
-    std::string purpose;  ///< one line for --help
+    std::string name;       ///< "--profile"
+    std::string purpose;    ///< one line for --help
+    std::string sets = {};  ///< "/json/pointer=value" that it stands for, after every --set
 };
 
 /// How a phase ended when nothing was wrong.
@@ -40,7 +42,7 @@ struct Phase {
     std::function<Outcome(Session&)> run;
     /// Reads the document that the phase works from; not every phase works from a scene.
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
-        read = scene::read_scene;
+        read = check::checked_scene;
     std::vector<Switch> switches = {};
     /// Raised when the phase's numbers change for the same input, so that no earlier result is
     /// taken for one of this program; --version says it. 0: its results are never taken again.

@@ -117,7 +117,8 @@ std::int64_t Session::truncate_telemetry(std::int64_t lines) {
 }
 
 void Session::flag(fault::Flag flag) {
-    spdlog::warn("{}: {}", fault::name_of(flag.severity), flag.message);
+    spdlog::warn("{}{}{}", flag.severity == fault::Severity::questionable ? "questionable: " : "",
+                 flag.pointer.empty() ? "" : flag.pointer + ": ", flag.message);
     const auto same = std::ranges::find_if(flags_, [&](const fault::Flag& each) {
         return each.code == flag.code && each.pointer == flag.pointer;
     });

@@ -61,16 +61,12 @@ ElasticBase base_from(const json& base) {
             base.at("nodes") == "free" ? BaseNodes::free : BaseNodes::tied};
 }
 
-BaseMotion motion_from(Reader& reader, const std::filesystem::path& folder, const json& motion) {
+BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) {
     BaseMotion result{
         std::filesystem::absolute(folder / motion.at("file").get<std::string>()), std::nullopt,
         motion.at("baseline") == "corrected" ? Baseline::corrected : Baseline::as_recorded};
     if (motion.contains("scale_to_pga_g")) {
         result.scale_to_pga_g = motion.at("scale_to_pga_g").get<double>();
-    }
-    if (!std::filesystem::exists(result.file)) {
-        reader.add("/fem/motion/file", "does not exist: " + result.file.string(),
-                   "give a path relative to the scene file");
     }
     return result;
 }
@@ -89,7 +85,7 @@ void read_surroundings(Reader& reader, const std::filesystem::path& folder, cons
     if (fem.contains("water")) result.water = water_from(reader, fem.at("water"));
     if (fem.contains("base")) result.base = base_from(fem.at("base"));
     if (fem.contains("motion")) {
-        result.motion = motion_from(reader, folder, fem.at("motion"));
+        result.motion = motion_from(folder, fem.at("motion"));
         if (!result.base) {
             reader.add("/fem/motion", "has no base that it could come through",
                        "give /fem/base, the rock below the mesh");
@@ -181,10 +177,6 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     if (fem.contains("msh_file")) {
         result.mesh.msh_file =
             std::filesystem::absolute(folder / fem.at("msh_file").get<std::string>());
-        if (!std::filesystem::exists(*result.mesh.msh_file)) {
-            reader.add("/fem/msh_file", "does not exist: " + result.mesh.msh_file->string(),
-                       "give a path relative to the scene file");
-        }
     }
     for (const json& each : fem.at("supports")) result.supports.push_back(support_from(each));
     for (const json& each : fem.at("stages")) result.stages.push_back(stage_from(each));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/scene/checks.hpp"
+#include "core/scene/resolution.hpp"
 
 namespace breach::scene {
 
@@ -107,6 +108,44 @@ Kernel kernel_from(const std::string& text) {
     return text == "b_spline" ? Kernel::b_spline : Kernel::linear;
 }
 
+double number_or(const json& entry, double automatic) {
+    return entry.is_string() ? automatic : entry.get<double>();
+}
+
+/// A scene without gravity has no time scale of its own: it gets that of the earth's.
+double gravity_of(const Reader& reader) {
+    constexpr double of_the_earth = 9.81;
+    if (!reader.sound("/gravity")) return of_the_earth;
+    const double g = reader.document().at("gravity");
+    return g > 0.0 ? g : of_the_earth;
+}
+
+/// Scales: T = sqrt(H / g), H the height of the mobile soil. A granular column collapses within
+/// 3 T, so a front that is still for as long is no pause within the collapse; 5 T leave time for a
+/// slow start. 3 T and H / 400 together are a front slower than sqrt(g H) / 1200 (1.4 cm/s for 30 m).
+Rest rest_from(const json& mpm, double H, double g) {
+    const double T = std::sqrt(H / g);
+    return {.change = number_or(mpm.at("rest_change"), H / 400.0),
+            .window = number_or(mpm.at("rest_window"), 3.0 * T),
+            .earliest = number_or(mpm.at("rest_earliest"), 5.0 * T),
+            .speed = number_or(mpm.at("rest_speed"), std::min(0.05, 0.01 * std::sqrt(g * H))),
+            .body_share = mpm.at("rest_body_share"),
+            .kinetic_share = mpm.at("rest_kinetic_share"),
+            .peak_share = mpm.at("rest_peak_share")};
+}
+
+void read_end(const Reader& reader, const Scene& scene, const json& mpm, Mpm& result) {
+    const double g = gravity_of(reader);
+    const double W = result.domain_x[1] - result.domain_x[0];
+    const double D = std::hypot(W, result.domain_y[1] - result.domain_y[0]);
+    result.until_rest = mpm.at("duration").is_string();
+    result.duration = result.until_rest
+                          ? number_or(mpm.at("longest_duration"), 100.0 * std::sqrt(D / g))
+                          : mpm.at("duration").get<double>();
+    const double H = mobile_height(scene, result);
+    result.rest = rest_from(mpm, H > 0.0 ? H : D, g);
+}
+
 }  // namespace
 
 void read_mpm(Reader& reader, Scene& scene) {
@@ -114,6 +153,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     const json& mpm = reader.document().at("mpm");
     Mpm result{};
     result.cell_size = mpm.at("cell_size");
+    result.allow_coarse_cells = mpm.at("allow_coarse_cells");
     result.domain_x = range_from(mpm.at("domain_x"));
     result.domain_y = range_from(mpm.at("domain_y"));
     check_ascending(reader, result.domain_x, "/mpm/domain_x");
@@ -144,13 +184,10 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.stiffness_scale = mpm.at("stiffness_scale");
     if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
     result.cfl = mpm.at("cfl");
-    result.duration = mpm.at("duration");
-    result.rest_change = mpm.at("rest_change");
-    result.rest_window = mpm.at("rest_window");
-    result.rest_earliest = mpm.at("rest_earliest");
     result.runout.toe = point_from(mpm.at("runout").at("toe"));
     result.runout.regions = mpm.at("runout").at("regions").get<std::vector<std::string>>();
     result.runout.front_depth = mpm.at("runout").at("front_depth");
+    read_end(reader, scene, mpm, result);
     for (const json& gauge : mpm.at("gauges")) {
         result.gauges.push_back({gauge.at("name"), gauge.at("x"), gauge.at("arrival_depth")});
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 #include "core/scene/reader.hpp"
 #include "core/scene/sand.hpp"
@@ -54,25 +55,56 @@ materials::PM4Sand sand_from(Reader& reader, const json& law, const std::string&
             .options = sand_options(law)};
 }
 
-materials::Law law_from(Reader& reader, const json& law, const std::string& pointer) {
-    if (law.at("type") == "pm4sand") return sand_from(reader, law, pointer);
-    const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
-    if (law.at("type") == "linear_elastic") return materials::LinearElastic{elasticity};
-    const double c = 1e3 * law.at("c_kPa").get<double>();
+mechanics::Elasticity elasticity_from(const json& law) {
+    return {1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
+}
+
+/// Strength entries that laws with cohesion and friction share.
+struct CohesionAndFriction {
+    double c, phi, psi;
+};
+
+CohesionAndFriction cohesion_and_friction_from(Reader& reader, const json& law,
+                                               const std::string& pointer) {
     const double phi = radians(law.at("phi_deg"));
     const double psi = radians(law.at("psi_deg"));
     if (psi > phi) {
         reader.add(pointer + "/psi_deg", "is above phi_deg",
                    "such a soil would create energy; give psi_deg <= phi_deg");
     }
-    return materials::MohrCoulomb{
-        .elasticity = elasticity,
+    return {1e3 * law.at("c_kPa").get<double>(), phi, psi};
+}
+
+materials::MohrCoulomb mohr_coulomb_from(Reader& reader, const json& law,
+                                         const std::string& pointer) {
+    const auto [c, phi, psi] = cohesion_and_friction_from(reader, law, pointer);
+    return {
+        .elasticity = elasticity_from(law),
         .c = c,
         .phi = phi,
         .psi = psi,
         .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>(),
         .softening = softening_from(reader, law, c, phi, pointer + "/softening"),
     };
+}
+
+materials::DruckerPrager drucker_prager_from(Reader& reader, const json& law,
+                                             const std::string& pointer) {
+    const auto [c, phi, psi] = cohesion_and_friction_from(reader, law, pointer);
+    return {.elasticity = elasticity_from(law),
+            .c = c,
+            .phi = phi,
+            .psi = psi,
+            .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>()};
+}
+
+materials::Law law_from(Reader& reader, const json& law, const std::string& pointer) {
+    const std::string type = law.at("type");
+    if (type == "pm4sand") return sand_from(reader, law, pointer);
+    if (type == "linear_elastic") return materials::LinearElastic{elasticity_from(law)};
+    if (type == "mohr_coulomb") return mohr_coulomb_from(reader, law, pointer);
+    if (type == "drucker_prager") return drucker_prager_from(reader, law, pointer);
+    throw std::logic_error("the schema knows a law \"" + type + "\" that nothing reads");
 }
 
 std::optional<LimitStrength> limit_strength_from(const json& material) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mechanics/atmosphere.hpp"
 #include "core/scene/checks.hpp"
 #include "core/scene/reader.hpp"
 
@@ -12,7 +13,6 @@ using nlohmann::json;
 namespace {
 
 constexpr double kPa = 1e3;
-constexpr double p_atm = 101.325e3;  ///< [Pa]
 
 template <class List>
 std::optional<std::size_t> named(Reader& reader, const List& list, const std::string& name,
@@ -29,9 +29,9 @@ std::optional<std::size_t> named(Reader& reader, const List& list, const std::st
 std::optional<std::size_t> point_material(Reader& reader, const Scene& scene,
                                           const std::string& name, const std::string& pointer) {
     const auto material = named(reader, scene.materials, name, pointer, "/materials");
-    if (!material || !std::holds_alternative<materials::PM4Sand>(scene.materials[*material].law))
-        return material;
-    reader.add(pointer, "names a pm4sand material, which particles cannot have",
+    if (!material || materials::is_for_particles(scene.materials[*material].law)) return material;
+    const std::string type = materials::traits(scene.materials[*material].law).type;
+    reader.add(pointer, "names a " + type + " material, which particles cannot have",
                "name a linear_elastic or mohr_coulomb material");
     return std::nullopt;
 }
@@ -57,7 +57,7 @@ void read_mapping(Reader& reader, const Scene& scene, const json& transfer, Tran
     }
 }
 
-/// s_r = coefficient (sigma'_v0 / p_atm)^exponent in the middle of each layer.
+/// s_r = coefficient (sigma'_v0 / standard atmosphere)^exponent in the middle of each layer.
 struct StrengthFunction {
     std::size_t like;    ///< material that everything else is taken from
     double coefficient;  ///< [Pa]
@@ -71,8 +71,11 @@ std::optional<StrengthFunction> strength_function(Reader& reader, const Scene& s
     const std::string pointer = "/transfer/liquefied/residual_strength/like";
     const auto like = point_material(reader, scene, function.at("like"), pointer);
     if (!like) return std::nullopt;
-    const auto* law = std::get_if<materials::MohrCoulomb>(&scene.materials[*like].law);
-    if (law == nullptr || law->phi != 0.0 || law->c <= 0.0) {
+    const auto& law = scene.materials[*like].law;
+    const auto strength = materials::limit_strength(law);
+    const bool undrained =
+        materials::traits(law).c_and_phi && strength->tan_phi == 0.0 && strength->c > 0.0;
+    if (!undrained) {
         reader.add(pointer, "has no undrained strength to be replaced",
                    "name a mohr_coulomb material with phi_deg 0 and c_kPa above 0");
         return std::nullopt;
@@ -90,11 +93,13 @@ std::size_t made_material(Scene& scene, const StrengthFunction& s_r, std::size_t
                           const std::array<double, 2>& sigma_v0) {
     Material made = scene.materials[s_r.like];
     made.name = layer_name(made, layer);
-    auto& law = std::get<materials::MohrCoulomb>(made.law);
+    double& peak = *materials::strength_entries(made.law).c;
     const double middle = 0.5 * (sigma_v0[0] + sigma_v0[1]);
-    const double c = s_r.coefficient * std::pow(middle / p_atm, s_r.exponent);
-    if (law.softening) law.softening->c_residual *= c / law.c;
-    law.c = c;
+    const double c =
+        s_r.coefficient * std::pow(middle / mechanics::standard_atmosphere, s_r.exponent);
+    if (materials::Softening* softening = materials::softening(made.law))
+        softening->c_residual *= c / peak;
+    peak = c;
     scene.materials.push_back(std::move(made));
     return scene.materials.size() - 1;
 }

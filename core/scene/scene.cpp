@@ -1,9 +1,14 @@
 #include "core/scene/scene.hpp"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
+#include "core/scene/plausibility.hpp"
 #include "core/scene/reader.hpp"
+#include "core/scene/reading.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
 
@@ -13,6 +18,16 @@ using fault::Fault;
 using nlohmann::json;
 
 namespace {
+
+template <class Part>
+const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
+    if (part) return *part;
+    throw fault::BadInput(scene.name,
+                          {{pointer, "is missing, and this phase needs it",
+                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
+}
+
+}  // namespace
 
 std::string text_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -25,28 +40,20 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-template <class Part>
-const Part& part_of(const std::optional<Part>& part, const Scene& scene, const char* pointer) {
-    if (part) return *part;
-    throw fault::BadInput(scene.name,
-                          {{pointer, "is missing, and this phase needs it",
-                            "add it to the scene (see workflows/schema/scene.schema.json)"}});
-}
-
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::string& name,
+Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
     json document = parse_json(text, name);
     std::vector<Fault> faults;
     for (const std::string& each : overrides) {
         for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
     }
-    for (Fault& found : complete_and_check(document, scene_schema()))
+    std::vector<fault::Flag> doubts;
+    for (Fault& found : complete_and_check(document, scene_schema(), doubts))
         faults.push_back(std::move(found));
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
     Scene scene{};
+    scene.warnings = std::move(doubts);
     Reader reader(document, std::move(faults));
     read_materials(reader, scene);
     read_section(reader, scene);
@@ -54,7 +61,12 @@ Scene parse_scene(std::string_view text, const std::string& name,
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
-    if (!reader.faults().empty()) throw fault::BadInput(name, reader.faults());
+    doubt_together(reader, scene);
+    Resolved resolved = resolution_of(scene);
+    for (Fault& each : resolved.faults)
+        reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
+    std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
+    if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");
@@ -62,7 +74,14 @@ Scene parse_scene(std::string_view text, const std::string& name,
     scene.gravity = document.at("gravity");
     scene.thickness = document.at("thickness");
     scene.completed = document.dump();
-    return scene;
+    return {std::move(scene), {}};
+}
+
+Scene parse_scene(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+    Reading reading = read_text(text, name, folder, overrides);
+    if (!reading.faults.empty()) throw fault::BadInput(name, std::move(reading.faults));
+    return std::move(reading.scene);
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -405,8 +405,20 @@ struct Gauge {
     double arrival_depth;  ///< the flow has arrived when it is this deep [m]
 };
 
+/// When the mobile soil is at rest. Everything that depends on the scene's size is resolved.
+struct Rest {
+    double change;                 ///< the front moved no more than this over the window [m]
+    double window;                 ///< [s]
+    double earliest;               ///< never before [s]
+    double speed;                  ///< slower soil counts as still [m/s]
+    double body_share = 0.005;     ///< of the mobile mass: connected bodies that may move [-]
+    double kinetic_share = 0.005;  ///< of the energy released: largest kinetic energy [-]
+    double peak_share = 0.05;      ///< of the largest kinetic energy so far [-]
+};
+
 struct Mpm {
-    double cell_size;                ///< [m]
+    double cell_size;  ///< [m]
+    bool allow_coarse_cells = false;
     std::array<double, 2> domain_x;  ///< [m]
     std::array<double, 2> domain_y;  ///< [m]
     Wall left;
@@ -427,9 +439,8 @@ struct Mpm {
     std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
     double cfl;                       ///< [-]
     double duration;                  ///< longest [s]
-    double rest_change;               ///< the front moved less than this over rest_window: stop [m]
-    double rest_window;               ///< [s]
-    double rest_earliest;             ///< never stop before [s]
+    bool until_rest = false;          ///< asked for: `duration` is the bound on it
+    Rest rest;
     Runout runout;
     std::vector<Gauge> gauges{};
     double snapshot_interval;    ///< [s]

@@ -6,9 +6,12 @@
 #include <regex>
 #include <set>
 
+#include "core/scene/slips.hpp"
+
 namespace breach::scene {
 
 using fault::Fault;
+using fault::Flag;
 using nlohmann::json;
 
 namespace {
@@ -64,7 +67,7 @@ bool is_of_type(const json& value, const std::string& type) {
     return false;
 }
 
-/// Walks document and schema together; fills defaults in, collects faults.
+/// Walks document and schema together; fills defaults in, collects faults and doubts.
 class Walker {
   public:
     explicit Walker(const json& root) : root_(root) {}
@@ -94,6 +97,7 @@ class Walker {
     }
 
     std::vector<Fault> faults;
+    std::vector<Flag> doubts;  ///< numbers that are possible and hardly meant
 
   private:
     const json& resolved(const json& schema) const {
@@ -129,16 +133,23 @@ class Walker {
 
     void check_number(const json& value, const json& schema, const std::string& pointer) {
         const double number = value.get<double>();
+        bool possible = true;
         const auto limit = [&](const char* key, auto violated, const char* sign) {
-            if (schema.contains(key) && violated(number, schema.at(key).get<double>())) {
-                add(pointer, "is " + brief(value),
-                    "must be " + std::string(sign) + " " + schema.at(key).dump() + meaning(schema));
-            }
+            if (!schema.contains(key) || !violated(number, schema.at(key).get<double>())) return;
+            const std::string slip = likely_slip(number, schema, root_);
+            add(pointer, "is " + brief(value),
+                "must be " + std::string(sign) + " " + schema.at(key).dump() + meaning(schema) +
+                    (slip.empty() ? "" : "; " + slip));
+            possible = false;
         };
         limit("minimum", std::less<>(), ">=");
         limit("exclusiveMinimum", std::less_equal<>(), ">");
         limit("maximum", std::greater<>(), "<=");
         limit("exclusiveMaximum", std::greater_equal<>(), "<");
+        if (!possible) return;
+        if (auto doubt = doubt_about(number, schema, root_)) {
+            doubts.push_back({"implausible", fault::Severity::warning, std::move(*doubt), pointer});
+        }
     }
 
     void check_string(const json& value, const json& schema, const std::string& pointer) {
@@ -314,10 +325,17 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
     return {};
 }
 
-std::vector<Fault> complete_and_check(json& document, const json& schema) {
+std::vector<Fault> complete_and_check(json& document, const json& schema,
+                                      std::vector<Flag>& doubts) {
     Walker walker(schema);
     walker.visit(document, schema, "");
+    doubts = std::move(walker.doubts);
     return std::move(walker.faults);
+}
+
+std::vector<Fault> complete_and_check(json& document, const json& schema) {
+    std::vector<Flag> doubts;
+    return complete_and_check(document, schema, doubts);
 }
 
 }  // namespace breach::scene

@@ -1,6 +1,6 @@
 // A JSON document against its schema: parsed strictly, checked whole, completed with the schema's
 // defaults. The schema language is the part of JSON Schema 2020-12 that our schemas use, plus the
-// annotation "unit".
+// annotations "unit", "x-plausible" and "x-slips" (slips.hpp).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
+#include "core/fault/flag.hpp"
 
 namespace breach::scene {
 
@@ -25,7 +26,9 @@ nlohmann::json parse_json(std::string_view text, const std::string& file);
 std::vector<fault::Fault> apply_override(nlohmann::json& document, const std::string& assignment);
 
 /// Adds the schema's defaults to `document` in place and returns every fault: pointer, cause,
-/// remedy.
+/// remedy. `doubts` get the numbers that are possible and not plausible, as flags "implausible".
+std::vector<fault::Fault> complete_and_check(nlohmann::json& document, const nlohmann::json& schema,
+                                             std::vector<fault::Flag>& doubts);
 std::vector<fault::Fault> complete_and_check(nlohmann::json& document,
                                              const nlohmann::json& schema);
 

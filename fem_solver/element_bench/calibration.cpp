@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fem_solver/element_bench/simplex.hpp"
+#include "core/numerics/simplex.hpp"
 
 namespace breach::element_bench {
 
@@ -164,6 +164,27 @@ std::vector<double> spread_point(int k, const std::vector<FreeParameter>& free) 
     return x;
 }
 
+using Place = std::vector<double>;
+
+/// Nelder and Mead's simplex with edges `size` around `start`, until no corner is farther than
+/// `least_size` from the best or `most` evaluations are spent. What it finds, `f` has seen.
+void descend(const std::function<double(const Place&)>& f, const Place& start, double size,
+             double least_size, int most) {
+    int evaluations = 0;
+    const auto corner = [&](const Place& at) {
+        ++evaluations;
+        return numerics::Corner<Place>{at, f(at)};
+    };
+    std::vector<numerics::Corner<Place>> corners{corner(start)};
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        Place at = start;
+        at[i] += size;
+        corners.push_back(corner(at));
+    }
+    numerics::Simplex<Place> simplex(std::move(corners));
+    while (evaluations < most && simplex.extent() > least_size) simplex.move(corner);
+}
+
 }  // namespace
 
 CalibrationResult calibrate(const Calibration& calibration,
@@ -202,8 +223,7 @@ CalibrationResult calibrate(const Calibration& calibration,
     std::stable_sort(starts.begin(), starts.end(),
                      [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
     for (std::size_t k = 0; k < 3 && k < starts.size(); ++k) {
-        least_by_simplex(misfit, starts[k].x,
-                         {.size = 0.2, .least_size = 5e-3, .most_evaluations = most / 5});
+        descend(misfit, starts[k].x, 0.2, 5e-3, most / 5);
     }
     // Fresh simplices around the best until one brings nothing.
     double size = 0.1, before = 2.0 * result.best.misfit;
@@ -211,9 +231,7 @@ CalibrationResult calibrate(const Calibration& calibration,
         before = result.best.misfit;
         std::vector<double> best;
         for (const double value : result.best.values) best.push_back(std::log(value));
-        least_by_simplex(
-            misfit, best,
-            {.size = size, .least_size = 2e-4, .most_evaluations = most - result.evaluations});
+        descend(misfit, best, size, 2e-4, most - result.evaluations);
         size = -0.5 * size;
     }
     result.parameters = calibration.with(result.best.values);

@@ -66,7 +66,8 @@ Quality quality_of(const Mesh& mesh) {
     return q;
 }
 
-Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder) {
+Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder,
+                const StopQuestion& stop) {
     const scene::Section& section = scene.section;
     const auto is_unstructured = [](const scene::Region& region) {
         return region.mesh == scene::RegionMesh::unstructured;
@@ -75,7 +76,7 @@ Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder) 
     if (const auto& file = scene::fem_of(scene).mesh.msh_file) {
         mesh = read_msh(*file, section);
     } else if (std::any_of(section.regions.begin(), section.regions.end(), is_unstructured)) {
-        mesh = mesh_with_gmsh(section, folder);
+        mesh = mesh_with_gmsh(section, folder, stop);
     } else {
         std::vector<Mesh> parts;
         for (const Piece& piece : pieces_of(section)) parts.push_back(map_block(piece));

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,10 +26,17 @@ struct Mesh {
 
 Corners corners_of(const Mesh& mesh, std::size_t element);
 
+/// Asked now and then while gmsh runs; true: end it.
+using StopQuestion = std::function<bool()>;
+/// The answer was yes, and there is no mesh.
+class MeshingStopped : public std::exception {};
+
 /// The mesh that the scene asks for. `folder`: where gmsh's input and output are kept. Throws
 /// BadInput (regions that do not fit together, a mesh that is not all quads), IoError (gmsh
-/// missing, file not readable).
-Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder);
+/// missing, file not readable), MeshingStopped.
+Mesh build_mesh(
+    const scene::Scene& scene, const std::filesystem::path& folder,
+    const StopQuestion& stop = [] { return false; });
 
 /// A part of a region that is meshed in one way.
 struct Piece {
@@ -52,8 +61,10 @@ Mesh map_block(const Piece& piece);
 Mesh join(const std::vector<Mesh>& parts, const scene::Section& section);
 
 /// Meshes all regions with gmsh's command line; block regions stay structured. Needs `gmsh` on the
-/// PATH.
-Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& folder);
+/// PATH; ends it, and throws MeshingStopped, soon after `stop` has become true.
+Mesh mesh_with_gmsh(
+    const scene::Section& section, const std::filesystem::path& folder,
+    const StopQuestion& stop = [] { return false; });
 
 /// Reads a gmsh text mesh (format 2.2 or 4.1) whose physical surfaces carry the regions' names.
 Mesh read_msh(const std::filesystem::path& file, const scene::Section& section);

@@ -4,9 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <iomanip>
 #include <map>
@@ -247,8 +248,25 @@ std::string geo_text(const Outline& outline, const std::vector<Piece>& pieces,
     return geo.str();
 }
 
+/// Waits for a child; ends it when `stop` says so.
+int status_of(pid_t child, const StopQuestion& stop) {
+    constexpr timespec between_looks{0, 5'000'000};  // 5 ms; a signal ends it early
+    int status = 0;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (stop()) {
+            kill(child, SIGKILL);  // it has nothing to save
+            waitpid(child, &status, 0);
+            throw MeshingStopped();
+        }
+        nanosleep(&between_looks, nullptr);
+    }
+    if (stop()) throw MeshingStopped();  // one signal may have ended both
+    return status;
+}
+
 /// Runs a program found on the PATH, its output going to `log`; returns its exit code.
-int run_program(std::vector<std::string> words, const std::filesystem::path& log) {
+int run_program(std::vector<std::string> words, const std::filesystem::path& log,
+                const StopQuestion& stop) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -266,15 +284,14 @@ int run_program(std::vector<std::string> words, const std::filesystem::path& log
                              "): install it (apt-get install gmsh), mesh the regions as blocks, or "
                              "give /fem/msh_file");
     }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = status_of(child, stop);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace
 
-Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& folder) {
+Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& folder,
+                    const StopQuestion& stop) {
     const std::vector<Piece> pieces = pieces_of(section);
     Outline outline = outline_of(pieces);
     std::vector<fault::Fault> faults;
@@ -288,7 +305,7 @@ Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& 
     const auto geo = folder / "mesh.geo", msh = folder / "mesh.msh", log = folder / "gmsh.log";
     for (std::size_t attempt = 0;; ++attempt) {
         exchange::publish_text(geo, geo_text(outline, pieces, recipes[attempt]));
-        const int code = run_program({"gmsh", "-2", geo.string(), "-o", msh.string()}, log);
+        const int code = run_program({"gmsh", "-2", geo.string(), "-o", msh.string()}, log, stop);
         const bool last = attempt + 1 == recipes.size();
         if (code != 0 && last) {
             throw fault::IoError("gmsh failed with exit code " + std::to_string(code) + ": see " +

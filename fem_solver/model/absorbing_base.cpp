@@ -1,10 +1,6 @@
 #include "fem_solver/model/absorbing_base.hpp"
 
-#include <spdlog/spdlog.h>
-
-#include <cmath>
-
-#include "fem_solver/model/model.hpp"
+#include "core/check/applied_motion.hpp"
 
 namespace breach::fem {
 
@@ -31,48 +27,9 @@ AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Serie
     return base;
 }
 
-motion::Recording applied_motion(const scene::BaseMotion& wanted) {
-    motion::Recording motion = motion::read_motion(wanted.file);
-    const auto refuse = [](const std::string& pointer, const std::string& cause,
-                           const std::string& remedy) {
-        throw fault::BadInput("scene", {{pointer, cause, remedy}});
-    };
-    if (motion.quantity == motion::Quantity::displacement) {
-        refuse("/fem/motion/file", "is a displacement",
-               "give the acceleration or the velocity of the same motion");
-    }
-    if (motion.quantity == motion::Quantity::velocity) {
-        if (wanted.scale_to_pga_g) {
-            refuse("/fem/motion/scale_to_pga_g", "scales an acceleration; this is a velocity",
-                   "give the acceleration, or leave the scale out");
-        }
-        if (wanted.baseline == scene::Baseline::corrected) {
-            refuse("/fem/motion/baseline", "is corrected in an acceleration only",
-                   "give the acceleration, or take it as recorded");
-        }
-        return motion;
-    }
-    if (wanted.baseline == scene::Baseline::corrected) {
-        motion.series = motion::base_corrected(std::move(motion.series));
-    }
-    if (wanted.scale_to_pga_g) {
-        motion.series = motion::scaled_to_peak(std::move(motion.series),
-                                               *wanted.scale_to_pga_g * motion::standard_gravity);
-    }
-    return motion;
-}
-
 motion::Series base_velocity(const scene::BaseMotion& wanted) {
-    const motion::Recording motion = applied_motion(wanted);
+    const motion::Recording motion = check::applied_motion(wanted);
     if (motion.quantity == motion::Quantity::velocity) return motion.series;
-    constexpr double much = 0.05;  // of the peak velocity
-    const motion::Baseline left = motion::baseline(motion.series);
-    if (left.velocity_share > much) {
-        spdlog::warn(
-            "motion: {:.2g} m/s are left at its end ({:.0f} % of its peak velocity); "
-            "\"baseline\": \"corrected\" takes them off",
-            left.last_velocity, 100.0 * left.velocity_share);
-    }
     return motion::integral(motion.series);
 }
 

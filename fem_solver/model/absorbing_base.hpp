@@ -1,40 +1,18 @@
-// Lysmer-Kuhlemeyer base: an elastic half-space below the mesh, as dashpots and forces on its lower
-// edge.
+// The dashpots of a Lysmer-Kuhlemeyer base on this mesh, and the motion that comes through them.
 #pragma once
-
-#include <Eigen/Core>
 
 #include "core/motion/read_motion.hpp"
 #include "core/scene/scene.hpp"
+#include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
-
-struct Model;
-
-/// Shear traction on the base: rho V_s (2 w - v), w the up-going velocity, v the base's own (Lysmer
-/// & Kuhlemeyer 1969, Joyner & Chen 1975). An outcrop motion is 2 w, so its force is c v_outcrop,
-/// once, not twice. A motion recorded *within* the ground must not be used here.
-struct AbsorbingBase {
-    Eigen::VectorXd dashpot;  ///< c = rho V_s A per dof, x of the base's nodes; empty: no base
-                              ///< [N s/m]
-    motion::Series outcrop;   ///< outcrop velocity; empty: rest [m/s]
-
-    bool any() const { return dashpot.size() > 0; }
-    /// Adds the force at time t [s] to f [N].
-    void add_force(double t, Eigen::VectorXd& f) const {
-        if (!outcrop.values.empty()) f += motion::value_at(outcrop, t) * dashpot;
-    }
-};
 
 /// All nodes of the mesh's base; `impedance` = rho V_s of the rock [Pa s/m]. Each node has half of
 /// its neighbouring edges.
 AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Series velocity,
                              scene::MotionAt at);
 
-/// The scene's motion as it is applied: read, scaled, its baseline corrected if asked for; an
-/// acceleration or a velocity. Throws BadInput for what cannot be used as such.
-motion::Recording applied_motion(const scene::BaseMotion& wanted);
-/// Velocity that it brings; warns of one that is left at its end.
+/// Velocity that the motion brings.
 motion::Series base_velocity(const scene::BaseMotion& wanted);
 
 }  // namespace breach::fem

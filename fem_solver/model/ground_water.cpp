@@ -1,6 +1,7 @@
 #include "fem_solver/model/ground_water.hpp"
 
 #include "fem_solver/model/ground.hpp"
+#include "fem_solver/model/pore_water.hpp"
 
 namespace breach::fem {
 namespace {

@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/motion/series.hpp"
 #include "core/scene/scene.hpp"
-#include "fem_solver/model/absorbing_base.hpp"
 #include "fem_solver/model/free_field.hpp"
-#include "fem_solver/model/pore_water.hpp"
+#include "fem_solver/model/porous_element.hpp"
 
 namespace breach::fem {
 
@@ -28,6 +28,22 @@ struct Zone {
 struct Rayleigh {
     double mass = 0.0;       ///< [1/s]
     double stiffness = 0.0;  ///< [s]
+};
+
+/// Elastic half-space below the mesh. Shear traction on the base: rho V_s (2 w - v), w the up-going
+/// velocity, v the base's own (Lysmer & Kuhlemeyer 1969, Joyner & Chen 1975). An outcrop motion is
+/// 2 w, so its force is c v_outcrop, once, not twice. A motion recorded *within* the ground must
+/// not be used here.
+struct AbsorbingBase {
+    Eigen::VectorXd dashpot;  ///< c = rho V_s A per dof, x of the base's nodes; empty: no base
+                              ///< [N s/m]
+    motion::Series outcrop;   ///< outcrop velocity; empty: rest [m/s]
+
+    bool any() const { return dashpot.size() > 0; }
+    /// Adds the force at time t [s] to f [N].
+    void add_force(double t, Eigen::VectorXd& f) const {
+        if (!outcrop.values.empty()) f += motion::value_at(outcrop, t) * dashpot;
+    }
 };
 
 /// How the hourglass force of the single-point quad follows the soil.
@@ -70,9 +86,6 @@ struct Model {
     }
     Eigen::Index dofs() const { return static_cast<Eigen::Index>(2 * mesh.nodes.size()); }
 };
-
-/// Throws BadInput when supports, water, base or columns do not fit the mesh.
-Model build_model(const scene::Scene& scene, Mesh mesh);
 
 /// The zones' laws with every region linear elastic (its own E and nu), or the scene's.
 std::vector<materials::Law> laws_for(const Model& model, scene::StageLaws laws);

@@ -4,61 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fem_solver/model/model.hpp"
-
 namespace breach::fem {
-namespace {
-
-/// In rock stiffer than its water (K_f / n, 5 GPa) the water's own compliance measures it: with the
-/// skeleton's a jump of pressure at soft soil would go on as a zig-zag that nothing damps.
-Vec2 stabilisation_of(const Corners& x, const Fluid& fluid, double skeleton_modulus) {
-    if (fluid.alpha) return Vec2::Constant(*fluid.alpha);
-    const Vec2 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
-    const double modulus = std::min(skeleton_modulus, fluid.bulk_modulus / fluid.porosity);
-    return fluid.stabilisation / modulus * extent.array().square();
-}
-
-}  // namespace
-
-void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
-                     const Vec2& body, PorousElement& out) {
-    const Gradient& dN = geometry.dN;
-    const double V = geometry.volume;
-    const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
-    for (int i = 0; i < 4; ++i) {
-        out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i).replicate<1, 4>();
-    }
-    out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
-    out.S.array() += V * fluid.porosity / fluid.bulk_modulus / 16.0;
-    out.H.noalias() = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
-    out.flux.noalias() = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
-}
-
-void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& fluid,
-                     const Vec2& body, PorousElement& out) {
-    const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
-    out.S.setZero();
-    out.H.setZero();
-    out.flux.setZero();
-    Gradient mean = Gradient::Zero();
-    Eigen::Vector4d shares = Eigen::Vector4d::Zero();
-    for (std::size_t g = 0; g < gauss_points; ++g) {
-        const Gradient& dN = gradients.dN[g];
-        const double w = gradients.weight[g];
-        const Eigen::Vector4d N = shape_functions(gauss_positions()[g]);
-        mean += w * dN;
-        shares += w * N;
-        out.S += w * fluid.porosity / fluid.bulk_modulus * N * N.transpose();
-        out.S += w * dN.transpose() * alpha.asDiagonal() * dN;
-        out.H += w * dN.transpose() * fluid.mobility.asDiagonal() * dN;
-        out.flux += w * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
-    }
-    mean /= shares.sum();
-    for (int i = 0; i < 4; ++i) {
-        out.Q.middleRows<2>(2 * i) = mean.col(i) * shares.transpose();
-    }
-}
-
 namespace {
 
 /// Smallest node of the connected saturated body that each node belongs to.

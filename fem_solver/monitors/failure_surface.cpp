@@ -100,20 +100,25 @@ Ground ground_of(const Mesh& mesh) {
     return ground;
 }
 
-std::size_t count_failure_surfaces(const Mesh& mesh, const Ground& ground,
-                                   std::span<const double> epsilon_q, double threshold,
-                                   double least_separation) {
+FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
+                                    std::span<const double> epsilon_q, double threshold,
+                                    double least_separation) {
     const std::vector<std::int32_t> band = bands_of(mesh, epsilon_q, threshold);
     std::map<std::int32_t, double> left_ground_at;  // end of a band's last contact so far [m]
-    std::size_t surfaces = 0;
+    FailureSurfaces surfaces{0, std::vector<bool>(mesh.quads.size(), false)};
+    std::vector<bool> is_surface(mesh.quads.size(), false);  // by band
     for (std::size_t i = 0; i < ground.element.size(); ++i) {
         const std::int32_t b = band[ground.element[i]];
         if (b < 0) continue;
         const auto met = left_ground_at.find(b);
         if (met != left_ground_at.end() && ground.begin[i] - met->second > least_separation) {
-            ++surfaces;
+            ++surfaces.count;
+            is_surface[b] = true;
         }
         left_ground_at[b] = ground.end[i];
+    }
+    for (std::size_t e = 0; e < band.size(); ++e) {
+        surfaces.holds[e] = band[e] >= 0 && is_surface[band[e]];
     }
     return surfaces;
 }

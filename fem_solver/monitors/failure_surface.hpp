@@ -20,11 +20,16 @@ struct Ground {
 /// one body without holes.
 Ground ground_of(const Mesh& mesh);
 
-/// Number of failure surfaces: elements with epsilon_q above `threshold` that share nodes form
-/// bands; a band that meets the ground at k separate places holds k - 1 surfaces. Places closer
-/// than `least_separation` [m] along the ground are one. epsilon_q: [elements].
-std::size_t count_failure_surfaces(const Mesh& mesh, const Ground& ground,
-                                   std::span<const double> epsilon_q, double threshold,
-                                   double least_separation);
+struct FailureSurfaces {
+    std::size_t count = 0;
+    std::vector<bool> holds;  ///< [elements] belongs to a band that holds a surface
+};
+
+/// Elements with epsilon_q above `threshold` that share nodes form bands; a band that meets the
+/// ground at k separate places holds k - 1 surfaces. Places closer than `least_separation` [m]
+/// along the ground are one. epsilon_q: [elements].
+FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
+                                    std::span<const double> epsilon_q, double threshold,
+                                    double least_separation);
 
 }  // namespace breach::fem

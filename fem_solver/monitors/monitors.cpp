@@ -1,38 +1,50 @@
 #include "fem_solver/monitors/monitors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+
+#include "core/telemetry/columns.hpp"
 
 namespace breach::fem {
 
 const std::vector<Column>& columns() {
     using R = Reading;
-    static const std::vector<Column> all{
-        {"step", "1", &R::step},
-        {"time", "s", &R::time},
-        {"dt", "s", &R::dt},
-        {"iterations", "1", &R::iterations},
-        {"residual", "1", &R::residual},
-        {"crest_displacement", "m", &R::crest_displacement},
-        {"crest_dx", "m", &R::crest_dx},
-        {"crest_dy", "m", &R::crest_dy},
-        {"kinetic_energy", "J", &R::kinetic_energy},
-        {"external_work", "J", &R::external_work},
-        {"internal_work", "J", &R::internal_work},
-        {"jacobian_ratio_avg", "1", &R::jacobian_ratio_avg},
-        {"jacobian_ratio_min", "1", &R::jacobian_ratio_min},
-        {"jacobian_centre_avg", "1", &R::jacobian_centre_avg},
-        {"jacobian_least_avg", "1", &R::jacobian_least_avg},
-        {"jacobian_least_min", "1", &R::jacobian_least_min},
-        {"epsilon_q_avg", "1", &R::epsilon_q_avg},
-        {"epsilon_q_max", "1", &R::epsilon_q_max},
-        {"strained_share", "1", &R::strained_share},
-        {"softened_share", "1", &R::softened_share},
-        {"excess_pressure_avg", "Pa", &R::excess_pressure_avg},
-        {"r_u_max", "1", &R::r_u_max},
-        {"liquefaction_depth", "m", &R::liquefaction_depth},
-        {"failure_surfaces", "1", &R::failure_surfaces},
+    using Named = std::pair<const char*, double R::*>;
+    static constexpr std::array members{
+        Named{"step", &R::step},
+        Named{"time", &R::time},
+        Named{"dt", &R::dt},
+        Named{"iterations", &R::iterations},
+        Named{"residual", &R::residual},
+        Named{"crest_displacement", &R::crest_displacement},
+        Named{"crest_dx", &R::crest_dx},
+        Named{"crest_dy", &R::crest_dy},
+        Named{"kinetic_energy", &R::kinetic_energy},
+        Named{"external_work", &R::external_work},
+        Named{"internal_work", &R::internal_work},
+        Named{"jacobian_ratio_avg", &R::jacobian_ratio_avg},
+        Named{"jacobian_ratio_min", &R::jacobian_ratio_min},
+        Named{"jacobian_centre_avg", &R::jacobian_centre_avg},
+        Named{"jacobian_least_avg", &R::jacobian_least_avg},
+        Named{"jacobian_least_min", &R::jacobian_least_min},
+        Named{"epsilon_q_avg", &R::epsilon_q_avg},
+        Named{"epsilon_q_max", &R::epsilon_q_max},
+        Named{"strained_share", &R::strained_share},
+        Named{"softened_share", &R::softened_share},
+        Named{"excess_pressure_avg", &R::excess_pressure_avg},
+        Named{"r_u_max", &R::r_u_max},
+        Named{"liquefaction_depth", &R::liquefaction_depth},
+        Named{"failure_surfaces", &R::failure_surfaces},
     };
+    static const std::vector<Column> all = [] {
+        std::vector<Column> made;
+        for (const auto& [name, member] : members) {
+            made.push_back({name, telemetry::column_named(name)->unit, member});
+        }
+        return made;
+    }();
     return all;
 }
 
@@ -43,6 +55,14 @@ double element_epsilon_q(const Model& model, const Motion& motion, std::size_t e
         sum += mechanics::epsilon_q(motion.strain[element * points + g]);
     }
     return sum / static_cast<double>(points);
+}
+
+std::vector<double> epsilon_q_of_elements(const Model& model, const Motion& motion) {
+    std::vector<double> epsilon_q(model.body.elements);
+    for (std::size_t e = 0; e < epsilon_q.size(); ++e) {
+        epsilon_q[e] = element_epsilon_q(model, motion, e);
+    }
+    return epsilon_q;
 }
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold) {
@@ -78,14 +98,14 @@ struct Softened {
 Softened softened_volume(const Model& model, const Motion& motion) {
     Softened volume;
     for (const Zone& zone : model.zones) {
-        const auto* soil = std::get_if<materials::MohrCoulomb>(&zone.law);
-        if (soil == nullptr || !soil->softening) continue;
+        const materials::Softening* softening = materials::softening(zone.law);
+        if (softening == nullptr) continue;
         const std::size_t end = std::min(zone.first + zone.count, model.body.elements);
         for (std::size_t e = zone.first; e < end; ++e) {
             volume.possible += model.volume[e];
             for (std::size_t g = 0; g < model.points_per_element; ++g) {
                 const double reached = motion.points[e * model.points_per_element + g].epsilon_q;
-                if (reached <= soil->softening->epsilon_q_start) continue;
+                if (reached <= softening->epsilon_q_start) continue;
                 volume.done += model.reference[e].weight[g];
             }
         }
@@ -161,6 +181,20 @@ std::size_t nearest_node(const Mesh& mesh, const Vec2& point) {
     };
     const auto best = std::min_element(mesh.nodes.begin(), mesh.nodes.end(), nearer);
     return static_cast<std::size_t>(best - mesh.nodes.begin());
+}
+
+double element_size_at(const Mesh& mesh, std::size_t node) {
+    double sum = 0.0, edges = 0.0;
+    for (const Quad& quad : mesh.quads) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto a = static_cast<std::size_t>(quad[k]);
+            const auto b = static_cast<std::size_t>(quad[(k + 1) % 4]);
+            if (a != node && b != node) continue;
+            sum += (mesh.nodes[a] - mesh.nodes[b]).norm();
+            edges += 1.0;
+        }
+    }
+    return edges > 0.0 ? sum / edges : 0.0;
 }
 
 }  // namespace breach::fem

@@ -55,11 +55,14 @@ struct Column {
     const char* unit;
     double Reading::*member;
 };
+/// As core/telemetry/columns.hpp has them, in its order; a test holds the two together.
 const std::vector<Column>& columns();
 
 /// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
 /// [-].
 double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element);
+/// The same of all elements of the body.
+std::vector<double> epsilon_q_of_elements(const Model& model, const Motion& motion);
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold);
 
@@ -73,5 +76,7 @@ exchange::Archive history_archive(const std::vector<Reading>& history);
 std::vector<Reading> history_from(const exchange::Archive& archive);
 
 std::size_t nearest_node(const Mesh& mesh, const Vec2& point);
+/// Mean length of the edges at a node [m].
+double element_size_at(const Mesh& mesh, std::size_t node);
 
 }  // namespace breach::fem

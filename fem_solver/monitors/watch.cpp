@@ -19,14 +19,14 @@ Watch::Watch(const scene::Fem& fem, const Model& model)
     nodes_ = nodes_in(body_, window_);
 }
 
+FailureSurfaces Watch::failure_surfaces(std::span<const double> epsilon_q) const {
+    return failure_surfaces_of(body_, ground_, epsilon_q, failure_strain_, failure_separation_);
+}
+
 void Watch::read(const Model& model, const Motion& motion, const Beginning& beginning,
                  Reading& reading) const {
-    std::vector<double> epsilon_q(model.body.elements);
-    for (std::size_t e = 0; e < epsilon_q.size(); ++e) {
-        epsilon_q[e] = element_epsilon_q(model, motion, e);
-    }
-    reading.failure_surfaces = static_cast<double>(
-        count_failure_surfaces(body_, ground_, epsilon_q, failure_strain_, failure_separation_));
+    reading.failure_surfaces =
+        static_cast<double>(failure_surfaces(epsilon_q_of_elements(model, motion)).count);
     if (beginning.p.size() > 0) read_water(model, motion, beginning, reading);
 }
 

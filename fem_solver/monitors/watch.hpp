@@ -17,6 +17,11 @@ class Watch {
     void read(const Model& model, const Motion& motion, const Beginning& beginning,
               Reading& reading) const;
 
+    /// epsilon_q: [elements of the body].
+    FailureSurfaces failure_surfaces(std::span<const double> epsilon_q) const;
+    double failure_strain() const { return failure_strain_; }
+    const Mesh& body() const { return body_; }
+
   private:
     void read_water(const Model& model, const Motion& motion, const Beginning& beginning,
                     Reading& reading) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "fem_solver/model/pore_water.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -38,7 +40,7 @@ std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
 /// K + 4G/3 now: of PM4Sand from its own state, of other laws the elastic one.
 double modulus_of(const Model& model, const Motion& motion, const PorousElement& porous) {
     const Zone& zone = model.zones[porous.zone];
-    const auto* sand = std::get_if<materials::PM4Sand>(&zone.law);
+    const auto* sand = materials::sand_in(zone.law);
     if (sand == nullptr || motion.sand.empty()) return porous.skeleton_modulus;
     const std::size_t first = (porous.element - zone.first) * model.points_per_element;
     const auto& state = motion.sand[zone.first_sand + first];

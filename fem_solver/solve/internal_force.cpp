@@ -184,7 +184,8 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
                                  Motion& trial, Wanted wanted) {
     const Stopwatch watch(seconds_, &Seconds::law);
     for (std::size_t z = 0; z < model_.zones.size(); ++z) {
-        const auto pass = [&](const auto& law) {
+        const auto pass = [&](const auto& parameters) {
+            const auto& law = materials::ready(parameters);
             return wanted == Wanted::stress
                        ? integrate_zone(law, model_.zones[z], old, trial)
                        : integrate_zone_with_tangent(law, model_.zones[z], old, trial);

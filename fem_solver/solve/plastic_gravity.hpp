@@ -3,6 +3,8 @@
 // in equilibrium; from that the law begins.
 #pragma once
 
+#include <string>
+
 #include "fem_solver/solve/step.hpp"
 
 namespace breach::fem {
@@ -13,15 +15,19 @@ bool rests_first(const scene::Stage& stage, std::int64_t place);
 
 /// What the search came to.
 struct FrictionalRest {
-    double cohesion = 0.0;  ///< least one that stood in equilibrium [Pa]
+    bool converged = false;
+    double cohesion = 0.0;  ///< least one that stood in equilibrium; the first one tried when none
+                            ///< did [Pa]
     double residual = 0.0;  ///< out of balance there, over the weight [-]
     int iterations = 0;
 };
+/// One sentence for people: how far it came, or that nothing stood and what to do.
+std::string in_words(const FrictionalRest& rest);
 
 /// Takes `motion` from elastic equilibrium to one in which every PM4Sand zone is Mohr-Coulomb with
 /// the friction of its bounding surface, sin(phi) = M_b / 2 at the zone's least M_b, and a cohesion
-/// that is halved level by level, by less where that does not converge. Cohesion 0: none did, and
-/// `motion` is as it was. Flow is associated: the tangent stays symmetric, and the strains
+/// that is halved level by level, by less where that does not converge. Where not even the first one
+/// does, `motion` is as it was. Flow is associated: the tangent stays symmetric, and the strains
 /// are of no account here.
 FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& motion,
                                   Prediction& prediction, Motion& trial);

@@ -6,6 +6,9 @@
 
 namespace breach::fem {
 
+/// Asks for the table below on stdout (the log where stdout carries JSON lines).
+inline constexpr const char* profile_switch = "--profile";
+
 using Clock = double (*)();  ///< [s] since some moment
 /// 0.1 us a look: what is not asked for costs nothing.
 double wall_clock();

@@ -7,34 +7,9 @@ namespace breach::fem {
 
 namespace pm4sand = materials::pm4sand;
 
-void check_sand(const scene::Scene& scene) {
-    const bool any = std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
-        return std::holds_alternative<materials::PM4Sand>(scene.materials[region.material].law);
-    });
-    if (!any) return;
-    const scene::Fem& fem = scene::fem_of(scene);
-    std::vector<fault::Fault> faults;
-    if (fem.kinematics == scene::Kinematics::updated_lagrangian) {
-        faults.push_back({"/fem/kinematics", "is updated_lagrangian, where PM4Sand cannot follow",
-                          "use small_strain"});
-    }
-    bool began = false;
-    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
-        const bool elastic = fem.stages[i].laws == scene::StageLaws::elastic;
-        if (began && elastic) {
-            faults.push_back({"/fem/stages/" + std::to_string(i) + "/laws",
-                              "is elastic after PM4Sand has begun",
-                              "put elastic stages first: the sand's memory would be lost"});
-        }
-        began = began || !elastic;
-    }
-    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
-}
-
 bool has_sand(const Model& model) {
-    return std::ranges::any_of(model.zones, [](const Zone& zone) {
-        return std::holds_alternative<materials::PM4Sand>(zone.law);
-    });
+    return std::ranges::any_of(
+        model.zones, [](const Zone& zone) { return materials::sand_in(zone.law) != nullptr; });
 }
 
 StressBias stress_bias(const Motion& motion) {
@@ -53,7 +28,7 @@ StressBias stress_bias(const Motion& motion) {
 StressBias begin_sand(const Model& model, Motion& motion) {
     if (!motion.sand.empty()) return stress_bias(motion);
     for (const Zone& zone : model.zones) {
-        const auto* law = std::get_if<materials::PM4Sand>(&zone.law);
+        const auto* law = materials::sand_in(zone.law);
         if (law == nullptr) continue;
         const std::size_t begin = zone.first * model.points_per_element;
         const std::size_t end = begin + zone.count * model.points_per_element;
@@ -70,7 +45,7 @@ StressBias begin_sand(const Model& model, Motion& motion) {
 SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
     std::size_t largest = 0;
     for (const Zone& zone : model.zones) {
-        if (!std::holds_alternative<materials::PM4Sand>(zone.law)) continue;
+        if (!materials::sand_in(zone.law)) continue;
         largest = std::max(largest, zone.count * points_);
     }
     updates_.resize(largest);

@@ -9,10 +9,6 @@
 
 namespace breach::fem {
 
-/// Throws BadInput where PM4Sand meets what it cannot do: the moving mesh (its histories per
-/// component do not turn), or an elastic stage after the switch.
-void check_sand(const scene::Scene& scene);
-
 bool has_sand(const Model& model);
 
 /// What the switch left as a constant stress because it lay below p_min or outside the surfaces.

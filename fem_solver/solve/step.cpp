@@ -1,5 +1,7 @@
 #include "fem_solver/solve/step.hpp"
 
+#include "fem_solver/model/pore_water.hpp"
+
 namespace breach::fem {
 
 Prediction prediction_for(const Model& model) {

@@ -1,29 +1,24 @@
 #include "mpm_solver/body/choose.hpp"
 
-#include <algorithm>
-
 namespace breach::mpm {
 
-namespace {
-
-bool averages(scene::AntiLocking anti_locking, const Zone& zone) {
-    if (anti_locking != scene::AntiLocking::automatic) {
-        return anti_locking == scene::AntiLocking::on;
+Averages averages_of(const scene::Mpm& mpm, const materials::Law& law) {
+    switch (mpm.anti_locking) {
+        case scene::AntiLocking::on:
+            return Averages::per_cell;
+        case scene::AntiLocking::off:
+            return Averages::none;
+        case scene::AntiLocking::automatic:
+            break;
     }
-    return zone.elasticity.nu > locking_nu ||
-           std::holds_alternative<materials::ReadyMohrCoulomb>(zone.law);
+    const bool locks = materials::traits(law).yields || materials::elasticity(law).nu > locking_nu;
+    return locks ? Averages::per_cell : Averages::none;
 }
 
-LawKind law_of(const ReadyLaw& law) {
-    const auto* mohr_coulomb = std::get_if<materials::ReadyMohrCoulomb>(&law);
-    if (!mohr_coulomb) return LawKind::elastic;
-    if (!mohr_coulomb->law.softening) return LawKind::mohr_coulomb;
-    return mohr_coulomb->law.softening->driver == materials::SofteningDriver::total
-               ? LawKind::softens_with_total_strain
-               : LawKind::softens_with_plastic_strain;
+VolumeRule volume_rule_of(const scene::Mpm& mpm, const materials::Law& law) {
+    return materials::traits(law).opens && mpm.gap_closure ? VolumeRule::from_stress
+                                                           : VolumeRule::tracked;
 }
-
-}  // namespace
 
 KernelKind kernel_of(scene::Kernel kernel) {
     switch (kernel) {
@@ -50,8 +45,8 @@ Order order_of(const scene::Mpm& mpm) {
 Choice choice_of(const scene::Mpm& mpm, const Zone& zone) {
     return {.kernel = kernel_of(mpm.kernel),
             .order = order_of(mpm),
-            .law = law_of(zone.law),
-            .averages = averages(mpm.anti_locking, zone) ? Averages::per_cell : Averages::none,
+            .law = zone.lanes.index(),
+            .averages = averages_of(mpm, zone.law),
             .overlap = mpm.overlap_correction.rate > 0.0 ? Overlap::corrected : Overlap::left_alone,
             .viscosity = zone.viscosity > 0.0 ? Viscosity::newtonian : Viscosity::none,
             .volume_rule = zone.volume_rule};
@@ -77,27 +72,6 @@ Loops choose_loops(const Choice& choice, InstructionSet instructions) {
         default:
             return plain_loops(choice);
     }
-}
-
-materials::MohrCoulombNumbers numbers_of(const Zone& zone) {
-    const materials::Moduli moduli = materials::make_moduli(zone.elasticity);
-    materials::MohrCoulombNumbers numbers{};
-    numbers.G = moduli.G;
-    numbers.K = moduli.K;
-    numbers.lambda = moduli.lambda;
-    const auto* ready = std::get_if<materials::ReadyMohrCoulomb>(&zone.law);
-    if (!ready) return numbers;
-    numbers.c = ready->law.c;
-    numbers.tan_phi = ready->tan_phi;
-    numbers.tan_psi = std::min(ready->tan_psi, ready->tan_phi);
-    numbers.tension_cutoff = ready->law.tension_cutoff;
-    if (const auto& softening = ready->law.softening) {
-        numbers.epsilon_q_start = softening->epsilon_q_start;
-        numbers.epsilon_q_end = softening->epsilon_q_end;
-        numbers.c_residual = softening->c_residual;
-        numbers.tan_phi_residual = softening->tan_phi_residual;
-    }
-    return numbers;
 }
 
 }  // namespace breach::mpm

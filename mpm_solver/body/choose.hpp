@@ -10,10 +10,10 @@ constexpr double locking_nu = 0.45;
 
 KernelKind kernel_of(scene::Kernel kernel);
 Order order_of(const scene::Mpm& mpm);
+/// Plastic flow keeps its volume and locks, as nearly incompressible elasticity does.
+Averages averages_of(const scene::Mpm& mpm, const materials::Law& law);
+VolumeRule volume_rule_of(const scene::Mpm& mpm, const materials::Law& law);
 Choice choice_of(const scene::Mpm& mpm, const Zone& zone);
 Loops choose_loops(const Choice& choice, InstructionSet instructions);
-
-/// The zone's law as bare numbers; elastic zones have no strength and do not look at it.
-materials::MohrCoulombNumbers numbers_of(const Zone& zone);
 
 }  // namespace breach::mpm

@@ -3,42 +3,25 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mpm_solver/body/choose.hpp"
+
 namespace breach::mpm {
 
 namespace {
 
-mechanics::Elasticity scaled(mechanics::Elasticity elasticity, double scale) {
-    elasticity.E *= scale;
-    return elasticity;
-}
-
 /// A band of shear is about a cell wide: with strains in proportion to 1 / h it dissipates the same
 /// whatever the cells.
-void scale_softening(materials::MohrCoulomb& law, const scene::Mpm& mpm) {
-    if (!law.softening || !mpm.softening_length) return;
-    const double scale = *mpm.softening_length / mpm.cell_size;
-    law.softening->epsilon_q_start *= scale;
-    law.softening->epsilon_q_end *= scale;
-}
-void scale_softening(materials::LinearElastic&, const scene::Mpm&) {}
-
-template <class Law>
-ReadyLaw ready_law(Law law, const scene::Mpm& mpm) {
-    law.elasticity = scaled(law.elasticity, mpm.stiffness_scale);
-    scale_softening(law, mpm);
-    return materials::ready(law);
+double softening_scale(const scene::Mpm& mpm) {
+    return mpm.softening_length ? *mpm.softening_length / mpm.cell_size : 1.0;
 }
 
-ReadyLaw ready_law(const scene::Material& soil, const scene::Mpm& mpm) {
-    if (std::holds_alternative<materials::PM4Sand>(soil.law)) {
-        throw fault::BadInput("scene", {{"/materials/" + soil.name + "/law/type",
-                                         "is pm4sand, which particles cannot have",
-                                         "give them a material with mohr_coulomb"}});
-    }
-    if (const auto* elastic = std::get_if<materials::LinearElastic>(&soil.law)) {
-        return ready_law(*elastic, mpm);
-    }
-    return ready_law(std::get<materials::MohrCoulomb>(soil.law), mpm);
+materials::LawLanes lanes_of(const materials::Law& law, const scene::Material& soil) {
+    const auto lanes = materials::for_particles(law);
+    if (lanes) return *lanes;
+    throw fault::BadInput("scene", {{"/materials/" + soil.name + "/law/type",
+                                     "is " + std::string(materials::traits(law).type) +
+                                         ", which particles cannot have",
+                                     "give them a material with mohr_coulomb"}});
 }
 
 double largest_specific_volume(const Points& points, const Zone& zone) {
@@ -53,15 +36,16 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
              std::size_t begin, std::size_t end) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     const scene::Material& soil = scene.materials[material];
-    const bool opens = std::holds_alternative<materials::MohrCoulomb>(soil.law);
-    Zone zone{
-        .material = soil.name,
-        .law = ready_law(soil, mpm),
-        .elasticity = scaled(materials::elasticity(soil.law), mpm.stiffness_scale),
-        .volume_rule = opens && mpm.gap_closure ? VolumeRule::from_stress : VolumeRule::tracked,
-        .viscosity = soil.viscosity,
-        .begin = begin,
-        .end = end};
+    const materials::Law law =
+        materials::scaled(soil.law, mpm.stiffness_scale, softening_scale(mpm));
+    Zone zone{.material = soil.name,
+              .law = law,
+              .lanes = lanes_of(law, soil),
+              .elasticity = materials::elasticity(law),
+              .volume_rule = volume_rule_of(mpm, law),
+              .viscosity = soil.viscosity,
+              .begin = begin,
+              .end = end};
     zone.largest_specific_volume = largest_specific_volume(points, zone);
     return zone;
 }

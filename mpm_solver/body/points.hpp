@@ -4,11 +4,9 @@
 
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/exchange/particle_state.hpp"
-#include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "core/scene/scene.hpp"
 #include "mpm_solver/loops/loops.hpp"
 
@@ -66,12 +64,11 @@ void for_each_integer(AnyPoints& points, Visit&& visit) {
     visit("region", points.region), visit("number", points.number), visit("home", points.home);
 }
 
-using ReadyLaw = std::variant<materials::LinearElastic, materials::ReadyMohrCoulomb>;
-
 /// Points [begin, end) of one material.
 struct Zone {
     std::string material;
-    ReadyLaw law;  ///< E already scaled
+    materials::Law law;         ///< E and the strains of softening already scaled
+    materials::LawLanes lanes;  ///< the same for the loops
     mechanics::Elasticity elasticity;
     VolumeRule volume_rule;
     double viscosity;  ///< eta [Pa s]

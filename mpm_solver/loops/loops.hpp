@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/materials/mohr_coulomb/lanes.hpp"
+#include "core/materials/lane_law.hpp"
 #include "mpm_solver/loops/kernel.hpp"
 
 namespace breach::mpm {
@@ -49,8 +49,9 @@ struct CellSum {
 struct ZoneWork {
     PointArrays points;
     GridArrays grid;
-    CellSum* cells;  ///< null when nothing is averaged
-    materials::MohrCoulombNumbers law;
+    CellSum* cells;   ///< null when nothing is averaged
+    const void* law;  ///< of the type in materials::LaneLaws that the loops were chosen for
+    materials::Moduli moduli;
     double eta;  ///< viscosity [Pa s]
     double gimp_half_size;
     double dt;
@@ -89,12 +90,6 @@ struct Loops {
 
 enum class KernelKind { gimp, b_spline, linear };
 enum class Order { usl, musl, usf };
-enum class LawKind {
-    elastic,
-    mohr_coulomb,
-    softens_with_plastic_strain,
-    softens_with_total_strain
-};
 enum class Averages { none, per_cell };
 enum class Overlap { left_alone, corrected };
 enum class Viscosity { none, newtonian };
@@ -109,7 +104,7 @@ enum class VolumeRule {
 struct Choice {
     KernelKind kernel;
     Order order;
-    LawKind law;
+    std::size_t law;  ///< its place in materials::LaneLaws
     Averages averages;
     Overlap overlap;
     Viscosity viscosity;

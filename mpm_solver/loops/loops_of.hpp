@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "core/materials/law_lanes.hpp"
 #include "mpm_solver/loops/gather_loop.hpp"
 #include "mpm_solver/loops/scatter_loop.hpp"
 #include "mpm_solver/loops/stress_loop.hpp"
@@ -44,27 +45,18 @@ void choose_mappings(const Choice& choice, Loops& loops) {
     }
 }
 
-template <class Isa, Averages averages, VolumeRule rule, LawKind law>
+template <class Isa, class Law, Averages averages, VolumeRule rule>
 void choose_stress(const Choice& choice, Loops& loops) {
     loops.stress = choice.overlap == Overlap::corrected
-                       ? stress<Isa, law, averages, Overlap::corrected, rule>
-                       : stress<Isa, law, averages, Overlap::left_alone, rule>;
+                       ? stress<Isa, Law, averages, Overlap::corrected, rule>
+                       : stress<Isa, Law, averages, Overlap::left_alone, rule>;
 }
 
-template <class Isa, Averages averages, VolumeRule rule>
-void choose_law(const Choice& choice, Loops& loops) {
-    switch (choice.law) {
-        case LawKind::elastic:
-            return choose_stress<Isa, averages, rule, LawKind::elastic>(choice, loops);
-        case LawKind::mohr_coulomb:
-            return choose_stress<Isa, averages, rule, LawKind::mohr_coulomb>(choice, loops);
-        case LawKind::softens_with_plastic_strain:
-            return choose_stress<Isa, averages, rule, LawKind::softens_with_plastic_strain>(choice,
-                                                                                            loops);
-        case LawKind::softens_with_total_strain:
-            return choose_stress<Isa, averages, rule, LawKind::softens_with_total_strain>(choice,
-                                                                                          loops);
-    }
+template <class Isa, Averages averages, VolumeRule rule, class... Laws>
+void choose_law(const Choice& choice, Loops& loops, materials::LawList<Laws...>) {
+    std::size_t place = 0;
+    ((place++ == choice.law ? choose_stress<Isa, Laws, averages, rule>(choice, loops) : void()),
+     ...);
 }
 
 template <class Isa, Averages averages>
@@ -81,10 +73,10 @@ void choose_all(const Choice& choice, Loops& loops) {
             break;
     }
     if (choice.volume_rule == VolumeRule::from_stress) {
-        choose_law<Isa, averages, VolumeRule::from_stress>(choice, loops);
+        choose_law<Isa, averages, VolumeRule::from_stress>(choice, loops, materials::LaneLaws{});
         loops.settle = settle<Isa, averages, VolumeRule::from_stress>;
     } else {
-        choose_law<Isa, averages, VolumeRule::tracked>(choice, loops);
+        choose_law<Isa, averages, VolumeRule::tracked>(choice, loops, materials::LaneLaws{});
         loops.settle = settle<Isa, averages, VolumeRule::tracked>;
     }
 }

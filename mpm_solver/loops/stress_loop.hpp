@@ -27,26 +27,6 @@ template <class Real>
     return materials::lanes::root(Real(2.0 / 3.0) * e_e);
 }
 
-constexpr materials::Softens softens_of(LawKind law) {
-    switch (law) {
-        case LawKind::softens_with_plastic_strain:
-            return materials::Softens::with_plastic_strain;
-        case LawKind::softens_with_total_strain:
-            return materials::Softens::with_total_strain;
-        default:
-            return materials::Softens::never;
-    }
-}
-
-/// Out of line: it is long, and whole blocks that stay elastic pass it by.
-template <class Isa, materials::Softens softens>
-[[gnu::noinline]] void return_block(
-    const materials::MohrCoulombNumbers& law,
-    const materials::mohr_coulomb_lanes::ConeOf<Lanes<Isa::lanes>>& cone,
-    materials::UpdateOf<Lanes<Isa::lanes>>& update) {
-    update = materials::return_from<softens>(law, cone, update.sigma);
-}
-
 /// Dissipation by viscosity, sum of V 2 eta dev D : dev D dt [J].
 template <class Isa>
 void dissipate(const ZoneWork& work, Span span, Totals& sums) {
@@ -68,105 +48,144 @@ void dissipate(const ZoneWork& work, Span span, Totals& sums) {
     sums.viscous += 2.0 * work.eta * work.dt * sum_of(V_D_D);
 }
 
-/// Strain increment, rotation and law; adds up what is dissipated.
-template <class Isa, LawKind law, Averages averages, Overlap overlap, VolumeRule volume_rule>
-void stress(const ZoneWork& work, Span span, Totals& sums) {
-    using namespace materials::lanes;
-    constexpr int N = Isa::lanes;
+/// A block's strain in the step, as its law gets it.
+template <class Real>
+struct Increment {
+    materials::StressOf<Real> trial;  ///< turned with the soil, then strained elastically
+    Real d_epsilon_q;                 ///< total [-]
+    Real sigma_m;                     ///< before it [Pa]
+    Real hidden;                      ///< compression that the overlap correction adds [-]
+    Real gap;                         ///< volume strain that is still open [-]
+    materials::MaskOf<Real> opens;    ///< it may open further
+};
+
+/// From the velocity gradients to the increments; the tracked volume and the total strain, which no
+/// law changes, go on here.
+template <class Isa, Averages averages, Overlap overlap, VolumeRule volume_rule>
+class Increments {
+    static constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
-    constexpr materials::Softens softens = softens_of(law);
-    const Real none(0.0);
-    const Real third(1.0 / 3.0);
-    const Real dt(work.dt);
-    const materials::MohrCoulombNumbers numbers = work.law;
-    const Real lambda(numbers.lambda);
-    const Real G(numbers.G);
-    const Real two_G(2.0 * numbers.G);
-    auto cone = materials::mohr_coulomb_lanes::cone_at<materials::Softens::never>(numbers, none);
+
+  public:
+    [[gnu::always_inline]] explicit Increments(const ZoneWork& work)
+        : work_(work),
+          dt_(work.dt),
+          lambda_(work.moduli.lambda),
+          G_(work.moduli.G),
+          two_G_(2.0 * work.moduli.G) {}
+
+    [[gnu::always_inline]] Increment<Real> of(const Block& block) const {
+        using namespace materials::lanes;
+        const auto& [a, p, first, count] = block;
+        const Real none(0.0);
+        const Real third(1.0 / 3.0);
+        const Real Lxx = load<Real>(a.Lxx + p);
+        const Real Lyy = load<Real>(a.Lyy + p);
+        const Real Lxy = load<Real>(a.Lxy + p);
+        const Real Lyx = load<Real>(a.Lyx + p);
+        const Real sxx = load<Real>(a.sxx + p);
+        const Real syy = load<Real>(a.syy + p);
+        const Real szz = load<Real>(a.szz + p);
+        Increment<Real> made;
+        made.sigma_m = (sxx + syy + szz) * third;
+        made.hidden = none;
+        Real d_epsilon_v = (Lxx + Lyy) * dt_;
+        if constexpr (averages == Averages::per_cell) {
+            d_epsilon_v = of_cells<N>(work_.cells, a.cell + p, &CellSum::trD) * dt_;
+        }
+        // The law is told of a compression that the soil's points do not show.
+        if constexpr (overlap == Overlap::corrected) {
+            made.hidden = Real(work_.overlap_rate) * load<Real>(a.excess + p) * dt_;
+            d_epsilon_v = d_epsilon_v - made.hidden;
+        }
+        const Real volume = load<Real>(a.volume + p);
+        const Real grown = volume * (Real(1.0) + d_epsilon_v);
+        // Volume strain that the soil opened in tension closes first; the law gets what is left.
+        made.gap = none;
+        made.opens = none < none;
+        if constexpr (volume_rule == VolumeRule::tracked) {
+            store(a.volume + p, grown);
+        } else {
+            made.opens = volume < Real(work_.widest);
+            store(a.volume + p, select(made.opens, grown, smaller(grown, volume)));
+            const Real gap = load<Real>(a.gap + p);
+            const Real closing = smaller(positive(-d_epsilon_v), gap);
+            made.gap = gap - closing;
+            d_epsilon_v = d_epsilon_v + closing;
+        }
+        const Real exx = Lxx * dt_;
+        const Real eyy = Lyy * dt_;
+        const Real shift = (d_epsilon_v - exx - eyy) * third;
+        const Real gamma_xy = (Lxy + Lyx) * dt_;
+        const InPlane<Real> old =
+            turned<Real>({sxx, syy, load<Real>(a.sxy + p)}, Real(0.5) * (Lyx - Lxy) * dt_);
+        const Real volumetric = lambda_ * d_epsilon_v;
+        made.trial = {old.xx + volumetric + two_G_ * (exx + shift),
+                      old.yy + volumetric + two_G_ * (eyy + shift),
+                      szz + volumetric + two_G_ * shift, old.xy + G_ * gamma_xy};
+        made.d_epsilon_q = equivalent(exx + shift, eyy + shift, shift, gamma_xy);
+        store(a.epsilon_q + p, load<Real>(a.epsilon_q + p) + made.d_epsilon_q);
+        return made;
+    }
+
+  private:
+    const ZoneWork& work_;
+    const Real dt_, lambda_, G_, two_G_;
+};
+
+/// What the block's points keep of the step.
+template <class Law, VolumeRule volume_rule, class Real>
+[[gnu::always_inline]] inline void keep(const Block& block, const Increment<Real>& increment,
+                                        const materials::UpdateOf<Real>& update) {
+    const auto& [a, p, first, count] = block;
+    store(a.sxx + p, update.sigma.xx), store(a.syy + p, update.sigma.yy);
+    store(a.szz + p, update.sigma.zz), store(a.sxy + p, update.sigma.xy);
+    if constexpr (volume_rule == VolumeRule::from_stress) {
+        const Real opened = materials::lanes::select(increment.opens, update.opened, Real(0.0));
+        store(a.gap + p, increment.gap + opened);
+    }
+    if constexpr (Law::softens != materials::Softens::never) {
+        const Real drives = Law::softens == materials::Softens::with_total_strain
+                                ? increment.d_epsilon_q
+                                : update.d_epsilon_q;
+        store(a.epsilon_q_plastic + p, load<Real>(a.epsilon_q_plastic + p) + drives);
+    }
+}
+
+/// Anti-locking: the block's part in the mean stress of its cells.
+template <int N>
+[[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells) {
+    using Real = Lanes<N>;
+    const auto& [a, p, first, count] = block;
+    const Real V_sigma_m =
+        load<Real>(a.V + p) *
+        ((load<Real>(a.sxx + p) + load<Real>(a.syy + p) + load<Real>(a.szz + p)) * Real(1.0 / 3.0));
+    for (int k = 0; k < count; ++k) cells[a.cell[p + k]].sigma_m += V_sigma_m.v[k];
+}
+
+/// Increment, law, book-keeping; adds up what is dissipated.
+template <class Isa, class Law, Averages averages, Overlap overlap, VolumeRule volume_rule>
+void stress(const ZoneWork& work, Span span, Totals& sums) {
+    using Real = Lanes<Isa::lanes>;
+    const Increments<Isa, averages, overlap, volume_rule> increments(work);
+    typename Law::template InLoop<Isa> law(static_cast<const Law*>(work.law)->numbers);
     Real plastic(0.0);
     Real pushed_in(0.0);
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
-            const auto own = own_lanes<Real>(block);
-            const Real Lxx = load<Real>(a.Lxx + p);
-            const Real Lyy = load<Real>(a.Lyy + p);
-            const Real Lxy = load<Real>(a.Lxy + p);
-            const Real Lyx = load<Real>(a.Lyx + p);
-            const Real V = select(own, load<Real>(a.V + p), none);
-            const Real sxx = load<Real>(a.sxx + p);
-            const Real syy = load<Real>(a.syy + p);
-            const Real szz = load<Real>(a.szz + p);
-            Real d_epsilon_v = (Lxx + Lyy) * dt;
-            if constexpr (averages == Averages::per_cell) {
-                d_epsilon_v = of_cells<N>(work.cells, a.cell + p, &CellSum::trD) * dt;
-            }
-            // The law is told of a compression that the soil's points do not show.
+            const Real V =
+                materials::lanes::select(own_lanes<Real>(block), load<Real>(a.V + p), Real(0.0));
+            const Increment<Real> increment = increments.of(block);
+            const materials::UpdateOf<Real> update =
+                law.update(increment.trial, load<Real>(a.epsilon_q_plastic + p));
+            keep<Law, volume_rule>(block, increment, update);
+            if constexpr (Law::yields) plastic = plastic + V * update.plastic_work;
             if constexpr (overlap == Overlap::corrected) {
-                const Real hidden = Real(work.overlap_rate) * load<Real>(a.excess + p) * dt;
-                d_epsilon_v = d_epsilon_v - hidden;
-                pushed_in = pushed_in - V * ((sxx + syy + szz) * third) * hidden;
-            }
-            const Real volume = load<Real>(a.volume + p);
-            const Real grown = volume * (Real(1.0) + d_epsilon_v);
-            // Volume strain that the soil opened in tension closes first; the law gets what is
-            // left.
-            Real gap = none;
-            [[maybe_unused]] auto opens = own;
-            if constexpr (volume_rule == VolumeRule::tracked) {
-                store(a.volume + p, grown);
-            } else {
-                opens = volume < Real(work.widest);
-                store(a.volume + p, select(opens, grown, smaller(grown, volume)));
-                gap = load<Real>(a.gap + p);
-                const Real closing = smaller(positive(-d_epsilon_v), gap);
-                gap = gap - closing;
-                d_epsilon_v = d_epsilon_v + closing;
-            }
-            const Real exx = Lxx * dt;
-            const Real eyy = Lyy * dt;
-            const Real shift = (d_epsilon_v - exx - eyy) * third;
-            const Real gamma_xy = (Lxy + Lyx) * dt;
-            const InPlane<Real> old =
-                turned<Real>({sxx, syy, load<Real>(a.sxy + p)}, Real(0.5) * (Lyx - Lxy) * dt);
-            const Real volumetric = lambda * d_epsilon_v;
-            const materials::StressOf<Real> trial{old.xx + volumetric + two_G * (exx + shift),
-                                                  old.yy + volumetric + two_G * (eyy + shift),
-                                                  szz + volumetric + two_G * shift,
-                                                  old.xy + G * gamma_xy};
-            const Real d_epsilon_q = equivalent(exx + shift, eyy + shift, shift, gamma_xy);
-            store(a.epsilon_q + p, load<Real>(a.epsilon_q + p) + d_epsilon_q);
-            if constexpr (law == LawKind::elastic) {
-                store(a.sxx + p, trial.xx), store(a.syy + p, trial.yy);
-                store(a.szz + p, trial.zz), store(a.sxy + p, trial.xy);
-            } else {
-                if constexpr (softens != materials::Softens::never) {
-                    cone = materials::mohr_coulomb_lanes::cone_at<softens>(
-                        numbers, load<Real>(a.epsilon_q_plastic + p));
-                }
-                materials::UpdateOf<Real> update = materials::elastic_update(trial);
-                if (any(materials::lies_outside(cone, trial))) {
-                    return_block<Isa, softens>(numbers, cone, update);
-                }
-                store(a.sxx + p, update.sigma.xx), store(a.syy + p, update.sigma.yy);
-                store(a.szz + p, update.sigma.zz), store(a.sxy + p, update.sigma.xy);
-                plastic = plastic + V * update.plastic_work;
-                if constexpr (volume_rule == VolumeRule::from_stress) {
-                    store(a.gap + p, gap + select(opens, update.opened, none));
-                }
-                if constexpr (softens != materials::Softens::never) {
-                    const Real drives = softens == materials::Softens::with_total_strain
-                                            ? d_epsilon_q
-                                            : update.d_epsilon_q;
-                    store(a.epsilon_q_plastic + p, load<Real>(a.epsilon_q_plastic + p) + drives);
-                }
+                pushed_in = pushed_in - V * increment.sigma_m * increment.hidden;
             }
             if constexpr (averages == Averages::per_cell) {
-                const Real V_sigma_m =
-                    load<Real>(a.V + p) *
-                    ((load<Real>(a.sxx + p) + load<Real>(a.syy + p) + load<Real>(a.szz + p)) *
-                     third);
-                for (int k = 0; k < count; ++k) work.cells[a.cell[p + k]].sigma_m += V_sigma_m.v[k];
+                add_mean_stress<Isa::lanes>(block, work.cells);
             }
         });
     sums.plastic += sum_of(plastic);
@@ -180,7 +199,7 @@ void settle(const ZoneWork& work, Span span, Totals& sums) {
     constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
     const Real third(1.0 / 3.0);
-    const Real per_K(1.0 / work.law.K);
+    const Real per_K(1.0 / work.moduli.K);
     Real largest(0.0);
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {

@@ -37,6 +37,24 @@ double numerical_share(const Energy& start, const Energy& now) {
     return available > 0.0 ? numerical_loss(start, now) / available : 0.0;
 }
 
+double kinetic_energy_of(const Points& points, const std::vector<std::uint8_t>& counts) {
+    double energy = 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (!counts[points.region[p]]) continue;
+        const double v_squared = points.vx[p] * points.vx[p] + points.vy[p] * points.vy[p];
+        energy += 0.5 * points.m[p] * v_squared;
+    }
+    return energy;
+}
+
+double mass_of(const Points& points, const std::vector<std::uint8_t>& counts) {
+    double mass = 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (counts[points.region[p]]) mass += points.m[p];
+    }
+    return mass;
+}
+
 double volume_of(const Points& points, const std::vector<std::uint8_t>& counts) {
     double volume = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {

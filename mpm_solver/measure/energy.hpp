@@ -27,6 +27,10 @@ double released(const Energy& start, const Energy& now);
 /// numerical_loss / released; 0 while nothing has been released.
 double numerical_share(const Energy& start, const Energy& now);
 
+/// Kinetic energy [J] and mass [kg] of the points of these soils.
+double kinetic_energy_of(const Points& points, const std::vector<std::uint8_t>& counts);
+double mass_of(const Points& points, const std::vector<std::uint8_t>& counts);
+
 /// Volume of the soil of these regions (followed through every strain increment) [m3]; an empty
 /// list counts all.
 double volume_of(const Points& points, const std::vector<std::uint8_t>& counts);

@@ -79,6 +79,25 @@ std::vector<double> profile_places(const FlowView& view) {
     return places;
 }
 
+std::vector<double> ground_profile(const Points& points, const FlowView& view,
+                                   std::vector<double> bottom) {
+    FlowView standing = view;
+    for (std::uint8_t& counts : standing.mobile) counts = counts ? 0 : 1;
+    const std::vector<Flow> stands = flow_profile(points, standing);
+    for (std::size_t k = 0; k < bottom.size(); ++k) bottom[k] += stands[k].depth;
+    return bottom;
+}
+
+std::vector<double> surface_profile(const Points& points, const FlowView& view,
+                                    std::vector<double> ground) {
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double top = points.y[p] + 0.5 * std::sqrt(points.volume[p] / view.thickness);
+        const auto k = static_cast<std::size_t>(std::lround((points.x[p] - view.low) / view.width));
+        ground[k] = std::max(ground[k], top);
+    }
+    return ground;
+}
+
 double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth) {
     for (std::size_t k = profile.size(); k-- > 0;) {
         if (profile[k].depth < depth) continue;

@@ -36,6 +36,16 @@ std::vector<Flow> flow_profile(const Points& points, const FlowView& view);
 /// x of the columns of a profile [m].
 std::vector<double> profile_places(const FlowView& view);
 
+/// Surface of what does not flow over the same columns [m]: `bottom` (floor or terrain) and on it the
+/// depth of the soil that is not mobile.
+std::vector<double> ground_profile(const Points& points, const FlowView& view,
+                                   std::vector<double> bottom);
+
+/// Upper edge of the highest soil, mobile or not, within half a cell of each column [m]; `ground`
+/// where there is none. A grain in flight is soil: compare with the depth.
+std::vector<double> surface_profile(const Points& points, const FlowView& view,
+                                    std::vector<double> ground);
+
 /// Farthest x where the flow is `depth` deep, between columns by straight lines; `low` when it is
 /// nowhere [m].
 double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth);

@@ -1,6 +1,5 @@
 #include "mpm_solver/measure/history.hpp"
 
-#include <cmath>
 #include <string>
 
 namespace breach::mpm {
@@ -26,21 +25,6 @@ History load(const exchange::Archive& archive, const std::string& prefix) {
         });
     }
     return history;
-}
-
-bool at_rest(const History& history, const scene::Mpm& mpm) {
-    if (history.empty()) return false;
-    const Row& now = history.back();
-    const double from = now.time - mpm.rest_window;
-    if (now.time < mpm.rest_earliest || from < history.front().time) return false;
-    for (auto row = history.rbegin(); row != history.rend(); ++row) {
-        if (std::abs(row->runout - now.runout) > mpm.rest_change ||
-            std::abs(row->runout_beyond_toe - now.runout_beyond_toe) > mpm.rest_change) {
-            return false;
-        }
-        if (row->time <= from) break;
-    }
-    return true;
 }
 
 }  // namespace breach::mpm

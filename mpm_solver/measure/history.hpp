@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/exchange/archive.hpp"
-#include "core/scene/scene.hpp"
 
 namespace breach::mpm {
 
@@ -21,6 +20,7 @@ struct Row {
     double runout_front = 0.0;     ///< farthest place with the front's depth, beyond the toe
     double area_beyond_toe = 0.0;  ///< of the section
     double kinetic_energy = 0.0;
+    double kinetic_mobile = 0.0;  ///< of the soil that counts for the runout
     double gravitational_energy = 0.0;
     double elastic_energy = 0.0;
     double plastic_dissipation = 0.0;
@@ -44,6 +44,7 @@ void for_each_column(AnyRow& row, Visit&& visit) {
     visit("runout_largest", "m", row.runout_largest), visit("runout_front", "m", row.runout_front);
     visit("area_beyond_toe", "m2", row.area_beyond_toe);
     visit("kinetic_energy", "J", row.kinetic_energy);
+    visit("kinetic_mobile", "J", row.kinetic_mobile);
     visit("gravitational_energy", "J", row.gravitational_energy);
     visit("elastic_energy", "J", row.elastic_energy);
     visit("plastic_dissipation", "J", row.plastic_dissipation);
@@ -61,9 +62,5 @@ using History = std::vector<Row>;
 /// The rows as arrays "<prefix><column>" of an archive, and back.
 void store(const History& history, const std::string& prefix, exchange::Archive& archive);
 History load(const exchange::Archive& archive, const std::string& prefix);
-
-/// The front rests: over the last rest_window both percentiles of the runout stayed within
-/// rest_change, and the run is older than rest_earliest.
-bool at_rest(const History& history, const scene::Mpm& mpm);
 
 }  // namespace breach::mpm

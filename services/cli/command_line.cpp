@@ -32,6 +32,9 @@ struct Arguments {
     std::string id;  ///< run or task
     SubmitWish submit;
     bool watch = false;
+    bool strict = false;
+    ResultsWish results;
+    std::int64_t priority = 0;
     std::size_t most_runs = 20;
     LogWish log;
     bool follow = false;
@@ -69,8 +72,9 @@ class CommandLine {
             ->envname("BREACH_TOKEN_FILE");
         app_.add_flag("--json", a_.json, "the server's answer as JSON");
         app_.footer(
-            "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed,\n"
-            "74 file fault, 75 the server does not answer.");
+            "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed "
+            "(with\n"
+            "--strict: or is questionable), 74 file fault, 75 the server does not answer.");
         add_run_commands();
         add_sweep_commands();
         add_task_commands();
@@ -79,7 +83,24 @@ class CommandLine {
 
     /// Throws CLI::ParseError.
     void parse(int argc, char** argv) { app_.parse(argc, argv); }
-    int explain(const CLI::ParseError& error) const { return app_.exit(error); }
+    int explain(const CLI::ParseError& error) const {
+        const bool asks_for_help = error.get_exit_code() == 0;
+        if (asks_for_help || !app_.get_subcommands().empty()) return app_.exit(error);
+        std::string words;
+        for (const CLI::App* each : app_.get_subcommands(nullptr))
+            words += (words.empty() ? "" : ", ") + each->get_name();
+        const std::vector<std::string> unknown = app_.remaining();
+        if (!unknown.empty()) {
+            std::cerr << "breach: there is no word \"" << harmless(unknown.front())
+                      << "\"; the words are: " << words << "\n";
+        } else if (error.get_name() == "RequiredError") {
+            std::cerr << "breach: say what to do with one of the words: " << words
+                      << "\nFor example: breach submit study.json --watch\n";
+        } else {
+            return app_.exit(error);
+        }
+        return error.get_exit_code();
+    }
 
     ExitCode execute() {
         Server server(*address_from(a_.server), read_token(a_.token_file));
@@ -89,39 +110,54 @@ class CommandLine {
     }
 
   private:
-    CLI::App* add(const std::string& word, const std::string& what, Command command) {
+    /// `example`: a line of arguments that works, for the word's own help.
+    CLI::App* add(const std::string& word, const std::string& what, const std::string& example,
+                  Command command) {
         CLI::App* sub = app_.add_subcommand(word, what);
+        sub->footer("Example:\n  breach " + word + " " + example);
         sub->callback([this, command = std::move(command)] { command_ = command; });
         return sub;
     }
 
     void take_study(CLI::App* sub) {
-        sub->add_option("STUDY", a_.submit.study,
-                        "study file (JSON); a scene named in it is put into it")
-            ->required();
+        CLI::Option_group* what = sub->add_option_group("what");
+        what->add_option("STUDY", a_.submit.study,
+                         "study file (JSON); a scene named in it is put into it");
+        what->add_option("--scene", a_.submit.scene,
+                         "instead: a scene file (JSON), to be run as it is; needs --times");
+        what->require_option(1);
+        sub->add_option("--times", a_.submit.transfer_times,
+                        "transfer times instead of the study's, separated by commas [s]")
+            ->delimiter(',');
         sub->add_option("--set", a_.submit.overrides,
                         "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         sub->add_option("--key", a_.submit.idempotency_key,
                         "submitting again with the same key makes no second run");
         sub->add_flag("--watch", a_.watch, "watch the run until it ends");
+        take_strict(sub);
+    }
+
+    void take_strict(CLI::App* sub) {
+        sub->add_flag("--strict", a_.strict, "exit code 70 when a result is questionable");
+    }
+
+    Doubt doubt() const { return a_.strict ? Doubt::fails : Doubt::accepted; }
+
+    ExitCode submit_and_watch(Server& server, const Console& console) {
+        const std::string run = submit(server, a_.submit, console);
+        return a_.watch ? watch(server, run, doubt(), console) : ExitCode::done;
     }
 
     void add_sweep_commands() {
-        CLI::App* sweep_ = add("sweep", "submit a study as a sweep; prints its id",
-                               [this](Server& s, const Console& c) {
-                                   a_.submit.door = "/v1/sweeps";
-                                   const std::string run = submit(s, a_.submit, c);
-                                   return a_.watch ? watch(s, run, c) : ExitCode::done;
-                               });
-        take_study(sweep_);
-        sweep_
-            ->add_option("--times", a_.submit.transfer_times,
-                         "transfer times instead of the study's, separated by commas [s]")
-            ->delimiter(',');
+        take_study(add("sweep", "submit a study as a sweep; prints its id",
+                       "study.json --times 0.5,1,1.5 --watch", [this](Server& s, const Console& c) {
+                           a_.submit.door = "/v1/sweeps";
+                           return submit_and_watch(s, c);
+                       }));
         CLI::App* extend_ =
             add("extend", "more transfer times for a sweep; what was computed stays",
-                [this](Server& s, const Console& c) {
+                "latest --times 0.75,1.25", [this](Server& s, const Console& c) {
                     return extend(s, a_.id, a_.submit.transfer_times, c);
                 });
         take_run(extend_);
@@ -133,41 +169,67 @@ class CommandLine {
     }
 
     void add_run_commands() {
-        CLI::App* submit_ = add("submit", "submit a study; prints the run's id",
-                                [this](Server& s, const Console& c) {
-                                    const std::string run = submit(s, a_.submit, c);
-                                    return a_.watch ? watch(s, run, c) : ExitCode::done;
-                                });
-        take_study(submit_);
+        take_study(add("submit", "submit a study; prints the run's id", "study.json --watch",
+                       [this](Server& s, const Console& c) { return submit_and_watch(s, c); }));
 
-        CLI::App* list_ = add("list", "the newest runs", [this](Server& s, const Console& c) {
-            return list_runs(s, a_.most_runs, c);
-        });
+        CLI::App* list_ =
+            add("list", "the newest runs", "-n 5",
+                [this](Server& s, const Console& c) { return list_runs(s, a_.most_runs, c); });
         list_->add_option("-n,--most", a_.most_runs, "how many")
             ->check(CLI::Range(1, 500))
             ->capture_default_str();
 
         CLI::App* show_ =
-            add("show", "a run with its tasks, or a task with its attempts and artifacts",
+            add("show", "a run with its tasks, or a task with its attempts and artifacts", "latest",
                 [this](Server& s, const Console& c) { return show(s, a_.id, c); });
         show_->add_option("RUN|TASK", a_.id, "whose page")->required();
 
-        take_run(add("watch", "a run while it runs; ends with it",
-                     [this](Server& s, const Console& c) { return watch(s, a_.id, c); }));
-        take_run(add("cancel", "stop a run's tasks and skip the rest",
-                     [this](Server& s, const Console& c) { return cancel(s, a_.id, c); }));
-        CLI::App* results_ =
-            add("results", "runout against transfer time",
-                [this](Server& s, const Console& c) { return results(s, a_.id, c); });
+        CLI::App* watch_ =
+            add("watch", "a run while it runs; ends with it", "latest",
+                [this](Server& s, const Console& c) { return watch(s, a_.id, doubt(), c); });
+        take_run(watch_);
+        take_strict(watch_);
+        add_orders();
+        CLI::App* results_ = add("results", "runout against transfer time", "latest --csv",
+                                 [this](Server& s, const Console& c) {
+                                     a_.results.run = a_.id;
+                                     a_.results.doubt = doubt();
+                                     return results(s, a_.results, c);
+                                 });
         take_run(results_);
         results_->add_flag("--csv", a_.csv, "comma-separated, for other programs");
+        results_->add_option("--state", a_.results.state, "only rows in this state: questionable");
+        results_->add_option("--flag", a_.results.flag,
+                             "only rows that carry this flag: still_moving");
+        take_strict(results_);
+    }
+
+    void add_order(const std::string& word, const std::string& what) {
+        take_run(add(word, what, "latest", [this, word](Server& s, const Console& c) {
+            return order(s, a_.id, word, c);
+        }));
+    }
+
+    void add_orders() {
+        add_order("cancel", "stop a run's tasks and skip the rest");
+        add_order("pause", "start nothing new of a run; what runs goes on");
+        add_order("resume", "go on with a run that was paused");
+        add_order("retry", "try what failed, was skipped or cancelled once more");
+        CLI::App* priority_ = add(
+            "priority", "which of the waiting tasks go first", "latest 10",
+            [this](Server& s, const Console& c) { return set_priority(s, a_.id, a_.priority, c); });
+        take_run(priority_);
+        priority_->add_option("PRIORITY", a_.priority, "-100 to 100; higher goes first")
+            ->check(CLI::Range(-100, 100))
+            ->required();
     }
 
     void add_task_commands() {
-        CLI::App* logs_ = add("logs", "a task's log", [this](Server& s, const Console& c) {
-            a_.log.follow = a_.follow ? Follow::until_the_end : Follow::no;
-            return show_log(s, a_.log, c);
-        });
+        CLI::App* logs_ =
+            add("logs", "a task's log", "TASK -f", [this](Server& s, const Console& c) {
+                a_.log.follow = a_.follow ? Follow::until_the_end : Follow::no;
+                return show_log(s, a_.log, c);
+            });
         logs_->add_option("TASK", a_.log.task, "whose log; `show RUN` lists the tasks")->required();
         logs_->add_option("--attempt", a_.log.attempt, "which attempt (default: the newest)");
         logs_->add_option("-n,--lines", a_.log.lines, "only the last so many lines");
@@ -176,6 +238,7 @@ class CommandLine {
         TelemetryWish& wish = a_.telemetry;
         CLI::App* telemetry_ =
             add("telemetry", "what a phase measured while it ran",
+                "latest mpm_solver --transfer-time 0.5 --csv",
                 [this](Server& s, const Console& c) { return telemetry(s, a_.telemetry, c); });
         telemetry_->add_option("RUN", wish.run, "which run")->required();
         telemetry_->add_option("PHASE", wish.phase, "fem_solver or mpm_solver")->required();
@@ -192,6 +255,7 @@ class CommandLine {
     void add_file_commands() {
         CLI::App* export_ =
             add("export", "a run as a folder: results, study, logs, verified artifacts, provenance",
+                "latest slope-run/",
                 [this](Server& s, const Console& c) { return export_run(s, a_.id, a_.folder, c); });
         take_run(export_);
         export_
@@ -200,7 +264,7 @@ class CommandLine {
             ->required();
         CLI::App* plan_ =
             add("plan", "what a scene needs of each phase, what it leaves out, and why",
-                [this](Server& s, const Console& c) { return plan(s, a_.scene, c); });
+                "scene.json", [this](Server& s, const Console& c) { return plan(s, a_.scene, c); });
         plan_->add_option("SCENE", a_.scene, "scene file (JSON)")->required();
     }
 

@@ -54,7 +54,8 @@ std::string run_named(Server& server, const std::string& name) {
 }
 
 std::string submit(Server& server, const SubmitWish& wish, const Console& console) {
-    json study = read_study(wish.study, wish.overrides);
+    json study = wish.scene.empty() ? read_study(wish.study, wish.overrides)
+                                    : study_around(wish.scene, wish.overrides);
     if (!wish.transfer_times.empty()) study["transfer_times"] = wish.transfer_times;
     Headers headers;
     if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
@@ -105,9 +106,9 @@ ExitCode show(Server& server, const std::string& id, const Console& console) {
     return ExitCode::done;
 }
 
-ExitCode cancel(Server& server, const std::string& run, const Console& console) {
-    const json answer =
-        server.post(path_of({"runs", run_named(server, run), "cancel"}), json::object());
+namespace {
+
+ExitCode show_order(const json& answer, const Console& console) {
     if (console.style == Style::json) {
         show_json(answer, console);
     } else {
@@ -116,20 +117,45 @@ ExitCode cancel(Server& server, const std::string& run, const Console& console) 
     return ExitCode::done;
 }
 
-ExitCode results(Server& server, const std::string& run, const Console& console) {
-    const std::string id = run_named(server, run);
-    const std::string path = path_of({"runs", id, "results"});
-    if (console.style == Style::csv) {
-        console.out << server.get_text(path + "?format=csv").body;
+}  // namespace
+
+ExitCode order(Server& server, const std::string& run, const std::string& word,
+               const Console& console) {
+    return show_order(server.post(path_of({"runs", run_named(server, run), word}), json::object()),
+                      console);
+}
+
+ExitCode set_priority(Server& server, const std::string& run, std::int64_t priority,
+                      const Console& console) {
+    return show_order(server.post(path_of({"runs", run_named(server, run), "priority"}),
+                                  {{"priority", priority}}),
+                      console);
+}
+
+ExitCode code_of_end(const json& run, Doubt doubt, const Console& console) {
+    if (end_of(run) == RunEnd::bad) return ExitCode::breakdown;
+    if (!is_questionable(run)) return ExitCode::done;
+    console.notes << "questionable: " << cell(run, "message") << " (`breach results "
+                  << cell(run, "id") << "` says what to do)\n";
+    return doubt == Doubt::fails ? ExitCode::breakdown : ExitCode::done;
+}
+
+ExitCode results(Server& server, const ResultsWish& wish, const Console& console) {
+    const std::string id = run_named(server, wish.run);
+    const bool csv = console.style == Style::csv;
+    const std::string path =
+        path_of({"runs", id, "results"}) +
+        query_of({{"format", csv ? "csv" : ""}, {"state", wish.state}, {"flag", wish.flag}});
+    if (csv) {
+        console.out << server.get_text(path).body;
     } else if (console.style == Style::json) {
         show_json(server.get(path), console);
     } else {
-        console.out << as_result_table(server.get(path).at("rows"));
+        console.out << as_result_table(server.get(path));
     }
-    const json state = server.get(path_of({"runs", id}));
-    if (end_of(state) == RunEnd::good) return ExitCode::done;
-    console.notes << as_progress_line(state) << "\n";
-    return end_of(state) == RunEnd::bad ? ExitCode::breakdown : ExitCode::done;
+    const json run = server.get(path_of({"runs", id}));
+    if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";
+    return end_of(run) == RunEnd::not_yet ? ExitCode::done : code_of_end(run, wish.doubt, console);
 }
 
 ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console) {

@@ -26,6 +26,7 @@ struct Console {
 
 struct SubmitWish {
     std::filesystem::path study;
+    std::filesystem::path scene = {};  ///< instead of a study: a study is made around it
     std::vector<std::string> overrides;
     std::string idempotency_key;              ///< empty: none
     std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: as it says
@@ -42,9 +43,28 @@ fault::ExitCode extend(Server& server, const std::string& sweep, const std::vect
 fault::ExitCode list_runs(Server& server, std::size_t most, const Console& console);
 /// `id`: of a run or of a task
 fault::ExitCode show(Server& server, const std::string& id, const Console& console);
-fault::ExitCode cancel(Server& server, const std::string& run, const Console& console);
-/// breakdown (70) when the run failed or was cancelled
-fault::ExitCode results(Server& server, const std::string& run, const Console& console);
+/// `word`: cancel, pause, resume or retry.
+fault::ExitCode order(Server& server, const std::string& run, const std::string& word,
+                      const Console& console);
+fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_t priority,
+                             const Console& console);
+
+/// What a questionable result counts as in the exit code.
+enum class Doubt { accepted, fails };
+
+/// breakdown (70) when the run, which has ended, failed or was cancelled, or when a result of it is
+/// questionable and that counts. Says on the side why it is not simply fine.
+fault::ExitCode code_of_end(const nlohmann::json& run, Doubt doubt, const Console& console);
+
+struct ResultsWish {
+    std::string run;
+    std::string state;  ///< only rows in this state; empty: all
+    std::string flag;   ///< only rows with a flag of this code; empty: all
+    Doubt doubt = Doubt::accepted;
+};
+
+/// Exit code: code_of_end
+fault::ExitCode results(Server& server, const ResultsWish& wish, const Console& console);
 
 struct TelemetryWish {
     std::string run;

@@ -21,6 +21,17 @@ json read_json(const std::filesystem::path& file) {
     return scene::parse_json(text.str(), file.string());
 }
 
+/// Paths of files in them are relative to the scene's folder.
+void add_overrides(json& study, const std::vector<std::string>& overrides,
+                   const std::filesystem::path& scene_folder) {
+    if (!overrides.empty()) {
+        if (!study.contains("overrides")) study["overrides"] = json::array();
+        if (!study["overrides"].is_array()) return;  // the server says what is wrong with it
+        for (const std::string& each : overrides) study["overrides"].push_back(each);
+    }
+    scene::make_override_files_absolute(study, scene_folder);
+}
+
 }  // namespace
 
 json read_scene_document(const std::filesystem::path& file) {
@@ -38,12 +49,15 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
         scene_folder = scene.parent_path();
         study["scene"] = read_scene_document(scene);
     }
-    if (!overrides.empty()) {
-        if (!study.contains("overrides")) study["overrides"] = json::array();
-        if (!study["overrides"].is_array()) return study;  // the server says what is wrong with it
-        for (const std::string& each : overrides) study["overrides"].push_back(each);
-    }
-    scene::make_override_files_absolute(study, scene_folder);
+    add_overrides(study, overrides, scene_folder);
+    return study;
+}
+
+json study_around(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
+    const json document = read_scene_document(scene);
+    json study{{"format", "breachline-study/1"}, {"scene", document}};
+    study["name"] = document.is_object() ? document.value("name", json("scene")) : json("scene");
+    add_overrides(study, overrides, scene.parent_path());
     return study;
 }
 

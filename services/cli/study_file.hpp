@@ -15,6 +15,11 @@ namespace breach::cli {
 nlohmann::json read_study(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides);
 
+/// A study that holds nothing but the scene of this file, and its name; when to transfer is left
+/// open.
+nlohmann::json study_around(const std::filesystem::path& scene,
+                            const std::vector<std::string>& overrides);
+
 /// A scene with its mesh's path resolved.
 nlohmann::json read_scene_document(const std::filesystem::path& file);
 

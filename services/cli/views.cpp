@@ -1,8 +1,8 @@
 #include "services/cli/views.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 
 #include "services/cli/table.hpp"
 
@@ -46,12 +46,102 @@ std::string cpu_seconds(const json& task) {
     return task.at("attempts").empty() ? "-" : cell(json(sum));
 }
 
+bool is_yes(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
+/// Of a task or a row; none when they are not known.
+json flags_of(const json& object) {
+    const auto found = object.find("flags");
+    return found != object.end() && found->is_array() ? *found : json::array();
+}
+
+std::string codes_of(const json& flags) {
+    std::string codes;
+    for (const json& each : flags) {
+        const std::string code = cell(each, "code");
+        if (codes.find(code) == std::string::npos) codes += (codes.empty() ? "" : ", ") + code;
+    }
+    return codes;
+}
+
+/// "ended: entangled at 6.7 s": an end of its own kind, which is no failure.
+std::string unusual_end(const json& task) {
+    if (cell(task, "ended") != "entangled") return "";
+    return "ended: entangled at " + cell(task, "end_time") + " s";
+}
+
+std::string note_of(const json& task) {
+    std::string note = unusual_end(task);
+    if (const std::string codes = codes_of(flags_of(task)); !codes.empty())
+        note += (note.empty() ? "" : ", ") + codes;
+    if (note.empty() && cell(task, "message") != "-") note = cell(task, "message");
+    return note;
+}
+
+std::string state_shown(const json& task) {
+    if (is_yes(task, "not_reached")) return "not_reached";
+    return is_yes(task, "questionable") ? "questionable" : cell(task, "state");
+}
+
+/// Explains each flag once: which results have it, what it says of the first of them.
+class Legend {
+  public:
+    /// `where`: what carries the flag, in words
+    void add(const json& flag, const std::string& where) {
+        const std::string code = cell(flag, "code");
+        const std::string severity = cell(flag, "severity");
+        const auto same = std::ranges::find_if(
+            entries_, [&](const Entry& e) { return e.code == code && e.severity == severity; });
+        const std::string message = cell(flag, "message");
+        if (same == entries_.end()) {
+            entries_.push_back({code, severity, message, where, {where}, false});
+        } else {
+            same->places.insert(where);
+            same->differs |= same->message != message;
+        }
+    }
+
+    /// "a" for the first flag that was added.
+    std::string mark_of(const json& flag) const {
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            if (entries_[i].code != cell(flag, "code") ||
+                entries_[i].severity != cell(flag, "severity"))
+                continue;
+            return i < 26 ? std::string(1, static_cast<char>('a' + i)) : entries_[i].code;
+        }
+        return "";
+    }
+
+    std::string as_text(const std::string& of_what) const {
+        std::string text;
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            const Entry& each = entries_[i];
+            text += std::string(1, i < 26 ? static_cast<char>('a' + i) : ' ') + "  " + each.code +
+                    " (" + each.severity + "), " + std::to_string(each.places.size()) + of_what +
+                    "\n   " + (each.differs ? each.first + ": " : "") + each.message + "\n";
+        }
+        return text;
+    }
+
+  private:
+    struct Entry {
+        std::string code;
+        std::string severity;
+        std::string message;
+        std::string first;
+        std::set<std::string> places;
+        bool differs;  ///< the message is not the same everywhere
+    };
+    std::vector<Entry> entries_;
+};
+
 std::string as_task_table(const json& tasks) {
     std::vector<Cells> rows;
     for (const json& task : tasks) {
         rows.push_back({cell(task, "id"), cell(task, "phase"), cell(task, "transfer_time"),
-                        cell(task, "state"), percent(task), cpu_seconds(task),
-                        cell(task, "message") == "-" ? "" : cell(task, "message")});
+                        state_shown(task), percent(task), cpu_seconds(task), note_of(task)});
     }
     return as_table({{"task", Align::left},
                      {"phase", Align::left},
@@ -67,10 +157,12 @@ std::string as_task_table(const json& tasks) {
 
 RunEnd end_of(const json& run) {
     const std::string state = state_of(run);
-    if (is_one_of(state, {"succeeded", "partial"})) return RunEnd::good;
+    if (is_one_of(state, {"succeeded", "questionable", "partial"})) return RunEnd::good;
     if (is_one_of(state, {"failed", "cancelled"})) return RunEnd::bad;
     return RunEnd::not_yet;
 }
+
+bool is_questionable(const json& run) { return run.value("questionable", 0) > 0; }
 
 bool is_final_task(const json& task) {
     return is_one_of(state_of(task), {"cached", "succeeded", "failed", "cancelled", "skipped"});
@@ -79,8 +171,10 @@ bool is_final_task(const json& task) {
 std::string as_run_table(const json& runs) {
     std::vector<Cells> rows;
     for (const json& run : runs) {
+        const bool doubtful = state_of(run) == "questionable";
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), percent(run),
-                        moment(run, "created"), tasks_of(run)});
+                        moment(run, "created"),
+                        tasks_of(run) + (doubtful ? "  " + cell(run, "message") : "")});
     }
     return as_table({{"run", Align::left},
                      {"name", Align::left},
@@ -104,7 +198,12 @@ std::string as_run_page(const json& run) {
         if (task.contains("fault") && !task["fault"].is_null())
             text += "\n" + cell(task, "id") + "  " + fate_of_task(task);
     }
-    return text.ends_with('\n') ? text : text + "\n";
+    if (!text.ends_with('\n')) text += "\n";
+    Legend legend;
+    for (const json& task : run.at("tasks"))
+        for (const json& flag : flags_of(task)) legend.add(flag, name_of_task(task));
+    const std::string flags = legend.as_text(" results");
+    return flags.empty() ? text : text + "\n" + flags;
 }
 
 std::string as_task_page(const json& task) {
@@ -126,6 +225,9 @@ std::string as_task_page(const json& task) {
                              {"wall [s]", Align::right},
                              {"CPU [s]", Align::right}},
                             attempts);
+    for (const json& each : flags_of(task))
+        text += "\n" + cell(each, "code") + " (" + cell(each, "severity") + ")\n   " +
+                cell(each, "message") + "\n";
     if (task.at("artifacts").empty()) return text;
     std::vector<Cells> artifacts;
     for (const json& each : task.at("artifacts"))
@@ -135,30 +237,85 @@ std::string as_task_page(const json& task) {
                     artifacts);
 }
 
-std::string as_result_table(const json& rows) {
-    struct Quantity {
-        const char* key;
-        const char* title;
-    };
-    constexpr std::array quantities{
-        Quantity{"runout", "runout [m]"},
-        Quantity{"runout_beyond_toe", "beyond toe [m]"},
-        Quantity{"runout_largest", "largest [m]"},
-        Quantity{"volume_ratio", "volume ratio"},
-        Quantity{"numerical_share", "numerical share"},
-        Quantity{"cpu_seconds", "CPU [s]"},
-    };
-    std::vector<Column> columns{{"t_T [s]", Align::right}, {"state", Align::left}};
-    for (const Quantity& each : quantities) columns.push_back({each.title, Align::right});
+namespace {
+
+/// What people read first comes first; the rest as the server has it.
+std::vector<json> columns_for_people(const json& columns, const json& rows) {
+    const bool variants =
+        std::ranges::any_of(rows, [](const json& row) { return row.value("variant", "") != ""; });
+    std::vector<json> found;
+    for (const char* name : {"variant", "transfer_time", "state", "at_rest"})
+        for (const json& each : columns)
+            if (each.at("name") == name && (variants || each["name"] != "variant"))
+                found.push_back(each);
+    for (const json& each : columns)
+        if (each.at("title") != "" && each.at("name") != "variant" &&
+            std::ranges::find(found, each) == found.end())
+            found.push_back(each);
+    return found;
+}
+
+std::string heading_of(const json& column) {
+    const std::string unit = column.at("unit");
+    return cell(column, "title") + (unit.empty() || unit == "1" ? "" : " [" + unit + "]");
+}
+
+std::string result_cell(const json& row, const json& column) {
+    const std::string name = column.at("name");
+    const json value = row.value(name, json());
+    if (!value.is_boolean()) return cell(value);
+    if (name == "at_rest") return value.get<bool>() ? "yes" : "MOVING";
+    return value.get<bool>() ? "yes" : "no";
+}
+
+/// There is a number, but not a word on whether to believe it.
+bool is_unjudged(const json& row) {
+    return !row.value("runout", json()).is_null() && row.value("questionable", json()).is_null();
+}
+
+std::string place_of(const json& row) {
+    const std::string variant = row.value("variant", "");
+    return (variant.empty() ? "" : harmless(variant) + ", ") + "t_T " + cell(row, "transfer_time") +
+           " s";
+}
+
+}  // namespace
+
+std::string as_result_table(const json& answer) {
+    const json& rows = answer.at("rows");
+    const std::vector<json> shown = columns_for_people(answer.at("columns"), rows);
+    std::vector<Column> columns;
+    for (const json& each : shown)
+        columns.push_back(
+            {heading_of(each), each.at("kind") == "number" ? Align::right : Align::left});
     columns.push_back({"", Align::left});
+    Legend legend;
+    for (const char* severity : {"questionable", "warning"})
+        for (const json& row : rows)
+            for (const json& flag : flags_of(row))
+                if (cell(flag, "severity") == severity) legend.add(flag, place_of(row));
     std::vector<Cells> lines;
+    bool unjudged = false;
     for (const json& row : rows) {
-        Cells line{cell(row, "transfer_time"), cell(row, "state")};
-        for (const Quantity& each : quantities) line.push_back(cell(row, each.key));
-        line.push_back(row.contains("reason") ? cell(row, "reason") : "");
+        Cells line;
+        for (const json& each : shown) line.push_back(result_cell(row, each));
+        std::set<std::string> marks;
+        for (const json& flag : flags_of(row)) marks.insert(legend.mark_of(flag));
+        if (is_unjudged(row)) marks.insert("?");
+        unjudged |= is_unjudged(row);
+        std::string last;
+        for (const std::string& each : marks) last += (last.empty() ? "" : " ") + each;
+        if (!row.value("reason", "").empty())
+            last += (last.empty() ? "" : "  ") + cell(row, "reason");
+        line.push_back(last);
         lines.push_back(std::move(line));
     }
-    return as_table(columns, lines);
+    std::string notes = legend.as_text(" of " + std::to_string(rows.size()) + " rows");
+    if (unjudged)
+        notes +=
+            "?  not known: made by an earlier version, which does not say whether it can be "
+            "relied on\n";
+    return as_table(columns, lines) + (notes.empty() ? "" : "\n" + notes);
 }
 
 std::string as_telemetry_table(const json& lines) {
@@ -193,7 +350,9 @@ std::string name_of_task(const json& task) {
 }
 
 std::string fate_of_task(const json& task) {
-    std::string text = cell(task, "state");
+    std::string text = state_shown(task);
+    if (text == "questionable") text += " (" + codes_of(flags_of(task)) + ")";
+    if (const std::string end = unusual_end(task); !end.empty()) text += ", " + end;
     if (!task.contains("fault") || task["fault"].is_null()) return text;
     const std::string code = cell(task["fault"], "exit_code");
     if (code != "-") text += " (exit code " + code + ")";

@@ -8,22 +8,25 @@ namespace breach::cli {
 
 enum class RunEnd {
     not_yet,
-    good,  ///< succeeded, or partial: some transfer times have no runout, the others do
+    good,  ///< succeeded, perhaps questionable; or partial: some transfer times have no runout
     bad,   ///< failed or cancelled
 };
 
 RunEnd end_of(const nlohmann::json& run);
+/// A result of it is not one to rely on.
+bool is_questionable(const nlohmann::json& run);
 /// No attempt of it will run any more.
 bool is_final_task(const nlohmann::json& task);
 
 /// GET /v1/runs
 std::string as_run_table(const nlohmann::json& runs);
-/// GET /v1/runs/{id}: what it is, how far it is, its tasks, and why the failed ones failed.
+/// GET /v1/runs/{id}: what it is, how far it is, its tasks, why the failed ones failed, and what to
+/// know before believing the others.
 std::string as_run_page(const nlohmann::json& run);
 /// GET /v1/tasks/{id}
 std::string as_task_page(const nlohmann::json& task);
-/// GET /v1/runs/{id}/results
-std::string as_result_table(const nlohmann::json& rows);
+/// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
+std::string as_result_table(const nlohmann::json& answer);
 /// Lines of telemetry; the columns are the numbers and words of the first line.
 std::string as_telemetry_table(const nlohmann::json& lines);
 
@@ -31,7 +34,8 @@ std::string as_telemetry_table(const nlohmann::json& lines);
 std::string as_progress_line(const nlohmann::json& run);
 /// "mpm_solver  t_T 1.5 s": the task in a few words
 std::string name_of_task(const nlohmann::json& task);
-/// "failed (exit code 70): the mesh is entangled", or only the state
+/// "failed (exit code 70): the disk is full", "succeeded, ended: entangled at 6.7 s",
+/// "questionable (still_moving)", or only the state
 std::string fate_of_task(const nlohmann::json& task);
 
 }  // namespace breach::cli

@@ -158,7 +158,7 @@ class Onlooker {
 
 }  // namespace
 
-ExitCode watch(Server& server, const std::string& name, const Console& console) {
+ExitCode watch(Server& server, const std::string& name, Doubt doubt, const Console& console) {
     Onlooker onlooker(server, run_named(server, name), console);
     auto answered = steady_clock::now();
     bool ever_answered = false;
@@ -181,7 +181,7 @@ ExitCode watch(Server& server, const std::string& name, const Console& console) 
                         if (console.screen == Screen::terminal && task.at("state") == "failed")
                             console.out << name_of_task(task) << "  " << fate_of_task(task) << "\n";
                 }
-                return end_of(run) == RunEnd::good ? ExitCode::done : ExitCode::breakdown;
+                return code_of_end(run, doubt, console);
             }
         } catch (const Unreachable&) {
             if (!ever_answered || steady_clock::now() - answered > patience_for_the_server) throw;

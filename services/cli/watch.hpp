@@ -8,8 +8,8 @@
 
 namespace breach::cli {
 
-/// Returns when the run has ended: done, or breakdown (70) when it failed or was cancelled. A
-/// server that goes away for less than a minute is waited for; after that Unreachable is thrown.
-fault::ExitCode watch(Server& server, const std::string& run, const Console& console);
+/// Returns when the run has ended: code_of_end. A server that goes away for less than a minute is
+/// waited for; after that Unreachable is thrown.
+fault::ExitCode watch(Server& server, const std::string& run, Doubt doubt, const Console& console);
 
 }  // namespace breach::cli

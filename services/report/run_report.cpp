@@ -4,6 +4,7 @@
 #include "core/fault/fault.hpp"
 #include "services/report/chart/page.hpp"
 #include "services/report/chart/png.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -13,7 +14,7 @@ namespace {
 void add_companion(const std::filesystem::path& folder, const std::optional<Paper>& paper,
                    Document& document) {
     const Run run = read_run(folder);
-    const Measures measures = measures_of(run);
+    const Measures measures = measures_of(run, paper);
     const Choice choice;
     const Material material{run, paper, measures, choice};
     Document other{run.title, {}, {}, {}};
@@ -33,8 +34,8 @@ void add_companion(const std::filesystem::path& folder, const std::optional<Pape
 
 Document filled(const Run& run, const Choice& choice) {
     const std::optional<Paper> paper = paper_for(run.scene.at("name"));
-    const Measures measures = measures_of(run);
-    Document document{run.title, {}, {}, {}};
+    const Measures measures = measures_of(run, paper);
+    Document document{run.title, {}, {}, {}, verdict_of(run)};
     if (!run.id.empty()) document.remarks.push_back("Run " + run.id + ", " + run.name + ".");
     if (paper) {
         document.remarks.insert(document.remarks.end(), paper->remarks.begin(),

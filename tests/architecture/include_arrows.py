@@ -16,11 +16,14 @@ core = {
     "core/version": set(),
     "core/criteria": {"core/fault"},
     "core/mechanics": set(),
+    "core/numerics": set(),
+    "core/telemetry": set(),
     "core/materials": {"core/mechanics"},
     "core/scene": {"core/fault", "core/materials", "core/mechanics"},
     "core/exchange": {"core/fault", "core/mechanics"},
     "core/motion": {"core/fault"},
-    "core/process": {"core/fault", "core/scene", "core/exchange", "core/version"},
+    "core/check": {"core/criteria", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/scene"},
+    "core/process": {"core/check", "core/fault", "core/scene", "core/exchange", "core/version"},
 }
 every_core_room = set(core)
 arrows = {
@@ -29,7 +32,7 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/criteria", "core/fault", "core/scene", "core/exchange", "core/version"},
+    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/telemetry", "core/version"},
     "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
     "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion"},
 }
@@ -43,7 +46,8 @@ floors = {
     "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # units that are one thing in several files: a door that its own parts include
-one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader)$")]
+one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility)$"),
+             re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {
     "hdf5.h": ["core/exchange/"],

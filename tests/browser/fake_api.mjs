@@ -26,14 +26,30 @@ export const two_variants = {
                { kind: "bisect", name: "edges", share: 0.75, tolerance_s: 0.05 }],
 };
 
+const flag = (code, severity, message, pointer = "") => ({ code, severity, message, pointer });
+export const still_moving = flag("still_moving", "questionable", "12 % of the released energy is left at 6 s: the runout is a lower bound; " +
+                                 "let it run on", "/mpm/duration");
+export const numerical_share = flag("numerical_share", "questionable", "the scheme took 31 % of the released energy, 20 % is the limit");
+export const implausible = flag("implausible", "warning", "19 looks like kN/m3: 1,937 kg/m3", "/materials/sand/density");
+export const entangled = flag("entangled", "warning", "the mesh entangled at 1.9 s in element 212, in the failure's band");
+/// What the runouts of a run with flags carry, by transfer time; all others are sound. null: an earlier version's.
+export const some_flagged = { 0.5: [still_moving], 0.75: [numerical_share], 1: [still_moving, numerical_share], 1.5: [implausible], 1.75: null };
+
+/// Twelve strengths at one transfer time.
+const strengths = Array.from({ length: 12 }, (_, i) => `strength_x_${(0.7 + 0.05 * i).toFixed(2)}`);
+export const twelve_variants = { ...study, name: "twelve", title: "Twelve strengths at one transfer time", transfer_times: [1],
+    variants: strengths.map((name, i) => ({ name, overrides: [`/materials/sand/law/c_kPa=${10 + i}`] })) };
+export const twelve_curves = { ...twelve_variants, name: "twelve-curves", title: "Twelve strengths, eight times", transfer_times: study.transfer_times };
+
 const digest = (text) => createHash("sha256").update(text).digest("hex");
 const clamp = (value) => Math.min(1, Math.max(0, value));
 
 /// One run: FEM for a while, each transfer soon after its time, then two MPM runs side by side.
 class FakeRun {
-    /// pace: seconds that the whole run takes; points: particles per snapshot.
-    constructor(id, submitted, { pace, points, began = Date.now() }) {
-        Object.assign(this, { id, study: submitted, pace, points, began, cancelled_at: null });
+    /// pace: seconds that the whole run takes; points: particles per snapshot; flagged: as some_flagged; entangles: [s];
+    /// breaks: transfer times whose transfer fails.
+    constructor(id, submitted, { pace, points, began = Date.now(), flagged = {}, entangles = null, breaks = [1.25] }) {
+        Object.assign(this, { id, study: submitted, pace, points, began, cancelled_at: null, flagged, entangles });
         const times = submitted.transfer_times;
         const [fem_end, mpm_time] = [0.4 * pace, (0.6 * pace * 2) / times.length];
         this.tasks = [{ phase: "lem_tool", from: 0, to: 0.1 * pace }, { phase: "fem_solver", from: 0, to: fem_end }];
@@ -41,7 +57,7 @@ class FakeRun {
         times.forEach((transfer_time, i) => {
             const taken = ((i + 1) / times.length) * fem_end;
             const begin = Math.max(taken, fem_end + Math.floor(i / 2) * mpm_time);
-            const broken = transfer_time === 1.25;
+            const broken = breaks.includes(transfer_time);
             this.tasks.push({ phase: "transfer_tool", transfer_time, from: taken, to: taken + 0.02 * pace, fails: broken });
             for (const variant of variants) {
                 this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: begin, to: begin + mpm_time, skipped: broken });
@@ -80,13 +96,30 @@ class FakeRun {
             attempts: started ? [{ number: 1, state: ended ? "exited" : "running", started: at(task.from),
                                    finished: ended ? at(task.to) : null, exit_code: ended ? (task.fails ? 70 : 0) : null, signal: null,
                                    wall_seconds: ended ? task.to - task.from : null, cpu_seconds: ended ? 1.5 : null }] : [],
+            ...this.verdict_of(task, state === "succeeded"),
             artifacts: state !== "succeeded" ? [] : ["result.json", "scene.completed.json", "telemetry.jsonl"].map((name) =>
                 ({ name, sha256: digest(task.id + name), bytes: 2345 })),
         };
     }
 
+    /// Its own flags, and how it ended.
+    verdict_of({ phase, transfer_time, variant }, ended_well) {
+        if (!ended_well) return { ended: null, end_time: null, questionable: null, flags: null };
+        if (phase === "fem_solver") {
+            const flags = this.entangles ? [entangled] : [];
+            return { ended: flags.length ? "entangled" : "complete", end_time: this.entangles ?? 2, questionable: false, flags };
+        }
+        if (phase !== "mpm_solver") return { ended: null, end_time: null, questionable: false, flags: [] };
+        const key = variant === "not-softened" ? "none" : transfer_time;
+        const flags = key in this.flagged ? this.flagged[key] : [];
+        const moving = flags?.includes(still_moving);
+        return { ended: flags && (moving ? "duration" : "at_rest"), end_time: flags && 6, flags,
+                 questionable: flags && flags.some(({ severity }) => severity === "questionable") };
+    }
+
     runout({ transfer_time, variant = "" }) {
-        const reach = (variant === "not-softened" ? 0.4 : 1) * 11 + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
+        const strength = Number(variant.match(/^strength_x_(.*)/)?.[1] ?? 1);
+        const reach = (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
         return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
                  volume_ratio: 1.01, numerical_share: 0.031 + 0.01 * transfer_time, overlap: 0.004, cpu_seconds: 7.25 + transfer_time };
     }
@@ -118,12 +151,18 @@ class FakeRun {
         const states = this.tasks.map((task) => this.state_of(task));
         const count = (...wanted) => states.filter((state) => wanted.includes(state)).length;
         const over = count("blocked", "running") === 0;
-        const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : "succeeded";
+        const verdicts = this.tasks.map((task, i) => this.verdict_of(task, states[i] === "succeeded"));
+        const questionable = verdicts.filter((each) => each.questionable).length;
+        const flag_counts = {};
+        for (const { code } of verdicts.flatMap(({ flags }) => flags ?? [])) flag_counts[code] = (flag_counts[code] ?? 0) + 1;
+        const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : questionable ? "questionable" : "succeeded";
+        const moving = flag_counts.still_moving ?? 0;
         return { id: this.id, name: this.study.name, title: this.study.title, state,
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
-                 tasks_failed: count("failed"), message: "", paused: Boolean(this.paused),
+                 tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused),
+                 message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
                  seconds_left: over || this.paused ? null : this.pace - this.age() };
     }
 
@@ -133,9 +172,14 @@ class FakeRun {
             const { transfer_time, variant } = mpm;
             const transfer = this.tasks.find((task) => task.phase === "transfer_tool" && task.transfer_time === transfer_time);
             const failed = this.state_of(transfer) === "failed";
-            const state = failed ? "failed" : this.state_of(mpm);
-            const numbers = state === "succeeded" ? this.runout(mpm) : {};
+            const own = failed ? "failed" : this.state_of(mpm);
+            const numbers = own === "succeeded" ? this.runout(mpm) : {};
+            const { ended, end_time, questionable, flags } = this.verdict_of(mpm, own === "succeeded");
+            const state = questionable ? "questionable" : own;
+            const moving = ended && ended === "duration";
             return { transfer_time, variant, state, transfer_task: transfer.id, mpm_task: mpm.id, reused: false,
+                     ended, end_time, questionable, flags: flags?.map((each) => ({ ...each, phase: "mpm_solver" })) ?? null,
+                     at_rest: ended && !moving, kinetic_share: ended && (moving ? 0.12 : 0.001),
                      trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed" : "",
                      ...Object.fromEntries(Object.keys(this.runout(mpm)).map((key) => [key, numbers[key] ?? null])) };
         });

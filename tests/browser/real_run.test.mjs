@@ -1,10 +1,12 @@
 // A person's way through the page with nothing made up: the real orchestrator, the real phases, a small column. The
 // job is submitted in the browser, seen finishing, and its curve and particles are looked at.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
+import path from "node:path";
 import { before, test } from "node:test";
 import { canvas_facts, screenshot, until } from "./browser.mjs";
-import { live_page } from "./service.mjs";
+import { live_page, program } from "./service.mjs";
 
 const study_file = new URL("small_study.json", import.meta.url);
 const study = JSON.parse(readFileSync(study_file, "utf8"));
@@ -177,6 +179,35 @@ test("variants are curves of their own, and a trigger's threshold and firing are
     await screenshot(page, "real_variants");
     await page.click("#run-list li:last-child a");
     await until("the first run again", async () => (await text_of("#run-title")) === study.title);
+});
+
+test("its report says first what must be known, and printed nothing of it is cut off", async () => {
+    const [run] = (await answer_of("/v1/runs")).runs.filter(({ name }) => name === "two-floors");
+    const folder = path.join(live.folder, "exported");
+    const report = path.join(live.folder, "report.html");
+    execFileSync(program("breach"), ["--server", url, "export", run.id, folder], { encoding: "utf8" });
+    execFileSync(program("report"), [folder, "--output", report]);
+    const paper = await page.context().newPage();
+    await paper.goto(`file://${report}`);
+    assert.ok(await paper.isVisible("#verdict"));
+    // What a page leaves between margins of 12 mm, at 96 px to the inch; wide tables lie on their side.
+    const formats = [["A4", 703, 1032], ["Letter", 725, 965]];
+    await paper.emulateMedia({ media: "print" });
+    for (const [format, upright, lying] of formats) {
+        for (const [width, kind] of [[upright, ".wide:not(.many)"], [lying, ".wide.many"]]) {
+            await paper.setViewportSize({ width, height: 900 });
+            const cut = await paper.evaluate((selector) => [...document.querySelectorAll(selector)].map((box) => {
+                const table = box.querySelector("table");
+                return { name: table.id, by: Math.max(table.scrollWidth, table.offsetWidth) - box.clientWidth, hidden: getComputedStyle(box).overflowX };
+            }).filter(({ by, hidden }) => by > 0 || hidden !== "visible"), kind);
+            assert.deepEqual(cut, [], `${format}, ${kind}`);
+        }
+        const pdf = (await paper.pdf({ format, preferCSSPageSize: true })).toString("latin1");
+        const pages = [...pdf.matchAll(/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]/g)].map(([, wide, high]) => Number(wide) > Number(high));
+        assert.ok(pages.includes(true) && pages.includes(false), `${format}: ${pages.length} pages, some of them on their side`);
+    }
+    assert.ok(await paper.locator(".wide.many").count() >= 3, "there are wide tables");
+    await paper.close();
 });
 
 test("the finished run is photographed, light and dark", async () => {

@@ -3,12 +3,15 @@
 // "name=value":
 //
 //     fem_steps, mpm_steps   number of steps of 20 ms
-//     entangle_at=T          the FEM ends with 70 before time T
+//     entangle_at=T          the FEM ends regularly, entangled, before time T
+//     breakdown_at=T         the FEM ends with 70 before time T
 //     damage=T               the snapshot at T holds nonsense
 //     deaf=1                 the MPM ignores TERM and leaves a daemon
 //     try_again=1            the MPM's first attempt ends with 75
 //     crash=1                the MPM's first attempt ends by SIGKILL
 //     always_crash=1         the MPM never gets through
+//     moving_from=T          the MPM of transfers at T and after still moves at its end
+//     as_before=1            the MPM's result is one of a version without flags
 #include <unistd.h>
 
 #include <chrono>
@@ -166,11 +169,22 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
     const double end = 3.0;
     const int steps = static_cast<int>(wish(wanted, "fem_steps", 10));
     const double entangled = wish(wanted, "entangle_at", 1e9);
+    const double breakdown = wish(wanted, "breakdown_at", 1e9);
     walk(order, steps, [&](int done) {
         const double from = end * done / steps;
         const double to = end * (done + 1) / steps;
-        if (to > entangled)
-            end_with_fault(order, 70, "the mesh is entangled at t = " + spelt(from) + " s");
+        if (to > breakdown) end_with_fault(order, 70, "no convergence at " + spelt(from) + " s");
+        if (to > entangled) {
+            end_well(order, {{"phase", "fem_solver"},
+                             {"ended", "entangled"},
+                             {"end_time", from},
+                             {"flags",
+                              {{{"code", "entangled"},
+                                {"severity", "warning"},
+                                {"message", "the mesh folded"},
+                                {"pointer", ""}}}},
+                             {"questionable", false}});
+        }
         for (const double time : times) {
             if (time < from || (time >= to && done + 1 < steps)) continue;
             const bool damaged = std::abs(time - wish(wanted, "damage", -1)) < 1e-9;
@@ -179,7 +193,7 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
         }
     });
     wait_at_the_gate(order);
-    end_well(order, {{"phase", "fem_solver"}});
+    end_well(order, {{"phase", "fem_solver"}, {"ended", "complete"}, {"end_time", end}});
 }
 
 void transfer(const Order& order) {
@@ -200,6 +214,23 @@ void leave_a_daemon(const fs::path& pid_file) {
     while (true) sleep(1);
 }
 
+/// What results have said of themselves since there are flags.
+void add_judgement(json& result, bool moves) {
+    result["ended"] = moves ? "duration" : "at_rest";
+    result["kinetic_share"] = moves ? 0.15 : 0.001;
+    result["end_time"] = 8.0;
+    result["questionable"] = moves;
+    result["flags"] = json::array({{{"code", "implausible"},
+                                    {"severity", "warning"},
+                                    {"message", "a density of 1.9 kg/m3"},
+                                    {"pointer", "/materials/slope_soil/density"}}});
+    if (moves)
+        result["flags"].push_back({{"code", "still_moving"},
+                                   {"severity", "questionable"},
+                                   {"message", "15 % of the energy was left; a lower bound"},
+                                   {"pointer", "/mpm/duration"}});
+}
+
 void mpm(const Order& order, const std::map<std::string, double>& wanted) {
     const double time = std::stod(text_of(order.input));
     if (wish(wanted, "try_again", 0) > 0 && !order.resume)
@@ -212,13 +243,13 @@ void mpm(const Order& order, const std::map<std::string, double>& wanted) {
         const bool crash = wish(wanted, "crash", 0) > 0 && !order.resume && done == 2;
         if (crash || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
     });
-    end_well(order, {{"phase", "mpm_solver"},
-                     {"runout", 10 + time * time},
-                     {"runout_beyond_toe", time},
-                     {"runout_largest", 12 + time},
-                     {"volume_ratio", 1.0},
-                     {"energy", {{"numerical", {{"share", 0.01}}}}},
-                     {"cpu_seconds", 0.5}});
+    const bool moves = time >= wish(wanted, "moving_from", 1e9);
+    json result{{"phase", "mpm_solver"},     {"runout", 10 + time * time},
+                {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
+                {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
+                {"cpu_seconds", 0.5},        {"at_rest", !moves}};
+    if (wish(wanted, "as_before", 0) == 0) add_judgement(result, moves);
+    end_well(order, result);
 }
 
 }  // namespace

@@ -207,13 +207,45 @@ TEST(Faults, TruncatedSnapshotFailsItsRowAndNoOther) {
     for (const std::size_t i : {0u, 2u, 3u}) EXPECT_EQ(rows[i].at("state"), "succeeded");
 }
 
-TEST(Faults, EntangledMeshKeepsTheTransfersWhoseSnapshotsExist) {
+TEST(Faults, EntangledMeshIsARegularEndAndWhatLiesBeyondIsNotReached) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(study("entangle_at=1.6 fem_steps=20", four_times));
     const json end = service.wait_for_end(run);
+    EXPECT_EQ(end.at("state"), "succeeded");
+    EXPECT_EQ(end.at("tasks_failed"), 0);
+    const std::string why = "the FEM ended entangled at 1.5 s, before 2 s";
+    EXPECT_NE(end.at("message").get<std::string>().find(why), std::string::npos)
+        << end.at("message");
+    const json rows = service.table(run);
+    for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(rows[i].at("state"), "succeeded") << rows[i];
+    EXPECT_EQ(rows[3].at("state"), "not_reached");
+    EXPECT_EQ(rows[3].at("reason"), why);
+    EXPECT_EQ(task_labelled(end, "fem").at("state"), "succeeded");
+    EXPECT_EQ(task_labelled(end, "fem").at("result").at("ended"), "entangled");
+    EXPECT_EQ(task_labelled(end, "transfer_2.000000").at("state"), "skipped");
+    EXPECT_EQ(task_labelled(end, "mpm_2.000000").at("not_reached"), true);
+    // Nothing failed, so nothing is tried again.
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").body.value("tasks", 0), 0);
+    EXPECT_EQ(service.wait_for_end(run).at("state"), "succeeded");
+}
+
+TEST(Faults, ARunWithoutAnyTransferTimeInTheMeshsLifeIsPartial) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(study("entangle_at=1", {2.0, 2.5}));
+    const json end = service.wait_for_end(run);
+    EXPECT_EQ(end.at("state"), "partial") << "no runout: not what was asked for";
+    EXPECT_EQ(end.at("tasks_failed"), 0);
+}
+
+TEST(Faults, BreakdownKeepsTheTransfersWhoseSnapshotsExist) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(study("breakdown_at=1.6 fem_steps=20", four_times));
+    const json end = service.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "partial");
-    EXPECT_NE(end.at("message").get<std::string>().find("entangled"), std::string::npos)
+    EXPECT_NE(end.at("message").get<std::string>().find("no convergence"), std::string::npos)
         << end.at("message");
     const json rows = service.table(run);
     for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(rows[i].at("state"), "succeeded") << rows[i];

@@ -68,7 +68,9 @@ def report_of(service, run, folder):
 def check_phases(ended):
     for task in ended["tasks"]:
         if task["phase"] == "fem_solver":
-            print(f"FEM: {task['state']}, {task['fault']['summary'] if task['fault'] else 'to its end'}")
+            result = task["result"] or {}
+            how = task["fault"]["summary"] if task["fault"] else f"{result.get('ended')} at {result.get('end_time')} s"
+            print(f"FEM: {task['state']}, {how}")
             continue
         # The FEM may end with an entangled mesh before the last of the transfer times.
         check(f"{task['label']} {task['state']}", task["state"] in ("succeeded", "cached", "skipped"), task["fault"])

@@ -3,26 +3,22 @@
 // once per instruction set. The answers are those of materials::integrate to round-off.
 #pragma once
 
-#include "core/materials/lanes.hpp"
+#include "core/materials/lane_law.hpp"
+#include "core/materials/mohr_coulomb/cone.hpp"
 
 namespace breach::materials {
 
-/// A law and its moduli as bare numbers [Pa]; psi <= phi. numbers_of makes them.
+/// The law resolved for a loop over points, in the FEM (mohr_coulomb.hpp) and here: [Pa], psi <=
+/// phi.
 struct MohrCoulombNumbers {
-    double G, K, lambda;
+    Moduli moduli;
     double c, tan_phi, tan_psi;
     double tension_cutoff;
-    // softening; unused without it
+    Softens softens;
+    // unused without softening
     double epsilon_q_start, epsilon_q_end;
     double c_residual, tan_phi_residual;
-};
-
-/// Which strain accumulates and weakens the soil.
-enum class Softens { never, with_plastic_strain, with_total_strain };
-
-template <class Real>
-struct StressOf {
-    Real xx, yy, zz, xy;
+    Cone peak;  ///< of c, phi, psi
 };
 
 namespace mohr_coulomb_lanes {
@@ -101,10 +97,10 @@ class CandidatesOf {
                                         const TripleOf<Real>& trial)
         : cone_(cone),
           trial_(trial),
-          lambda_(law.lambda),
-          two_G_(2.0 * law.G),
-          per_two_G_(0.5 / law.G),
-          per_K_(1.0 / law.K),
+          lambda_(law.moduli.lambda),
+          two_G_(2.0 * law.moduli.G),
+          per_two_G_(0.5 / law.moduli.G),
+          per_K_(1.0 / law.moduli.K),
           Q_(cone.k * cone.T - cone.q) {}
 
     [[gnu::always_inline]] CandidateOf<Real> cone_plane() const {
@@ -292,14 +288,6 @@ template <class Real>
 
 }  // namespace mohr_coulomb_lanes
 
-template <class Real>
-struct UpdateOf {
-    StressOf<Real> sigma;
-    Real plastic_work;  ///< sigma : d_epsilon_plastic [Pa]; 0 where elastic
-    Real d_epsilon_q;   ///< sqrt(2/3 e:e) of the plastic strain; 0 where elastic or `never`
-    Real opened;        ///< volume strain opened by the tension cut-off or at the apex [-]
-};
-
 /// Principal values of a stress, in the plane and sorted.
 template <class Real>
 struct PrincipalOf {
@@ -323,12 +311,6 @@ template <class Real>
     const mohr_coulomb_lanes::ConeOf<Real>& cone, const StressOf<Real>& sigma) {
     const PrincipalOf<Real> p(sigma);
     return !((cone.k * p.sorted.a - p.sorted.c <= cone.q) & (p.sorted.a <= cone.T));
-}
-
-/// The answer where nothing yields.
-template <class Real>
-[[gnu::always_inline]] inline UpdateOf<Real> elastic_update(const StressOf<Real>& trial) {
-    return {trial, Real(0.0), Real(0.0), Real(0.0)};
 }
 
 /// The stress after a trial stress, at the strength of `cone`.
@@ -380,5 +362,47 @@ template <Softens softens, class Real>
     }
     return update;
 }
+
+/// Out of line: it is long, and whole blocks that stay elastic pass it by.
+template <class Isa, Softens softens>
+[[gnu::noinline]] void return_block(const MohrCoulombNumbers& law,
+                                    const mohr_coulomb_lanes::ConeOf<Lanes<Isa::lanes>>& cone,
+                                    UpdateOf<Lanes<Isa::lanes>>& update) {
+    update = return_from<softens>(law, cone, update.sigma);
+}
+
+/// The law in a loop; see LinearElasticLanes.
+template <Softens softens_>
+struct MohrCoulombLanes {
+    using Numbers = MohrCoulombNumbers;
+    static constexpr bool yields = true;
+    static constexpr Softens softens = softens_;
+
+    Numbers numbers;
+
+    template <class Isa>
+    class InLoop {
+        using Real = Lanes<Isa::lanes>;
+
+      public:
+        [[gnu::always_inline]] explicit InLoop(const Numbers& numbers)
+            : numbers_(numbers),
+              cone_(mohr_coulomb_lanes::cone_at<Softens::never>(numbers_, Real(0.0))) {}
+        [[gnu::always_inline]] UpdateOf<Real> update(const StressOf<Real>& trial,
+                                                     const Real& epsilon_q) {
+            if constexpr (softens != Softens::never) {
+                cone_ = mohr_coulomb_lanes::cone_at<softens>(numbers_, epsilon_q);
+            }
+            if (!lanes::any(lies_outside(cone_, trial))) return elastic_update(trial);
+            UpdateOf<Real> update = elastic_update(trial);
+            return_block<Isa, softens>(numbers_, cone_, update);
+            return update;
+        }
+
+      private:
+        const Numbers numbers_;
+        mohr_coulomb_lanes::ConeOf<Real> cone_;
+    };
+};
 
 }  // namespace breach::materials

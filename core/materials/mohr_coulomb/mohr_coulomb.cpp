@@ -6,18 +6,31 @@ namespace breach::materials {
 
 namespace {
 
-double softened(double peak, double residual, const Softening& softening, double epsilon_q) {
-    const double way = (epsilon_q - softening.epsilon_q_start) /
-                       (softening.epsilon_q_end - softening.epsilon_q_start);
-    return peak + std::clamp(way, 0.0, 1.0) * (residual - peak);
+/// c and tan(phi) at a strain between the two of softening.
+template <class Strain>
+Strength softened(const Strength& peak, const Strength& residual, const Strain& of,
+                  double epsilon_q) {
+    const double way = std::clamp(
+        (epsilon_q - of.epsilon_q_start) / (of.epsilon_q_end - of.epsilon_q_start), 0.0, 1.0);
+    return {peak.c + way * (residual.c - peak.c),
+            peak.tan_phi + way * (residual.tan_phi - peak.tan_phi)};
 }
 
-Strength strength_of(const MohrCoulomb& law, double tan_phi, double epsilon_q) {
-    if (!law.softening) return {law.c, tan_phi};
-    const Softening& softening = *law.softening;
-    return {softened(law.c, softening.c_residual, softening, epsilon_q),
-            softened(tan_phi, softening.tan_phi_residual, softening, epsilon_q)};
+Softens softens_of(const MohrCoulomb& law) {
+    if (!law.softening) return Softens::never;
+    return law.softening->driver == SofteningDriver::total ? Softens::with_total_strain
+                                                           : Softens::with_plastic_strain;
 }
+
+/// In-plane principal values of a stress with the direction of the larger one (as
+/// mechanics::Principal).
+struct PlanePrincipal {
+    double centre;
+    double radius;
+    double normal;
+    double cos_2a;
+    double sin_2a;
+};
 
 PlanePrincipal plane_principal(const Voigt& sigma) {
     const double half = 0.5 * (sigma[0] - sigma[1]);
@@ -47,7 +60,7 @@ struct Turned {
     PrincipalReturn back;
 };
 
-Turned turn_back(const ReadyMohrCoulomb& law, const Cone& cone, const Voigt& sigma) {
+Turned turn_back(const MohrCoulombNumbers& law, const Cone& cone, const Voigt& sigma) {
     Turned turned{plane_principal(sigma), {}, {}};
     const PlanePrincipal& p = turned.trial;
     turned.order = order_of(p);
@@ -74,7 +87,7 @@ Return kind_of(const Cone& cone, Facet facet) {
     }
 }
 
-Update update_from(const ReadyMohrCoulomb& law, const Cone& cone, const State& trial,
+Update update_from(const MohrCoulombNumbers& law, const Cone& cone, const State& trial,
                    const Turned& turned) {
     const auto& [p, order, back] = turned;
     const Triple& s = back.sigma;
@@ -89,7 +102,7 @@ Update update_from(const ReadyMohrCoulomb& law, const Cone& cone, const State& t
                   {e_centre + e_radius * p.cos_2a, e_centre - e_radius * p.cos_2a, e[order.normal],
                    2.0 * e_radius * p.sin_2a},
                   kind_of(cone, back.facet)};
-    if (!law.law.softening || law.law.softening->driver == SofteningDriver::plastic) {
+    if (law.softens != Softens::with_total_strain) {
         const Triple deviator = e.array() - e.sum() / 3.0;
         update.state.epsilon_q += std::sqrt(2.0 / 3.0 * deviator.squaredNorm());
     }
@@ -124,7 +137,7 @@ Matrix4 to_section_axes(const PlanePrincipal& p, const Matrix4& in_principal_axe
     return strain.transpose() * in_principal_axes * strain;
 }
 
-Matrix4 plastic_tangent(const ReadyMohrCoulomb& law, const Cone& cone, const Turned& turned) {
+Matrix4 plastic_tangent(const MohrCoulombNumbers& law, const Cone& cone, const Turned& turned) {
     const Matrix3 principal = principal_tangent(cone, law.moduli, turned.back.facet);
     const std::array<int, 3> sorted{turned.order.major, turned.order.minor, turned.order.normal};
     Matrix4 tangent = Matrix4::Zero();
@@ -137,32 +150,43 @@ Matrix4 plastic_tangent(const ReadyMohrCoulomb& law, const Cone& cone, const Tur
 
 }  // namespace
 
-ReadyMohrCoulomb ready(const MohrCoulomb& law) {
+MohrCoulombNumbers ready(const MohrCoulomb& law) {
     const double tan_phi = std::tan(law.phi);
-    const double tan_psi = std::tan(law.psi);
-    return {law, make_moduli(law.elasticity), tan_phi, tan_psi,
-            make_cone(law.c, tan_phi, std::min(tan_psi, tan_phi), law.tension_cutoff)};
+    const double tan_psi = std::min(std::tan(law.psi), tan_phi);
+    const Softening softening = law.softening.value_or(Softening{});
+    return {.moduli = make_moduli(law.elasticity),
+            .c = law.c,
+            .tan_phi = tan_phi,
+            .tan_psi = tan_psi,
+            .tension_cutoff = law.tension_cutoff,
+            .softens = softens_of(law),
+            .epsilon_q_start = softening.epsilon_q_start,
+            .epsilon_q_end = softening.epsilon_q_end,
+            .c_residual = softening.c_residual,
+            .tan_phi_residual = softening.tan_phi_residual,
+            .peak = make_cone(law.c, tan_phi, tan_psi, law.tension_cutoff)};
 }
 
-Cone cone_at(const ReadyMohrCoulomb& law, double epsilon_q) {
-    if (!law.law.softening || epsilon_q <= law.law.softening->epsilon_q_start) return law.peak;
-    const auto [c, tan_phi] = strength_of(law.law, law.tan_phi, epsilon_q);
-    return make_cone(c, tan_phi, std::min(law.tan_psi, tan_phi), law.law.tension_cutoff);
+Cone cone_at(const MohrCoulombNumbers& law, double epsilon_q) {
+    if (law.softens == Softens::never || epsilon_q <= law.epsilon_q_start) return law.peak;
+    const auto [c, tan_phi] =
+        softened({law.c, law.tan_phi}, {law.c_residual, law.tan_phi_residual}, law, epsilon_q);
+    return make_cone(c, tan_phi, std::min(law.tan_psi, tan_phi), law.tension_cutoff);
 }
 
-Update return_from(const ReadyMohrCoulomb& law, const Cone& cone, const State& trial) {
+Update return_from(const MohrCoulombNumbers& law, const Cone& cone, const State& trial) {
     return update_from(law, cone, trial, turn_back(law, cone, trial.sigma));
 }
 
-Update integrate(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+Update integrate(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon,
                  Matrix4& tangent) {
     const Cone cone = cone_at(law, old.epsilon_q);
     State trial{trial_stress(law.moduli, old.sigma, d_epsilon), old.epsilon_q};
-    if (law.law.softening && law.law.softening->driver == SofteningDriver::total) {
+    if (law.softens == Softens::with_total_strain) {
         trial.epsilon_q += mechanics::epsilon_q(d_epsilon);
     }
     if (lies_inside(cone, trial.sigma)) {
-        tangent = mechanics::elastic_stiffness(law.law.elasticity);
+        tangent = elastic_stiffness(law.moduli);
         return {trial, Voigt::Zero(), Return::elastic};
     }
     const Turned turned = turn_back(law, cone, trial.sigma);
@@ -171,7 +195,10 @@ Update integrate(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_e
 }
 
 Strength strength(const MohrCoulomb& law, double epsilon_q) {
-    return strength_of(law, std::tan(law.phi), epsilon_q);
+    const Strength peak{law.c, std::tan(law.phi)};
+    if (!law.softening) return peak;
+    const Softening& softening = *law.softening;
+    return softened(peak, {softening.c_residual, softening.tan_phi_residual}, softening, epsilon_q);
 }
 
 Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon) {
@@ -181,6 +208,38 @@ Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilo
 Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon,
                  Matrix4& tangent) {
     return integrate(ready(law), old, d_epsilon, tangent);
+}
+
+Traits traits(const MohrCoulomb& law) {
+    return {.type = "mohr_coulomb",
+            .name = "Mohr-Coulomb",
+            .yields = true,
+            .opens = true,
+            .frictional = law.phi > 0.0,
+            .c_and_phi = true,
+            .symmetric_tangent = false,
+            .tells_plastic_strain = true};
+}
+
+std::optional<Strength> limit_strength(const MohrCoulomb& law) {
+    return Strength{law.c, std::tan(law.phi)};
+}
+
+Voigt return_to_surface(const MohrCoulomb& law, const State& state) {
+    return integrate(law, state, Voigt::Zero()).state.sigma;
+}
+
+std::optional<LawLanes> for_particles(const MohrCoulomb& law) {
+    const MohrCoulombNumbers numbers = ready(law);
+    switch (numbers.softens) {
+        case Softens::never:
+            return MohrCoulombLanes<Softens::never>{numbers};
+        case Softens::with_plastic_strain:
+            return MohrCoulombLanes<Softens::with_plastic_strain>{numbers};
+        case Softens::with_total_strain:
+            return MohrCoulombLanes<Softens::with_total_strain>{numbers};
+    }
+    return std::nullopt;
 }
 
 double yield_excess(const MohrCoulomb& law, const State& state) {

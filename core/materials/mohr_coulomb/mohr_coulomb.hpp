@@ -1,42 +1,48 @@
-// Mohr-Coulomb made ready for a loop over points: everything that does not change from point to
-// point is computed once, and the elastic step is inline.
+// Mohr-Coulomb with tension cut-off for one point. What does not change from point to point is
+// resolved once (`ready`), and the elastic step is inline.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "core/materials/law.hpp"
 #include "core/materials/mohr_coulomb/principal_return.hpp"
+#include "core/materials/traits.hpp"
 
 namespace breach::materials {
 
-/// A law prepared for a zone. psi is lowered to phi where softening brings phi below it.
-struct ReadyMohrCoulomb {
-    MohrCoulomb law;
-    Moduli moduli;
-    double tan_phi;
-    double tan_psi;
-    Cone peak;
+/// sigma_1 - sigma_3 + (sigma_1 + sigma_3) sin phi <= 2 c cos phi, tension positive.
+struct MohrCoulomb {
+    mechanics::Elasticity elasticity;
+    double c;               ///< peak cohesion [Pa]
+    double phi;             ///< peak friction angle [rad]
+    double psi;             ///< dilatancy angle [rad]
+    double tension_cutoff;  ///< largest principal stress allowed [Pa], clipped to the cone's apex c
+                            ///< / tan(phi)
+    std::optional<Softening> softening;
 };
 
-ReadyMohrCoulomb ready(const MohrCoulomb& law);
-inline LinearElastic ready(const LinearElastic& law) { return law; }
+/// psi is lowered to phi where softening brings phi below it.
+MohrCoulombNumbers ready(const MohrCoulomb& law);
+
+/// Strength in force at a given epsilon_q.
+Strength strength(const MohrCoulomb& law, double epsilon_q);
+
+Traits traits(const MohrCoulomb& law);
+std::optional<Strength> limit_strength(const MohrCoulomb& law);
+inline const Softening* softening(const MohrCoulomb& law) {
+    return law.softening ? &*law.softening : nullptr;
+}
+inline StrengthEntries strength_entries(MohrCoulomb& law) { return {&law.c, &law.phi}; }
+double yield_excess(const MohrCoulomb& law, const State& state);
+Voigt return_to_surface(const MohrCoulomb& law, const State& state);
+std::optional<LawLanes> for_particles(const MohrCoulomb& law);
 
 /// The cone in force at this epsilon_q.
-Cone cone_at(const ReadyMohrCoulomb& law, double epsilon_q);
-
-/// In-plane principal values of a stress with the direction of the larger one (as
-/// mechanics::Principal).
-struct PlanePrincipal {
-    double centre;
-    double radius;
-    double normal;
-    double cos_2a;
-    double sin_2a;
-};
+Cone cone_at(const MohrCoulombNumbers& law, double epsilon_q);
 
 /// The plastic half of integrate: `trial` lies outside `cone`.
-Update return_from(const ReadyMohrCoulomb& law, const Cone& cone, const State& trial);
+Update return_from(const MohrCoulombNumbers& law, const Cone& cone, const State& trial);
 
 inline bool lies_inside(const Cone& cone, const Voigt& sigma) {
     const double centre = 0.5 * (sigma[0] + sigma[1]);
@@ -47,31 +53,30 @@ inline bool lies_inside(const Cone& cone, const Voigt& sigma) {
     return cone.k * s1 - s3 <= cone.q && s1 <= cone.T;
 }
 
-inline Voigt trial_stress(const Moduli& moduli, const Voigt& sigma, const Voigt& d_epsilon) {
-    const double volumetric = moduli.lambda * (d_epsilon[0] + d_epsilon[1] + d_epsilon[2]);
-    return {sigma[0] + volumetric + 2.0 * moduli.G * d_epsilon[0],
-            sigma[1] + volumetric + 2.0 * moduli.G * d_epsilon[1],
-            sigma[2] + volumetric + 2.0 * moduli.G * d_epsilon[2],
-            sigma[3] + moduli.G * d_epsilon[3]};
-}
-
-inline Update integrate(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_epsilon) {
-    const Cone& cone = law.peak;
+/// New state after the strain increment d_epsilon; softening is explicit (strength at the old
+/// epsilon_q).
+inline Update integrate(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon) {
     State trial{trial_stress(law.moduli, old.sigma, d_epsilon), old.epsilon_q};
-    if (!law.law.softening) {
-        if (lies_inside(cone, trial.sigma)) return {trial, Voigt::Zero(), Return::elastic};
-        return return_from(law, cone, trial);
+    if (law.softens == Softens::never) {
+        if (lies_inside(law.peak, trial.sigma)) return {trial, Voigt::Zero(), Return::elastic};
+        return return_from(law, law.peak, trial);
     }
     const Cone softened = cone_at(law, old.epsilon_q);
-    if (law.law.softening->driver == SofteningDriver::total) {
+    if (law.softens == Softens::with_total_strain) {
         trial.epsilon_q += mechanics::epsilon_q(d_epsilon);
     }
     if (lies_inside(softened, trial.sigma)) return {trial, Voigt::Zero(), Return::elastic};
     return return_from(law, softened, trial);
 }
 
-/// The same with the consistent tangent [Pa] at fixed strength.
-Update integrate(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+/// The same, and the consistent tangent d sigma / d epsilon [Pa] at fixed strength (not symmetric
+/// when psi != phi).
+Update integrate(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon,
+                 Matrix4& tangent);
+
+/// A single step: resolves the law first.
+Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon);
+Update integrate(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon,
                  Matrix4& tangent);
 
 }  // namespace breach::materials

@@ -16,12 +16,6 @@ Cone make_cone(double c, double tan_phi, double tan_psi, double tension_cutoff) 
             tip};
 }
 
-Moduli make_moduli(const mechanics::Elasticity& elasticity) {
-    const double G = elasticity.shear_modulus();
-    const double K = elasticity.bulk_modulus();
-    return {G, K, K - 2.0 / 3.0 * G};
-}
-
 namespace {
 
 /// Plastic strain D^-1 (trial - sigma); split into deviator and volume so that nu -> 0.5 loses no

@@ -5,7 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "core/mechanics/elasticity.hpp"
+#include "core/materials/lane_law.hpp"
+#include "core/materials/mohr_coulomb/cone.hpp"
 
 namespace breach::materials {
 
@@ -13,29 +14,6 @@ namespace breach::materials {
 /// axes.
 using Triple = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
-
-/// The yield surface at one strength:  k s1 - s3 <= q  and  s1 <= T  for every order of the axes.
-/// Flow is m e_i - e_j on the cone (associated when m = k) and e_i on the cut-off (always
-/// associated).
-struct Cone {
-    double k;  ///< (1 + sin phi) / (1 - sin phi) [-], >= 1
-    double m;  ///< the same of psi [-], 1 <= m <= k
-    double q;  ///< uniaxial compressive strength 2 c sqrt(k) [Pa]
-    double T;  ///< largest principal stress [Pa]: the cut-off, or the apex if that is lower; may be
-               ///< infinite
-    enum class Tip { apex, cut_off } tip;  ///< which of the two T is
-};
-
-/// c [Pa] >= 0, tan_phi >= tan_psi >= 0, cut-off [Pa] >= 0.
-Cone make_cone(double c, double tan_phi, double tan_psi, double tension_cutoff);
-
-/// Moduli [Pa] of isotropic elasticity as the return uses them.
-struct Moduli {
-    double G;
-    double K;
-    double lambda;
-};
-Moduli make_moduli(const mechanics::Elasticity& elasticity);
 
 /// Where on the polyhedron a return ends; Q = k T - q is s3 where cone and cut-off meet.
 enum class Facet {

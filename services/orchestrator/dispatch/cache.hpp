@@ -1,6 +1,6 @@
 // The cache: a ready task whose question was answered before takes that answer instead of running.
 // The question is the task's recipe and the SHA-256 of its input file; the answer is the output of
-// a task that succeeded, or that broke down (exit code 70) as this one would. Every file of the
+// a task that succeeded (a FEM whose mesh entangled did), or that broke down (exit code 70) as this one would. Every file of the
 // answer is hashed again before it is served: one that is missing or altered is refused, and the
 // task runs. The looking and hashing has a thread of its own.
 #pragma once

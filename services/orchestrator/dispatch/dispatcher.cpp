@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "core/exchange/publish.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
@@ -19,6 +20,24 @@ namespace {
 
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
 constexpr auto pause_after_trouble = std::chrono::seconds(1);
+
+std::string in_seconds(double time) {
+    std::ostringstream text;
+    text << time << " s";
+    return text.str();
+}
+
+/// Why a child's time was not reached; nothing: the parent did not end regularly before it.
+/// A FEM whose mesh entangles has done its work, and so has a run without what lies beyond.
+std::optional<std::string> why_not_reached(const Task& parent, const BlockedTask& child) {
+    if (parent.not_reached && parent.fault) return parent.fault->summary;
+    const bool came_through =
+        parent.state == TaskState::succeeded || parent.state == TaskState::cached;
+    if (!came_through || !parent.result || !child.transfer_time) return std::nullopt;
+    if (parent.result->value("ended", "") != "entangled") return std::nullopt;
+    return "the FEM ended entangled at " + in_seconds(parent.result->value("end_time", 0.0)) +
+           ", before " + in_seconds(*child.transfer_time);
+}
 
 std::set<std::string> names_in(const std::filesystem::path& folder) {
     std::set<std::string> names;
@@ -391,7 +410,11 @@ void Dispatcher::settle_children(const std::string& parent_id) {
             transaction.try_move_task(each, TaskEvent::release);
         for (const BlockedTask& child : children) {
             if (!std::ranges::binary_search(skipped, child.id)) continue;
-            transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
+            if (const auto beyond = why_not_reached(parent, child)) {
+                transaction.pass_over_task(child.id, *beyond);
+            } else {
+                transaction.fail_task(child.id, TaskEvent::skip, {std::nullopt, why + child.input});
+            }
         }
     });
     for (const std::string& each : skipped) settle_children(each);

@@ -1,7 +1,6 @@
 #include "services/orchestrator/http/answers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <ctime>
 
 namespace breach::orchestrator {
@@ -26,6 +25,11 @@ json as_json(const Attempt& attempt) {
             {"cpu_seconds", or_null(attempt.cpu_seconds)}};
 }
 
+/// What the task's result says of it; null when there is no result, or an earlier version made it.
+json of_result(const Task& task, const char* key) {
+    return task.result && task.result->is_object() ? task.result->value(key, json()) : json();
+}
+
 /// As if the rest went like what has been done since the start; null until that says something.
 json seconds_left(const Run& run, double progress) {
     constexpr double too_early = 0.02;
@@ -36,14 +40,9 @@ json seconds_left(const Run& run, double progress) {
     return std::max(0.0, elapsed) * (1.0 - progress) / progress;
 }
 
-constexpr std::array columns{
-    "transfer_time",  "state",        "runout",          "runout_beyond_toe",
-    "runout_largest", "volume_ratio", "numerical_share", "overlap",
-    "cpu_seconds",    "reason",       "transfer_task",   "mpm_task",
-    "variant",        "reused",       "trigger"};
-
 std::string csv_field(const json& value) {
     if (value.is_null()) return {};
+    if (value.is_array()) return csv_field(codes_of(value));
     if (!value.is_string()) return value.dump();
     std::string quoted = "\"";
     for (const char each : value.get_ref<const std::string&>()) {
@@ -51,6 +50,21 @@ std::string csv_field(const json& value) {
         quoted += each;
     }
     return quoted + '"';
+}
+
+json schema_of(ColumnKind kind) {
+    switch (kind) {
+        case ColumnKind::number:
+            return {{"type", {"number", "null"}}};
+        case ColumnKind::yes_no:
+            return {{"type", {"boolean", "null"}}};
+        case ColumnKind::word:
+            return {{"type", {"string", "null"}}};
+        case ColumnKind::flags:
+            return {{"type", {"array", "null"}},
+                    {"items", {{"$ref", "#/components/schemas/FlagOfRow"}}}};
+    }
+    return nullptr;
 }
 
 }  // namespace
@@ -74,6 +88,8 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"tasks_failed", run.tasks_failed},
             {"paused", run.paused},
             {"seconds_left", seconds_left(run, progress)},
+            {"questionable", run.questionable},
+            {"flag_counts", counts_of(run.flags)},
             {"message", run.message}};
 }
 
@@ -102,7 +118,12 @@ json as_json(const Task& task, const std::vector<Attempt>& attempts,
         {"started", or_null(task.started)},
         {"finished", or_null(task.finished)},
         {"result", or_null(task.result)},
+        {"ended", of_result(task, "ended")},
+        {"end_time", of_result(task, "end_time")},
+        {"questionable", of_result(task, "questionable")},
+        {"flags", of_result(task, "flags")},
         {"fault", fault},
+        {"not_reached", task.not_reached},
         {"same_as", or_null(task.same_as)},
         {"priority", task.priority},
         {"resources", {{"cores", task.resources.cores}, {"memory_MB", task.resources.memory_mb}}},
@@ -116,22 +137,38 @@ json as_json(const Event& event) {
             {"kind", event.kind}, {"detail", event.detail}};
 }
 
-json as_json(const SweepRow& row) {
-    return {{"transfer_time", row.transfer_time},
-            {"state", row.state},
-            {"runout", or_null(row.runout)},
-            {"runout_beyond_toe", or_null(row.runout_beyond_toe)},
-            {"runout_largest", or_null(row.runout_largest)},
-            {"volume_ratio", or_null(row.volume_ratio)},
-            {"numerical_share", or_null(row.numerical_share)},
-            {"overlap", or_null(row.overlap)},
-            {"cpu_seconds", or_null(row.cpu_seconds)},
-            {"reason", row.reason},
-            {"transfer_task", row.transfer_task},
-            {"mpm_task", row.mpm_task},
-            {"variant", row.variant},
-            {"reused", row.reused},
-            {"trigger", row.trigger}};
+json as_json(const ResultRow& row) {
+    json fields = json::object();
+    for (std::size_t i = 0; i < row.size(); ++i) fields[result_columns()[i].name] = row[i];
+    return fields;
+}
+
+json described_result_columns() {
+    json list = json::array();
+    for (const ResultColumn& each : result_columns()) {
+        list.push_back({{"name", each.name},
+                        {"kind", name_of(each.kind)},
+                        {"unit", each.unit},
+                        {"title", each.title},
+                        {"meaning", each.meaning}});
+    }
+    return list;
+}
+
+json schema_of_result_rows() {
+    json properties = json::object();
+    json required = json::array();
+    for (const ResultColumn& each : result_columns()) {
+        json schema = schema_of(each.kind);
+        schema["description"] =
+            each.meaning + (*each.unit == '\0' ? "" : " [" + std::string(each.unit) + "]");
+        properties[each.name] = std::move(schema);
+        required.push_back(each.name);
+    }
+    return {{"type", "object"},
+            {"properties", properties},
+            {"required", required},
+            {"additionalProperties", false}};
 }
 
 json as_json(const std::vector<fault::Fault>& faults) {
@@ -141,15 +178,15 @@ json as_json(const std::vector<fault::Fault>& faults) {
     return list;
 }
 
-std::string as_csv(const std::vector<SweepRow>& rows) {
+std::string as_csv(const std::vector<ResultRow>& rows) {
     std::string text;
-    for (const char* name : columns) text.append(text.empty() ? "" : ",").append(name);
+    for (const ResultColumn& each : result_columns())
+        text.append(text.empty() ? "" : ",").append(each.name);
     text += "\r\n";
-    for (const SweepRow& row : rows) {
-        const json fields = as_json(row);
+    for (const ResultRow& row : rows) {
         const char* separator = "";
-        for (const char* name : columns) {
-            text.append(separator).append(csv_field(fields.at(name)));
+        for (const json& value : row) {
+            text.append(separator).append(csv_field(value));
             separator = ",";
         }
         text += "\r\n";

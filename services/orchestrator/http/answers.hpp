@@ -6,6 +6,7 @@
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/records/records.hpp"
+#include "services/orchestrator/records/result_columns.hpp"
 
 namespace breach::orchestrator {
 
@@ -13,10 +14,16 @@ nlohmann::json as_json(const Run& run, const ProgressBoard& board);
 nlohmann::json as_json(const Task& task, const std::vector<Attempt>& attempts,
                        const std::vector<Artifact>& artifacts, const ProgressBoard& board);
 nlohmann::json as_json(const Event& event);
-nlohmann::json as_json(const SweepRow& row);
 nlohmann::json as_json(const std::vector<fault::Fault>& faults);
 
+/// {"runout": ...}: by the names of the columns.
+nlohmann::json as_json(const ResultRow& row);
+/// What the columns of a table of results are: [{name, kind, unit, title, meaning}].
+nlohmann::json described_result_columns();
+/// JSON schema of as_json(ResultRow).
+nlohmann::json schema_of_result_rows();
+
 /// RFC 4180, one line per transfer time, the names of the JSON answer in the first line.
-std::string as_csv(const std::vector<SweepRow>& rows);
+std::string as_csv(const std::vector<ResultRow>& rows);
 
 }  // namespace breach::orchestrator

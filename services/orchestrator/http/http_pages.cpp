@@ -4,10 +4,12 @@
 #include <sstream>
 
 #include "core/scene/schema.hpp"
+#include "core/telemetry/columns.hpp"
+#include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/openapi_text.hpp"
+#include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/programs/plan_question.hpp"
-#include "services/orchestrator/study/study.hpp"
 
 namespace breach::orchestrator {
 
@@ -16,6 +18,15 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uintmax_t least_free_bytes = 16 << 20;
+
+/// What a condition of a trigger may use and a telemetry line holds.
+json telemetry_table() {
+    json fields = json::array();
+    for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()})
+        for (const telemetry::Column& each : table)
+            fields.push_back({{"name", each.name}, {"unit", each.unit}, {"meaning", each.meaning}});
+    return fields;
+}
 
 const std::map<std::string, std::string> content_types{
     {".html", "text/html; charset=utf-8"},
@@ -61,6 +72,16 @@ void send_file(const Service& service, Call& call, const std::string& name) {
     call.response.set_content(text.str(), type->second);
 }
 
+/// openapi.json; what a row of results holds is said by the table of its columns.
+const std::string& api_description() {
+    static const std::string text = [] {
+        auto document = nlohmann::ordered_json::parse(openapi_text());
+        document["components"]["schemas"]["SweepRow"] = schema_of_result_rows();
+        return document.dump(1);
+    }();
+    return text;
+}
+
 void ready(const Service& service, Call& call) {
     std::error_code error;
     const auto space = std::filesystem::space(service.data.scratch(), error);
@@ -80,13 +101,17 @@ void add_page_routes(Router& router, Service& service) {
     router.get("/readyz", [&](Call& call) { ready(service, call); });
     router.get("/openapi.json", [](Call& call) {
         call.allow_parameters({});
-        call.response.set_content(openapi_text(), "application/json");
+        call.response.set_content(api_description(), "application/json");
     });
     router.get("/v1/schema/scene", [](Call& call) { reply(call.response, scene::scene_schema()); });
     router.get("/v1/schema/study", [](Call& call) { reply(call.response, scene::study_schema()); });
+    router.get("/v1/telemetry/fields", [](Call& call) {
+        call.allow_parameters({});
+        reply(call.response, {{"fields", telemetry_table()}});
+    });
     router.post("/v1/scenes/plan", [&](Call& call) {
         call.allow_parameters({});
-        const json scene = read_whole_scene(call.json_body());
+        const json scene = sent_scene(call.json_body());
         reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())}});
     });
 }

@@ -106,13 +106,21 @@ void set_priority(Service& service, Call& call) {
     });
 }
 
-void results(const Service& service, Call& call) {
-    call.allow_parameters({"format", "from", "limit"});
-    wanted_run(service, call.parts[0]);
+ResultFilter wanted_results(const Call& call) {
     constexpr std::int64_t all = std::int64_t{1} << 30;
-    const std::vector<SweepRow> rows = service.store.results(
-        call.parts[0], static_cast<std::size_t>(call.whole_number("from", 0, 0, all)),
-        static_cast<std::size_t>(call.whole_number("limit", all, 1, all)));
+    ResultFilter filter{.state = call.parameter("state"),
+                        .flag = call.parameter("flag"),
+                        .from = static_cast<std::size_t>(call.whole_number("from", 0, 0, all)),
+                        .most = static_cast<std::size_t>(call.whole_number("limit", all, 1, all))};
+    if (filter.state && !is_row_state(*filter.state))
+        throw bad_request("state must be questionable or a state of a task");
+    return filter;
+}
+
+void results(const Service& service, Call& call) {
+    call.allow_parameters({"format", "from", "limit", "state", "flag"});
+    wanted_run(service, call.parts[0]);
+    const std::vector<ResultRow> rows = service.store.results(call.parts[0], wanted_results(call));
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
         call.response.set_content(as_csv(rows), "text/csv; charset=utf-8");
@@ -128,8 +136,9 @@ void results(const Service& service, Call& call) {
     }
     if (format != "json") throw bad_request("format must be json, csv or hdf5");
     json list = json::array();
-    for (const SweepRow& each : rows) list.push_back(as_json(each));
-    reply(call.response, {{"run", call.parts[0]}, {"rows", list}});
+    for (const ResultRow& each : rows) list.push_back(as_json(each));
+    reply(call.response,
+          {{"run", call.parts[0]}, {"columns", described_result_columns()}, {"rows", list}});
 }
 
 // ---------------------------------------------------------------- sweeps

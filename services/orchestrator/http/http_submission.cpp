@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/exchange/provenance.hpp"
+#include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
 
@@ -15,7 +16,8 @@ using nlohmann::json;
 namespace {
 
 constexpr std::int64_t longest_list = 500;
-constexpr std::array run_states{"queued", "running", "succeeded", "partial", "failed", "cancelled"};
+constexpr std::array run_states{"queued",  "running", "succeeded", "questionable",
+                                "partial", "failed",  "cancelled"};
 
 /// The keys of requests that are being stored now. What is stored already is in the database.
 class KeysInProgress {
@@ -83,7 +85,7 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
 
 std::string stored(Service& service, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    NewRun run = run_from(read_study(body), service.numerics);
+    NewRun run = run_from(sent_study(body), service.numerics);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write([&](Transaction& transaction) {
         transaction.add_run(run);
@@ -125,7 +127,8 @@ RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) 
     filter.state = call.parameter("state");
     filter.name = call.parameter("name");
     if (filter.state && std::ranges::find(run_states, *filter.state) == run_states.end())
-        throw bad_request("state must be queued, running, succeeded, partial, failed or cancelled");
+        throw bad_request(
+            "state must be queued, running, succeeded, questionable, partial, failed or cancelled");
     if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
     RunPage page{service.store.runs(filter, limit + 1), nullptr};
     if (page.runs.size() > limit) {

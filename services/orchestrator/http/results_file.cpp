@@ -1,55 +1,71 @@
 #include "services/orchestrator/http/results_file.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
+#include <ranges>
 
 #include "core/exchange/archive.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
 
+using nlohmann::json;
+
 namespace {
 
-double or_nan(const std::optional<double>& value) {
-    return value.value_or(std::numeric_limits<double>::quiet_NaN());
+constexpr std::int64_t not_known = -1;
+
+double as_real(const json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-exchange::Archive archive_of(const std::vector<SweepRow>& rows, const std::string& run) {
+/// One line of a column of texts.
+std::string as_line(const json& value) {
+    std::string line = value.is_null()    ? ""
+                       : value.is_array() ? codes_of(value)
+                                          : value.get<std::string>();
+    std::ranges::replace(line, '\n', ' ');
+    return line + "\n";
+}
+
+void add_column(exchange::Archive& archive, const ResultColumn& column,
+                const std::vector<ResultRow>& rows) {
+    const auto values = rows | std::views::transform([&](const ResultRow& row) -> const json& {
+                            return value_of(row, column.name);
+                        });
+    if (*column.unit != '\0') archive.units[column.name] = column.unit;
+    switch (column.kind) {
+        case ColumnKind::number:
+            for (auto& reals = archive.reals[column.name]; const json& each : values)
+                reals.push_back(as_real(each));
+            return;
+        case ColumnKind::yes_no:
+            for (auto& integers = archive.integers[column.name]; const json& each : values)
+                integers.push_back(each.is_null() ? not_known : std::int64_t{each.get<bool>()});
+            return;
+        case ColumnKind::word:
+        case ColumnKind::flags:
+            for (auto& text = archive.texts[column.name]; const json& each : values)
+                text += as_line(each);
+            return;
+    }
+}
+
+exchange::Archive archive_of(const std::vector<ResultRow>& rows, const std::string& run) {
     exchange::Archive archive{.kind = "sweep_results",
                               .version = 1,
                               .reals = {},
                               .integers = {},
                               .texts = {{"run", run}},
-                              .units = {{"transfer_time", "s"},
-                                        {"runout", "m"},
-                                        {"runout_beyond_toe", "m"},
-                                        {"runout_largest", "m"},
-                                        {"volume_ratio", "1"},
-                                        {"numerical_share", "1"},
-                                        {"overlap", "1"},
-                                        {"cpu_seconds", "s"}}};
-    for (const auto& [name, unit] : archive.units) archive.reals[name] = {};
-    for (const char* name : {"variant", "state", "trigger"}) archive.texts[name] = "";
-    for (const SweepRow& row : rows) {
-        archive.reals["transfer_time"].push_back(row.transfer_time);
-        archive.reals["runout"].push_back(or_nan(row.runout));
-        archive.reals["runout_beyond_toe"].push_back(or_nan(row.runout_beyond_toe));
-        archive.reals["runout_largest"].push_back(or_nan(row.runout_largest));
-        archive.reals["volume_ratio"].push_back(or_nan(row.volume_ratio));
-        archive.reals["numerical_share"].push_back(or_nan(row.numerical_share));
-        archive.reals["overlap"].push_back(or_nan(row.overlap));
-        archive.reals["cpu_seconds"].push_back(or_nan(row.cpu_seconds));
-        archive.integers["reused"].push_back(row.reused ? 1 : 0);
-        archive.texts["variant"] += row.variant + "\n";
-        archive.texts["state"] += row.state + "\n";
-        archive.texts["trigger"] += row.trigger + "\n";
-    }
+                              .units = {}};
+    for (const ResultColumn& each : result_columns()) add_column(archive, each, rows);
     return archive;
 }
 
 }  // namespace
 
-std::string as_hdf5(const std::vector<SweepRow>& rows, const std::string& run,
+std::string as_hdf5(const std::vector<ResultRow>& rows, const std::string& run,
                     const std::string& scene, FrameReader& hdf5,
                     const std::filesystem::path& scratch) {
     const auto file = scratch / (new_run_id() + ".h5");

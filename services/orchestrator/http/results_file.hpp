@@ -2,13 +2,13 @@
 #pragma once
 
 #include "services/orchestrator/files/frames.hpp"
-#include "services/orchestrator/records/records.hpp"
+#include "services/orchestrator/records/result_columns.hpp"
 
 namespace breach::orchestrator {
 
-/// The bytes of the file. Numbers that are not known are NaN; columns of text are one text with a
-/// line per row. `scratch`: a folder for the time of the writing. Throws IoError.
-std::string as_hdf5(const std::vector<SweepRow>& rows, const std::string& run,
+/// The bytes of the file. Numbers that are not known are NaN; yes and no are 1 and 0, not known is
+/// -1; columns of text are one text with a line per row. `scratch`: a folder for the time of the writing. Throws IoError.
+std::string as_hdf5(const std::vector<ResultRow>& rows, const std::string& run,
                     const std::string& scene, FrameReader& hdf5,
                     const std::filesystem::path& scratch);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/orchestrator/records/flag_tally.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
 #include "services/orchestrator/records/trigger.hpp"
 
@@ -88,7 +89,8 @@ struct Run {
     std::string id;
     std::string name;
     std::string title;
-    /// Derived from the tasks: queued running succeeded partial failed cancelled
+    /// Derived: queued running succeeded questionable partial failed cancelled. questionable: all
+    /// succeeded, but a result carries a flag that forbids to rely on it.
     std::string state;
     std::string created;
     std::optional<std::string> started;
@@ -99,6 +101,16 @@ struct Run {
     std::int64_t tasks_failed = 0;  ///< failed or skipped
     std::string message;            ///< why it is not simply fine
     bool paused = false;            ///< nothing new of it is started
+    std::int64_t questionable = 0;  ///< results not to rely on
+    std::vector<FlagTally> flags = {};
+};
+
+/// Which rows of a table of results: those from number `from` on that meet the rest.
+struct ResultFilter {
+    std::optional<std::string> state;
+    std::optional<std::string> flag;  ///< a code that they carry
+    std::size_t from = 0;
+    std::size_t most = static_cast<std::size_t>(1) << 30;
 };
 
 /// Which runs a list shows: newest first, after the place where the last page ended.
@@ -138,6 +150,7 @@ struct Task {
     std::optional<std::string> same_as;        ///< the task whose result it took
     std::optional<std::string> cache_refusal;  ///< why a fitting entry of the cache was not served
     std::int64_t priority = 0;
+    bool not_reached = false;  ///< skipped because its FEM had regularly ended before its time
 };
 
 /// As much of a blocked task as its release needs.
@@ -145,6 +158,7 @@ struct BlockedTask {
     std::string id;
     Release release;
     std::string input;
+    std::optional<double> transfer_time;  ///< t_T [s]
 };
 
 struct Attempt {
@@ -174,25 +188,6 @@ struct Event {
     std::optional<std::string> task;
     std::string kind;  ///< "run", "task", "attempt"
     nlohmann::json detail;
-};
-
-/// One row of the sweep's table. Numbers are absent until the runout is done.
-struct SweepRow {
-    std::string variant;  ///< empty: the study has none
-    double transfer_time;
-    std::string state;
-    std::optional<double> runout;
-    std::optional<double> runout_beyond_toe;
-    std::optional<double> runout_largest;
-    std::optional<double> volume_ratio;
-    std::optional<double> numerical_share;  ///< energy made or lost by the numerics [-]
-    std::optional<double> overlap;          ///< area of soil that lies in other soil, of all [-]
-    std::optional<double> cpu_seconds;
-    bool reused = false;  ///< taken from an earlier, equal task
-    std::string reason;
-    std::string transfer_task;
-    std::string mpm_task;
-    std::string trigger = "at_time";  ///< names of those that made the transfer
 };
 
 /// A firing and how long it took from the line that met its trigger [ms].

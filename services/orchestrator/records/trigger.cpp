@@ -4,6 +4,8 @@
 #include <array>
 #include <set>
 
+#include "core/telemetry/columns.hpp"
+
 namespace breach::orchestrator {
 
 using fault::Fault;
@@ -127,32 +129,12 @@ TriggerState trigger_state_named(std::string_view name) {
 }
 
 const std::vector<std::string>& telemetry_fields() {
-    static const std::vector<std::string> fields{
-        "step",
-        "time",
-        "dt",
-        "iterations",
-        "residual",
-        "crest_displacement",
-        "crest_dx",
-        "crest_dy",
-        "kinetic_energy",
-        "external_work",
-        "internal_work",
-        "jacobian_ratio_avg",
-        "jacobian_ratio_min",
-        "jacobian_centre_avg",
-        "jacobian_least_avg",
-        "jacobian_least_min",
-        "epsilon_q_avg",
-        "epsilon_q_max",
-        "strained_share",
-        "softened_share",
-        "liquefaction_depth",
-        "failure_surfaces",
-        "r_u_max",
-        "critical_depth",  // not of the FEM: the stability analysis of the same run
-    };
+    static const std::vector<std::string> fields = [] {
+        std::vector<std::string> names;
+        for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()})
+            for (const telemetry::Column& column : table) names.emplace_back(column.name);
+        return names;
+    }();
     return fields;
 }
 

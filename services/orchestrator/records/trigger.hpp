@@ -91,7 +91,7 @@ using Work = std::variant<Manual, When, Between, Bisect>;
 /// From a checked spec.
 Work work_of(const TriggerPlan& plan);
 
-/// Fields of the FEM's telemetry, which conditions may use.
+/// What conditions may use: the columns of core/telemetry.
 const std::vector<std::string>& telemetry_fields();
 
 struct CheckedTriggers {

@@ -4,12 +4,14 @@
 
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/store/versions.hpp"
+#include "services/orchestrator/store/views.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
 
-const std::array versions{version_1, version_2, version_3, version_4, version_5};
+const std::array versions{version_1, version_2, version_3, version_4,
+                          version_5, version_6, version_7};
 
 std::int64_t version_of(Connection& database) {
     std::int64_t version = 0;
@@ -22,13 +24,13 @@ std::int64_t version_of(Connection& database) {
 void migrate(Connection& database, const std::filesystem::path& file) {
     const std::int64_t version = version_of(database);
     const auto newest = static_cast<std::int64_t>(versions.size());
-    if (version == newest) return;
+    if (version == newest && views_are_current(database)) return;
     if (version > newest) {
         throw StoreError(file.string() + " is of version " + std::to_string(version) +
                          ", but this program knows only up to " + std::to_string(newest) +
                          ": use the newer program");
     }
-    if (version > 0) {
+    if (version > 0 && version < newest) {
         std::filesystem::path backup = file;
         backup += ".before_version_" + std::to_string(newest);
         std::filesystem::remove(backup);
@@ -40,6 +42,7 @@ void migrate(Connection& database, const std::filesystem::path& file) {
             database.script(versions[static_cast<std::size_t>(v)]);
             reach(Failpoint::migration_half_way);
         }
+        make_views(database);
         database.script("PRAGMA user_version=" + std::to_string(newest));
         database.script("COMMIT");
     } catch (const StoreError&) {

@@ -1,5 +1,8 @@
 // The reading half of the store.
+#include <algorithm>
+
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/store/views.hpp"
 
 namespace breach::orchestrator {
 
@@ -12,7 +15,8 @@ constexpr const char* run_columns =
     "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
     "t.fault_summary FROM tasks t WHERE t.run "
     "= r.id AND "
-    "t.fault_summary IS NOT NULL ORDER BY t.id LIMIT 1), '') FROM run_summaries r ";
+    "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable FROM "
+    "run_summaries r ";
 
 Run run_from(const Row& row) {
     return {.id = row.text(0),
@@ -27,14 +31,15 @@ Run run_from(const Row& row) {
             .tasks_ended = row.integer(9),
             .tasks_failed = row.integer(11),
             .message = row.text(12),
-            .paused = row.integer(10) != 0};
+            .paused = row.integer(10) != 0,
+            .questionable = row.integer(13)};
 }
 
 constexpr const char* task_columns =
     "SELECT id, run, phase, label, transfer_time, state, parent, release, input, overrides, tries, "
     "started, "
     "finished, result, fault_exit, fault_summary, variant, cores, memory_mb, recipe, input_sha256, "
-    "same_as, cache_refusal, priority FROM tasks ";
+    "same_as, cache_refusal, priority, not_reached FROM tasks ";
 
 Task task_from(const Row& row) {
     Task task{.id = row.text(0),
@@ -58,7 +63,8 @@ Task task_from(const Row& row) {
               .input_sha256 = row.optional_text(20),
               .same_as = row.optional_text(21),
               .cache_refusal = row.optional_text(22),
-              .priority = row.integer(23)};
+              .priority = row.integer(23),
+              .not_reached = row.integer(24) != 0};
     if (!row.is_null(13)) task.result = json::parse(row.text(13));
     if (!row.is_null(15)) task.fault = TaskFault{row.optional_integer(14), row.text(15)};
     return task;
@@ -94,6 +100,7 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
     std::vector<Run> found;
     read([&](Connection& database) {
         database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
+        add_flags(database, found);
     });
     return found;
 }
@@ -112,12 +119,37 @@ std::optional<IdempotentRun> Store::run_of_key(const std::string& key) const {
 }
 
 std::optional<Run> Store::run(const std::string& id) const {
-    std::optional<Run> found;
+    std::vector<Run> found;
     read([&](Connection& database) {
         database.query(std::string(run_columns) + "WHERE r.id=?", {id},
-                       [&](const Row& row) { found = run_from(row); });
+                       [&](const Row& row) { found.push_back(run_from(row)); });
+        add_flags(database, found);
     });
-    return found;
+    if (found.empty()) return std::nullopt;
+    return std::move(found.front());
+}
+
+/// Counts the flags of these runs, and says on their page what is doubtful in them.
+void Store::add_flags(Connection& database, std::vector<Run>& runs) {
+    json ids = json::array();
+    for (const Run& each : runs) ids.push_back(each.id);
+    database.query(
+        "SELECT run, code, phase, severity='questionable', count(DISTINCT task), (SELECT count(*) "
+        "FROM tasks WHERE tasks.run=flags.run AND tasks.phase=flags.phase AND tasks.state IN "
+        "('succeeded', 'cached')) FROM flags WHERE run IN (SELECT value FROM json_each(?)) "
+        "GROUP BY run, severity, code, phase",
+        {ids.dump()}, [&](const Row& row) {
+            std::ranges::find(runs, row.text(0), &Run::id)
+                ->flags.push_back({.code = row.text(1),
+                                   .phase = row.text(2),
+                                   .questionable = row.integer(3) != 0,
+                                   .results = row.integer(4),
+                                   .of_results = row.integer(5)});
+        });
+    for (Run& each : runs) {
+        const std::string doubt = doubt_of(each.flags);
+        if (!doubt.empty()) each.message += (each.message.empty() ? "" : "; ") + doubt;
+    }
 }
 
 std::optional<json> Store::study_of(const std::string& run) const {
@@ -196,9 +228,11 @@ std::vector<BlockedTask> Store::blocked_children(const std::string& parent) cons
     std::vector<BlockedTask> found;
     read([&](Connection& database) {
         database.query(
-            "SELECT id, release, input FROM tasks WHERE parent=? AND state='blocked' ORDER BY id",
+            "SELECT id, release, input, transfer_time FROM tasks WHERE parent=? AND "
+            "state='blocked' ORDER BY id",
             {parent}, [&](const Row& row) {
-                found.push_back({row.text(0), release_named(row.text(1)), row.text(2)});
+                found.push_back(
+                    {row.text(0), release_named(row.text(1)), row.text(2), row.optional_real(3)});
             });
     });
     return found;
@@ -319,11 +353,6 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return found;
 }
 
-std::vector<SweepRow> Store::results(const std::string& run) const {
-    constexpr std::size_t all = static_cast<std::size_t>(1) << 30;
-    return results(run, 0, all);
-}
-
 std::pair<std::int64_t, std::int64_t> Store::points_of(const std::string& run) const {
     std::pair<std::int64_t, std::int64_t> counts{0, 0};
     read([&](Connection& database) {
@@ -337,32 +366,52 @@ std::pair<std::int64_t, std::int64_t> Store::points_of(const std::string& run) c
     return counts;
 }
 
-std::vector<SweepRow> Store::results(const std::string& run, std::size_t from,
-                                     std::size_t most) const {
-    std::vector<SweepRow> found;
+namespace {
+
+json value_from(const Row& row, int column, ColumnKind kind) {
+    if (row.is_null(column)) return nullptr;
+    switch (kind) {
+        case ColumnKind::number:
+            return row.real(column);
+        case ColumnKind::yes_no:
+            return row.integer(column) != 0;
+        case ColumnKind::word:
+            return row.text(column);
+        case ColumnKind::flags:
+            return json::parse(row.text(column));
+    }
+    return nullptr;
+}
+
+ResultRow result_from(const Row& row) {
+    ResultRow values;
+    for (const ResultColumn& each : result_columns())
+        values.push_back(value_from(row, static_cast<int>(values.size()), each.kind));
+    return values;
+}
+
+}  // namespace
+
+std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter& filter) const {
+    std::string sql = "SELECT " + selected_result_columns() + " FROM sweep_results WHERE run=?1";
+    std::vector<Value> values{run, as_value(filter.most), as_value(filter.from)};
+    if (!filter.state && !filter.flag) {
+        // The page is found first, so that a long table is not worked out for a part of it.
+        sql +=
+            " AND mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants ON "
+            "variants.run=tasks.run AND variants.name=tasks.variant WHERE tasks.run=?1 AND "
+            "tasks.phase='mpm_solver' ORDER BY coalesce(variants.place, 0), tasks.transfer_time "
+            "LIMIT ?2 OFFSET ?3) ORDER BY variant_place, transfer_time";
+    } else {
+        sql +=
+            " AND (?4 IS NULL OR state=?4) AND (?5 IS NULL OR instr(';' || flags || ';', ';' || ?5 "
+            "|| ';') > 0) ORDER BY variant_place, transfer_time LIMIT ?2 OFFSET ?3";
+        values.push_back(value_or_null(filter.state));
+        values.push_back(value_or_null(filter.flag));
+    }
+    std::vector<ResultRow> found;
     read([&](Connection& database) {
-        database.query(
-            "SELECT transfer_time, state, runout, runout_beyond_toe, runout_largest, volume_ratio, "
-            "numerical_share, cpu_seconds, reason, transfer_task, mpm_task, variant, overlap, "
-            "reused, trigger "
-            "FROM sweep_results WHERE run=? ORDER BY variant, transfer_time LIMIT ? OFFSET ?",
-            {run, as_value(most), as_value(from)}, [&](const Row& row) {
-                found.push_back({.variant = row.text(11),
-                                 .transfer_time = row.real(0),
-                                 .state = row.text(1),
-                                 .runout = row.optional_real(2),
-                                 .runout_beyond_toe = row.optional_real(3),
-                                 .runout_largest = row.optional_real(4),
-                                 .volume_ratio = row.optional_real(5),
-                                 .numerical_share = row.optional_real(6),
-                                 .overlap = row.optional_real(12),
-                                 .cpu_seconds = row.optional_real(7),
-                                 .reused = row.integer(13) != 0,
-                                 .reason = row.text(8),
-                                 .transfer_task = row.text(9),
-                                 .mpm_task = row.text(10),
-                                 .trigger = row.text(14)});
-            });
+        database.query(sql, values, [&](const Row& row) { found.push_back(result_from(row)); });
     });
     return found;
 }

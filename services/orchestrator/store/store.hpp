@@ -13,6 +13,7 @@
 #include <mutex>
 #include <thread>
 
+#include "services/orchestrator/records/result_columns.hpp"
 #include "services/orchestrator/store/histogram.hpp"
 #include "services/orchestrator/store/transaction.hpp"
 
@@ -82,8 +83,8 @@ class Store {
     std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
                                                                    const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
-    std::vector<SweepRow> results(const std::string& run) const;
-    std::vector<SweepRow> results(const std::string& run, std::size_t from, std::size_t most) const;
+    /// In the study's order of variants, each ascending in the transfer time.
+    std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
     /// Points of a sweep, and how many of them have their runout.
     std::pair<std::int64_t, std::int64_t> points_of(const std::string& run) const;
 
@@ -114,6 +115,7 @@ class Store {
     void commit(std::deque<Job>& jobs);
     /// A reading connection for the duration of `read`.
     void read(const std::function<void(Connection&)>& read) const;
+    static void add_flags(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;

@@ -151,6 +151,13 @@ void Transaction::fail_task(const std::string& task, TaskEvent event, const Task
                      {value_or_null(fault.exit_code), fault.summary, task});
 }
 
+void Transaction::pass_over_task(const std::string& task, const std::string& why) {
+    if (!next(state_of(task), TaskEvent::skip)) return;  // cancelled meanwhile
+    // Before the move: the trigger that counts a run's failures looks at this column.
+    database_.change("UPDATE tasks SET not_reached=1, fault_summary=? WHERE id=?", {why, task});
+    move_task(task, TaskEvent::skip, {{"summary", why}, {"not_reached", true}});
+}
+
 void Transaction::finish_task(const std::string& task, const json& result,
                               const std::vector<Artifact>& artifacts,
                               const std::string& input_sha256) {
@@ -276,12 +283,13 @@ bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
 std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
     std::vector<std::pair<std::string, std::string>> tasks;
     bool known = false;
-    database_.query("SELECT id, state, release FROM tasks WHERE run=? ORDER BY id", {run},
-                    [&](const Row& row) {
-                        known = true;
-                        if (next(task_state_named(row.text(1)), TaskEvent::redo))
-                            tasks.emplace_back(row.text(0), row.text(2));
-                    });
+    database_.query(
+        "SELECT id, state, release FROM tasks WHERE run=? AND not_reached=0 ORDER BY id", {run},
+        [&](const Row& row) {
+            known = true;
+            if (next(task_state_named(row.text(1)), TaskEvent::redo))
+                tasks.emplace_back(row.text(0), row.text(2));
+        });
     if (!known) return std::nullopt;
     std::set<std::string> ids;
     for (const auto& [task, release] : tasks) ids.insert(task);

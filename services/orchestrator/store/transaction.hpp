@@ -38,6 +38,9 @@ class Transaction {
     /// Ends the task without a result (exit_badly, give_up, refuse_outputs, skip) and keeps the
     /// reason.
     void fail_task(const std::string& task, TaskEvent event, const TaskFault& fault);
+    /// Skips a task whose time its FEM, which ended regularly, did not come to: no failure, and no
+    /// retry can mend it. Keeps the reason. Nothing happens when it waits no more.
+    void pass_over_task(const std::string& task, const std::string& why);
     /// `input_sha256`: of the file that the task read; empty: it reads none.
     void finish_task(const std::string& task, const nlohmann::json& result,
                      const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
@@ -65,9 +68,10 @@ class Transaction {
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
-    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries. Triggers that
-    /// the cancelling disarmed are armed again, and those that had expired on a FEM that now runs
-    /// again; what fired stays. Returns how many tasks; nothing: no such run.
+    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; what was not
+    /// reached stays so. Triggers that the cancelling disarmed are armed again, and those that had
+    /// expired on a FEM that now runs again; what fired stays. Returns how many tasks; nothing: no
+    /// such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 
     /// On one FEM of the run; an empty name is made up. Returns its id.

@@ -9,5 +9,7 @@ extern const char* const version_2;  ///< variants, cache, queues, idempotency, 
 extern const char* const version_3;  ///< triggers, firings
 extern const char* const version_4;  ///< indices for thousands of tasks
 extern const char* const version_5;  ///< breakdowns answer equal tasks
+extern const char* const version_6;  ///< flags of results, order of variants
+extern const char* const version_7;  ///< what the FEM did not reach is no failure
 
 }  // namespace breach::orchestrator

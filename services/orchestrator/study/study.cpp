@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check/check.hpp"
+#include "core/criteria/expression.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
@@ -17,6 +19,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_transfers = 10000;
+constexpr double unknown_span = 1e9;  // of a FEM that could not be read [s]: nothing is too late
 constexpr double microsecond = 1e-6;  // two times closer than this would share a snapshot's name
 
 /// The double nearest to the spelt time: 0.1 + 0.2 becomes 0.3, so snapshot, override and row
@@ -89,34 +92,83 @@ void need_part(const json& scene, const std::string& part, std::vector<Fault>& f
                       "add \"" + part + "\" to the scene"});
 }
 
-/// The scene's own check, its faults moved below `prefix`. Nothing when it has faults.
-std::optional<scene::Scene> checked_scene(const json& document, const std::string& prefix,
-                                          const std::vector<std::string>& overrides,
-                                          std::vector<Fault>& faults) {
-    try {
-        for (const std::string& key : scene::file_entries) {
-            const json::json_pointer at(key);
-            if (!document.contains(at) || !document[at].is_string() ||
-                document[at].get_ref<const std::string&>().starts_with('/'))
-                continue;
-            faults.push_back({prefix + key,
-                              "the path is relative, but a scene sent to the service has no folder",
-                              "give the absolute path of the file on the service's machine"});
-        }
-        return scene::parse_scene(document.dump(), "scene", "/", overrides);
-    } catch (const BadInput& error) {
-        for (Fault each : error.faults()) {
-            each.pointer = prefix + each.pointer;
-            faults.push_back(std::move(each));
-        }
-        return std::nullopt;
+/// A scene that was sent has no folder: its files are named by absolute paths, in overrides too.
+void need_absolute_files(json scene, const std::vector<std::string>& overrides,
+                         std::vector<Fault>& faults) {
+    for (const std::string& each : overrides) scene::apply_override(scene, each);
+    for (const std::string& key : scene::file_entries) {
+        const json::json_pointer at(key);
+        if (!scene.contains(at) || !scene[at].is_string() ||
+            scene[at].get_ref<const std::string&>().starts_with('/'))
+            continue;
+        faults.push_back({key,
+                          "the path is relative, but a scene sent to the service has no folder",
+                          "give the absolute path of the file on the service's machine"});
     }
 }
 
-/// What makes transfers happen: times, and triggers that watch the FEM.
-void read_triggers(const json& document, const scene::Fem& fem, Study& study,
-                   std::vector<Fault>& faults) {
-    const double span = dynamic_duration(fem);
+/// The scene's own check; what it could read, and everything that is wrong.
+check::Checked checked_scene(const json& document, const std::vector<std::string>& overrides) {
+    std::vector<Fault> faults;
+    need_absolute_files(document, overrides, faults);
+    check::Checked checked = check::checked_text(document.dump(), "scene", "/", overrides);
+    // A relative path was looked for below the root: one fault is enough.
+    std::erase_if(checked.faults, [&](const Fault& each) {
+        return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
+    });
+    checked.faults.insert(checked.faults.begin(), faults.begin(), faults.end());
+    return checked;
+}
+
+/// The faults with their pointers moved below `prefix`.
+void add_below(const std::string& prefix, const std::vector<Fault>& found,
+               std::vector<Fault>& faults) {
+    for (const Fault& each : found)
+        faults.push_back({prefix + each.pointer, each.cause, each.remedy});
+}
+
+/// Whether the schema found nothing wrong at the entry or below it.
+bool is_sound(const std::vector<Fault>& faults, const std::string& entry) {
+    return std::ranges::none_of(faults, [&](const Fault& each) {
+        return each.pointer == entry || each.pointer.starts_with(entry + "/");
+    });
+}
+
+/// Fields that a condition asks for; none where it cannot be read, which is told elsewhere.
+std::vector<std::string> fields_of(const std::string& condition) {
+    try {
+        return criteria::parse(condition, criteria::Kind::condition, "").fields;
+    } catch (const BadInput&) {
+        return {};
+    }
+}
+
+/// Conditions on what this run's telemetry never holds.
+void check_fields(const json& triggers, const scene::Scene& scene, bool stability,
+                  std::vector<Fault>& faults) {
+    const bool staged = stability && scene.lem && !scene.lem->liquefaction.empty();
+    for (std::size_t i = 0; i < triggers.size(); ++i) {
+        for (const char* key : {"when", "lower", "upper"}) {
+            if (!triggers[i].contains(key)) continue;
+            const std::string at = "/triggers/" + std::to_string(i) + "/" + key;
+            const auto fields = fields_of(triggers[i][key].get<std::string>());
+            const auto asks = [&](const char* field) {
+                return std::ranges::find(fields, field) != fields.end();
+            };
+            if (!scene.fem->liquefaction && (asks("liquefaction_depth") || asks("r_u_max")))
+                faults.push_back({at, "asks how deep soil has liquefied, and none is watched",
+                                  "say in /scene/fem/liquefaction which soil can liquefy"});
+            if (!staged && asks("critical_depth"))
+                faults.push_back(
+                    {at, "asks for critical_depth, which only a stability analysis in stages gives",
+                     "give /scene/lem/liquefaction and leave \"stability\" on"});
+        }
+    }
+}
+
+/// What makes transfers happen: times, and triggers that watch the FEM for `span` [s].
+void read_triggers(const json& document, double span, Study& study, std::vector<Fault>& faults) {
+    const std::size_t before = faults.size();
     CheckedTriggers checked = check_triggers(document["triggers"], span, "/triggers", faults);
     std::vector<double> times;
     const auto take = [&](const json& entry) {
@@ -131,18 +183,40 @@ void read_triggers(const json& document, const scene::Fem& fem, Study& study,
     study.transfer_times = std::move(times);
     study.triggers = std::move(checked.live);
     study.snapshot_interval = checked.snapshot_interval;
-    if (fem.snapshot_interval > 0.0 && study.snapshot_interval > fem.snapshot_interval)
-        study.snapshot_interval = 0.0;  // the scene's own are finer
-    if (faults.empty() && study.transfer_times.empty() && document["triggers"].empty()) {
+    if (faults.size() == before && study.transfer_times.empty() && document["triggers"].empty()) {
         faults.push_back({"/transfer_times", "nothing says when to transfer",
                           "give \"transfer_times\", \"triggers\" or both"});
     }
 }
 
+/// The study's scene with its own overrides: completed when it is sound, as it was sent otherwise.
+struct Base {
+    json scene;
+    std::vector<std::string> overrides;
+    std::vector<Fault> faults;  ///< of the scene itself: a variant does not repeat them
+};
+
+/// What a variant changes for the worse: faults that the scene itself does not have.
+std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& base,
+                                     const std::vector<double>& times) {
+    std::vector<Fault> own;
+    for (const Fault& each : changed.faults) {
+        const bool known = std::ranges::any_of(base.faults, [&](const Fault& other) {
+            return other.pointer == each.pointer && other.cause == each.cause;
+        });
+        if (!known) own.push_back(each);
+    }
+    std::vector<Fault> late;
+    if (changed.scene.fem) check_times(times, *changed.scene.fem, late);
+    for (const Fault& each : late) own.push_back({"/fem/stages", each.cause, each.remedy});
+    return own;
+}
+
 /// Each variant's scene, checked and completed; faults are those of its overrides.
-std::vector<Variant> checked_variants(const json& entries, const json& scene,
+std::vector<Variant> checked_variants(const json& entries, const Base& base,
+                                      const std::vector<double>& times,
                                       std::vector<Fault>& faults) {
-    if (entries.empty()) return {{.name = "", .overrides = {}, .scene = scene}};
+    if (entries.empty()) return {{.name = "", .overrides = {}, .scene = base.scene}};
     std::vector<Variant> variants;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const std::string at = "/variants/" + std::to_string(i);
@@ -153,14 +227,25 @@ std::vector<Variant> checked_variants(const json& entries, const json& scene,
             faults.push_back({at + "/name", "the name \"" + variant.name + "\" is given twice",
                               "give each variant a name of its own"});
         }
-        std::vector<Fault> found;
-        const auto changed = checked_scene(scene, "", variant.overrides, found);
-        for (const Fault& each : found)
+        std::vector<std::string> overrides = base.overrides;
+        overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
+        const check::Checked changed = checked_scene(base.scene, overrides);
+        for (const Fault& each : faults_of_variant(changed, base, times))
             faults.push_back({at + "/overrides", each.pointer + ": " + each.cause, each.remedy});
-        if (changed) variant.scene = json::parse(changed->completed);
+        if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
         variants.push_back(std::move(variant));
     }
     return variants;
+}
+
+/// One fault instead of one per entry that a study lacks.
+void refuse_scene(const json& document) {
+    if (!document.is_object() || !document.contains("format") || !document["format"].is_string() ||
+        !document["format"].get_ref<const std::string&>().starts_with("breachline-scene/"))
+        return;
+    throw BadInput("study", {{"/format", "is that of a scene; a study was expected",
+                              "send {\"format\": \"breachline-study/1\", \"name\": ..., "
+                              "\"transfer_times\": [...], \"scene\": this scene}"}});
 }
 
 std::map<std::string, Resources> wanted_resources(const json& entries) {
@@ -174,28 +259,47 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 
 Study read_study(std::string_view text) {
     json document = scene::parse_json(text, "study");
-    std::vector<Fault> faults = scene::complete_and_check(document, scene::study_schema());
+    refuse_scene(document);
+    const std::vector<Fault> of_study = scene::complete_and_check(document, scene::study_schema());
+    std::vector<Fault> faults = of_study;
+    const auto sound = [&](const char* entry) {
+        return document.is_object() && document.contains(entry) &&
+               is_sound(of_study, std::string("/") + entry);
+    };
     if (document.is_object() && document.contains("scene") && document["scene"].is_string()) {
         faults.push_back({"/scene", "a study sent to the service cannot name a scene file",
                           "put the scene itself here (jq can: .scene = $scene[0])"});
     }
-    const bool study_is_sound = faults.empty();
     Study study;
-    std::optional<scene::Scene> scene;
+    std::optional<check::Checked> scene;
+    Base base;
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
-        const auto overrides = study_is_sound
-                                   ? document["overrides"].get<std::vector<std::string>>()
-                                   : std::vector<std::string>{};
-        for (const char* part : {"fem", "mpm"}) need_part(document["scene"], part, faults);
-        scene = checked_scene(document["scene"], "/scene", overrides, faults);
+        base.scene = document["scene"];
+        if (sound("overrides")) base.overrides = document["overrides"];
+        for (const char* part : {"fem", "mpm"}) need_part(base.scene, part, faults);
+        scene = checked_scene(base.scene, base.overrides);
+        base.faults = scene->faults;
+        add_below("/scene", scene->faults, faults);
+        if (scene->faults.empty())
+            base = {json::parse(scene->scene.completed), {}, {}};  // what variants change
     }
-    if (study_is_sound && scene && scene->fem) {
-        read_triggers(document, *scene->fem, study, faults);
-        check_times(study.transfer_times, *scene->fem, faults);
+    const bool times_are_sound =
+        document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
+    const auto* fem = scene && scene->scene.fem ? &*scene->scene.fem : nullptr;
+    if (times_are_sound) {
+        read_triggers(document, fem ? dynamic_duration(*fem) : unknown_span, study, faults);
+        if (fem) check_times(study.transfer_times, *fem, faults);
+        if (fem && sound("stability"))
+            check_fields(document["triggers"], scene->scene, document["stability"], faults);
+        if (fem && fem->snapshot_interval > 0.0 && study.snapshot_interval > fem->snapshot_interval)
+            study.snapshot_interval = 0.0;  // the scene's own are finer
     }
-    if (faults.empty()) {
-        study.scene = json::parse(scene->completed);
-        study.variants = checked_variants(document["variants"], study.scene, faults);
+    if (scene && sound("variants")) {
+        const bool late = fem && !study.transfer_times.empty() &&
+                          study.transfer_times.back() > dynamic_duration(*fem) + microsecond;
+        study.variants =
+            checked_variants(document["variants"], base,
+                             late ? std::vector<double>{} : study.transfer_times, faults);
         if (study.variants.size() * study.transfer_times.size() > most_transfers) {
             faults.push_back(
                 {"/variants",
@@ -205,23 +309,22 @@ Study read_study(std::string_view text) {
     }
     if (!faults.empty()) throw BadInput("study", std::move(faults));
 
+    study.scene = std::move(base.scene);
     study.name = document["name"];
     study.title = document["title"];
     study.resources = wanted_resources(document["resources"]);
     study.priority = document["priority"];
     study.reuse = document["reuse"];
-    study.stability = document["stability"].get<bool>() && scene->lem.has_value();
+    study.stability = document["stability"].get<bool>() && scene->scene.lem.has_value();
     document.erase("scene");
     study.document = std::move(document);
     return study;
 }
 
 json read_whole_scene(std::string_view text) {
-    const json document = scene::parse_json(text, "scene");
-    std::vector<Fault> faults;
-    const auto scene = checked_scene(document, "", {}, faults);
-    if (!faults.empty()) throw BadInput("scene", std::move(faults));
-    return json::parse(scene->completed);
+    const check::Checked checked = checked_scene(scene::parse_json(text, "scene"), {});
+    if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
+    return json::parse(checked.scene.completed);
 }
 
 }  // namespace breach::orchestrator

@@ -3,6 +3,7 @@
 
 #include "core/exchange/archive.hpp"
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -34,13 +35,15 @@ Figure gauge_figure(const PhaseFolder& mpm, const std::string& quantity, const s
 
 /// Arrival and largest values at every gauge, of every runout.
 Table gauge_table(const Run& run) {
-    Table table{"gauges",
-                "Gauges",
-                {"run", "t_T [s]", "variant", "gauge", "x [m]", "arrival [s]", "largest depth [m]",
-                 "at [s]", "largest velocity [m/s]"},
-                {},
-                "Arrival: first time at which the flow is as deep as the gauge's arrival_depth, in "
-                "seconds since the transfer; - when it never is."};
+    Table table{
+        "gauges",
+        "Gauges",
+        {"run", "t_T [s]", "variant", "gauge", "x [m]", "arrival [s]", "largest depth [m]",
+         "at [s]", "largest velocity [m/s]"},
+        {},
+        "Arrival: first time at which the flow is as deep as the gauge's arrival_depth, in "
+        "seconds since the transfer; - when it never is, or was not yet where the soil still "
+        "moved at the end."};
     for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
         if (!each->result.is_object() || !each->result.contains("gauges")) continue;
         for (const auto& [name, seen] : each->result.at("gauges").items()) {
@@ -62,7 +65,7 @@ std::optional<Series> deposit_of(const PhaseFolder& mpm) {
     const std::size_t columns = x->second.size();
     if (columns == 0 || depths->second.size() < columns) return {};
     return Series{
-        of_transfer(mpm),
+        of_transfer(mpm) + (still_moves(mpm) ? " (still moving)" : ""),
         x->second,
         {depths->second.end() - static_cast<std::ptrdiff_t>(columns), depths->second.end()}};
 }
@@ -94,7 +97,7 @@ void add_flow(const Material& from, Document& document) {
     Chapter chapter{"Flow and deposit"};
     Figure deposit{"deposit_profile",
                    {"Depth of the deposit", {"x [m]"}, {"depth of mobile soil [m]"}, {}},
-                   "Where everything has come to rest, or at the end of the runout."};
+                   "At the end of the runout."};
     for (const PhaseFolder* each : runouts) {
         if (auto series = deposit_of(*each)) deposit.chart.series.push_back(std::move(*series));
     }

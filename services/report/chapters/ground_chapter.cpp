@@ -4,6 +4,7 @@
 
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/particle_figures.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -77,13 +78,14 @@ Range shown_by(const std::vector<const PhaseFolder*>& runouts) {
 struct Row {
     std::string what;
     std::string pointer;
+    bool grows = false;  ///< while soil moves, so that it is a lower bound then
 };
 
 std::vector<Row> rows_of(const json& scene) {
-    std::vector<Row> rows = {{"runout [m]", "/runout"},
-                             {"beyond the toe, 99 % [m]", "/runout_beyond_toe"},
-                             {"beyond the toe, 95 % [m]", "/runout_beyond_toe_95"},
-                             {"farthest point [m]", "/runout_largest"},
+    std::vector<Row> rows = {{"runout [m]", "/runout", true},
+                             {"beyond the toe, 99 % [m]", "/runout_beyond_toe", true},
+                             {"beyond the toe, 95 % [m]", "/runout_beyond_toe_95", true},
+                             {"farthest point [m]", "/runout_largest", true},
                              {"at rest", "/at_rest"},
                              {"end [s]", "/end_time"}};
     for (const json& each : scene.at("mpm").value("gauges", json::array())) {
@@ -101,12 +103,16 @@ Table beside_each_other(const std::vector<const PhaseFolder*>& runouts,
                 "Runout by ground",
                 {"quantity"},
                 {},
-                "Arrival: seconds since the transfer; - when the flow never gets there."};
+                "Arrival: seconds since the transfer; - when the flow never gets there, or had not "
+                "yet. \u2265: a lower bound, the soil still moved."};
     for (const PhaseFolder* each : runouts) table.columns.push_back(of_transfer(*each));
     if (paper) table.columns.push_back("case history, valley of about 20 %");
     for (const Row& row : rows_of(runouts.front()->scene)) {
         std::vector<std::string> cells = {row.what};
-        for (const PhaseFolder* each : runouts) cells.push_back(fact(each->result, row.pointer));
+        for (const PhaseFolder* each : runouts) {
+            const std::string value = fact(each->result, row.pointer);
+            cells.push_back(row.grows ? bounded(*each, value) : value);
+        }
         if (paper) cells.push_back(row.pointer == "/runout" ? paper->case_history_runout : "");
         table.rows.push_back(std::move(cells));
     }

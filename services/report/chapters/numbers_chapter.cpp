@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -13,7 +14,8 @@ namespace {
 /// The overrides that the phase was given, without those that only say when to write.
 std::string settings_of(const PhaseFolder& phase) {
     const json::json_pointer at("/provenance/overrides");
-    if (!phase.result.is_object() || !phase.result.contains(at)) return "";
+    if (!phase.result.is_object()) return "not known: no result.json";
+    if (!phase.result.contains(at)) return "";
     std::string text;
     for (const json& each : phase.result.at(at)) {
         const std::string override = each;
@@ -28,6 +30,7 @@ struct Column {
     std::string head;
     std::string pointer;
     double unit = 1.0;
+    bool grows = false;  ///< while soil moves, so that it is a lower bound then
 };
 
 Table table_of(const Run& run, const std::string& phase, const std::string& title,
@@ -40,10 +43,11 @@ Table table_of(const Run& run, const std::string& phase, const std::string& titl
             each->label, each->transfer_time ? short_number(*each->transfer_time) : "-",
             each->variant.empty() ? "all" : each->variant};
         for (const Column& column : columns) {
-            row.push_back(fact(each->result, column.pointer, column.unit));
+            const std::string value = fact(each->result, column.pointer, column.unit);
+            row.push_back(column.grows ? bounded(*each, value) : value);
         }
-        row.insert(row.end(), {settings_of(*each), fact(each->result, "/cpu_seconds"),
-                               each->fault.empty() ? "well" : each->fault});
+        row.insert(row.end(),
+                   {settings_of(*each), fact(each->result, "/cpu_seconds"), how_it_ended(*each)});
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -87,13 +91,33 @@ std::string fact(const json& result, const std::string& pointer, double unit) {
     return value.is_number() ? rounded(value.get<double>() / unit, 6) : value.dump();
 }
 
+/// What the paper knows of this table, where the run has what it speaks of.
+std::string note_of(const Material& from, const std::string& table, const PhaseFolder& phase) {
+    std::string text;
+    for (const PaperNote& each : from.paper ? from.paper->notes : std::vector<PaperNote>{}) {
+        const json::json_pointer at(each.entry);
+        if (each.table != table || !phase.result.is_object() || !phase.result.contains(at))
+            continue;
+        if (phase.result.at(at) == json(each.value)) text += " " + each.text;
+    }
+    return text;
+}
+
+/// Whether a law of the scene loses strength with strain.
+bool softens(const json& scene) {
+    return std::ranges::any_of(scene.value("materials", json::object()), [](const json& each) {
+        return each.contains(json::json_pointer("/law/softening"));
+    });
+}
+
 void add_numbers(const Material& from, Document& document) {
     Chapter chapter{"Numbers"};
     if (from.paper) chapter.tables.push_back(comparison(*from.paper, from.measures));
     const auto add = [&](const std::string& phase, const std::string& title,
                          const std::vector<Column>& columns, const std::string& caption) {
-        if (phase_named(from.run, phase)) {
-            chapter.tables.push_back(table_of(from.run, phase, title, columns, caption));
+        if (const PhaseFolder* first = phase_named(from.run, phase)) {
+            chapter.tables.push_back(table_of(from.run, phase, title, columns,
+                                              caption + note_of(from, "numbers_" + phase, *first)));
         }
     };
     add("lem_tool", "Limit equilibrium",
@@ -103,7 +127,7 @@ void add_numbers(const Material& from, Document& document) {
          {"critical depth [m]", "/critical_depth"},
          {"depth at FS = 1 [m]", "/depth_at_fs_1"},
          {"slices", "/slices"}},
-        "Error: 50 slices leave about 1e-4 in FS; what the method itself leaves open is the "
+        "Error: more slices say what they leave; what the method itself leaves open is the "
         "difference between Bishop and Spencer.");
     add("fem_solver", "Finite elements",
         {{"end [s]", "/end_time"},
@@ -113,8 +137,10 @@ void add_numbers(const Material& from, Document& document) {
          {"shortest edge [m]", "/mesh/shortest_edge"},
          {"largest displacement [m]", "/largest_displacement"},
          {"error: hourglass energy / internal work", "/hourglass/energy_over_internal_work"}},
-        "Softening is local: a shear band is one element wide, so the time of failure depends on "
-        "the mesh; only runs with other element sizes measure that error.");
+        softens(from.run.scene)
+            ? "Softening is local: a shear band is one element wide, so the time of failure "
+              "depends on the mesh; only runs with other element sizes measure that error."
+            : "");
     add("transfer_tool", "Transfers",
         {{"error: largest stress outside the yield surface [kPa]", "/largest_yield_excess", 1e3}},
         "");
@@ -122,19 +148,25 @@ void add_numbers(const Material& from, Document& document) {
         chapter.tables.push_back(std::move(kept));
     }
     add("mpm_solver", "Runouts",
-        {{"runout [m]", "/runout"},
-         {"beyond toe [m]", "/runout_beyond_toe"},
-         {"farthest point [m]", "/runout_largest"},
-         {"1 m front [m]", "/runout_front"},
-         {"area beyond toe [m2]", "/area_beyond_toe"},
+        {{"runout [m]", "/runout", 1.0, true},
+         {"beyond toe [m]", "/runout_beyond_toe", 1.0, true},
+         {"farthest point [m]", "/runout_largest", 1.0, true},
+         {"1 m front [m]", "/runout_front", 1.0, true},
+         {"area beyond toe [m2]", "/area_beyond_toe", 1.0, true},
          {"at rest", "/at_rest"},
+         {"in motion / released [%]", "/kinetic_share", 0.01},
          {"end [s]", "/end_time"},
          {"points", "/particles"},
          {"error: numerical energy / released", "/energy/numerical/share"},
          {"error: volume / initial", "/volume_ratio"},
          {"error: overlap", "/overlap"}},
         "Errors: share of the released energy that the scheme took (positive) or made; mean volume "
-        "over initial volume; share of soil that lies in other soil.");
+        "over initial volume; share of soil that lies in other soil. \u2265: a lower bound, the "
+        "soil still "
+        "moved.");
+    if (Table flags = flag_table(from.run); !flags.rows.empty()) {
+        chapter.tables.push_back(std::move(flags));
+    }
     document.chapters.push_back(std::move(chapter));
 }
 

@@ -5,6 +5,7 @@
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/particle_figures.hpp"
 #include "services/report/figures/transfer_figures.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -37,17 +38,23 @@ std::vector<const PhaseFolder*> chosen(const std::vector<const PhaseFolder*>& al
 }
 
 Figure runout_against_time(const Material& from) {
-    Figure figure{"runout_against_transfer_time",
-                  {"Runout against transfer time", {"transfer time t_T [s]"}, {"runout [m]"}, {}},
-                  "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
-                  "while it lies before the toe."};
+    Figure figure{
+        "runout_against_transfer_time",
+        {"Runout against transfer time", {"transfer time t_T [s]"}, {"runout [m]"}, {}},
+        "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
+        "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
+        "is a lower bound; hollow and dashed: questionable (table of flags); pale: its "
+        "result carries no flags."};
     for (const std::string& variant : variants_of(from.run)) {
         Series s{variant.empty() ? "runout" : variant, {}, {}, Style::line_and_points};
         for (const PhaseFolder* each : runouts_of(from.run, variant)) {
             if (!each->transfer_time) continue;
             s.x.push_back(*each->transfer_time);
             s.y.push_back(runout_of(each));
+            s.certainty.push_back(certainty_of(*each));
         }
+        const auto certain = [](Certainty each) { return each == Certainty::certain; };
+        if (std::ranges::all_of(s.certainty, certain)) s.certainty.clear();
         if (!s.x.empty()) figure.chart.series.push_back(std::move(s));
     }
     for (const auto& [key, label] :
@@ -179,8 +186,9 @@ void add_runout(const Material& from, Document& document) {
         Figure geometry = points_by_material(file.state, "final_geometry_" + of,
                                              "Final geometry, " + of_transfer(*each));
         geometry.chart.series.push_back(section_at_rest(each->scene));
-        geometry.caption +=
-            " Runout " + rounded(runout_of(each), 4) + " m; lines: the section at rest.";
+        geometry.caption += " Runout " + bounded(*each, rounded(runout_of(each), 4)) + " m" +
+                            (still_moves(*each) ? ", a lower bound: the soil still moved" : "") +
+                            "; lines: the section at rest.";
         chapter.figures.push_back(std::move(geometry));
         chapter.figures.push_back(
             points_by_strain(file.state, "final_epsilon_q_" + of,

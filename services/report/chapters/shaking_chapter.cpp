@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -9,9 +10,11 @@ using namespace nlohmann::literals;
 
 namespace {
 
+using nlohmann::json;
+
 struct Curve {
     const char* field;
-    const char* name;
+    std::string name;
 };
 
 /// One figure of telemetry. Fields that no line has are left out of it.
@@ -22,12 +25,39 @@ struct Plan {
     double unit;  ///< of the label in SI
     std::vector<Curve> curves;
     std::vector<Mark> marks;
-    const char* caption;
+    std::string caption;
     const char* missing;     ///< why there may be none
     const char* needs = "";  ///< what the scene must have, or its values mean nothing (pointer)
 };
 
-std::vector<Plan> plans() {
+/// The share of the vertical stress above which this scene calls a node liquefied.
+std::string threshold_of(const json& fem) {
+    const json r_u = fem.value("/liquefaction/r_u"_json_pointer, json());
+    return r_u.is_number() ? short_number(r_u) : "the threshold";
+}
+
+/// Where the scene looks for liquefaction.
+std::string liquefaction_caption(const json& fem) {
+    const json asked = fem.value("liquefaction", json::object());
+    std::string text = "Depth of the deepest liquefied node";
+    if (const json level = asked.value("level", json()); level.is_number()) {
+        text += " below y = " + short_number(level) + " m";
+    }
+    std::string where;
+    for (const json& region : asked.value("regions", json::array())) {
+        where += (where.empty() ? " in " : ", ") + region.get<std::string>();
+    }
+    if (const json x = asked.value("x", json()); x.is_array() && x.size() == 2) {
+        where += " between x = " + short_number(x[0]) + " and " + short_number(x[1]) + " m";
+    }
+    return text + where + " (/fem/liquefaction).";
+}
+
+std::vector<Plan> plans(const json& fem) {
+    std::vector<Mark> liquefied;
+    if (const json r_u = fem.value("/liquefaction/r_u"_json_pointer, json()); r_u.is_number()) {
+        liquefied = {{Mark::At::y, r_u, "liquefied: " + short_number(r_u)}};
+    }
     const char* always = "the FEM's telemetry does not hold it";
     return {
         {"crest_displacement",
@@ -41,12 +71,12 @@ std::vector<Plan> plans() {
          "Displacement of the node nearest to /fem/crest since the shaking began.",
          always},
         {"liquefaction_depth",
-         "Liquefaction depth beneath the crest",
+         "Liquefaction depth",
          "depth [m]",
          1.0,
-         {{"liquefaction_depth", "deepest r_u > 0.7"}},
+         {{"liquefaction_depth", "deepest r_u > " + threshold_of(fem)}},
          {},
-         "Depth of the deepest liquefied node beneath the upper dam's crest.",
+         liquefaction_caption(fem),
          "nothing can liquefy: the scene is dry or gives no /fem/liquefaction",
          "/fem/liquefaction"},
         {"kinetic_energy",
@@ -70,7 +100,7 @@ std::vector<Plan> plans() {
          "r_u [-]",
          1.0,
          {{"r_u_max", "largest r_u"}},
-         {{Mark::At::y, 0.7, "liquefied: 0.7"}},
+         liquefied,
          "Largest r_u = (u - u_0) / sigma'_v0 of all nodes.",
          "the scene is dry: no pore pressure",
          "/fem/water"},
@@ -81,7 +111,7 @@ std::vector<Plan> plans() {
          {{"jacobian_centre_avg", "average, centres (area)"},
           {"jacobian_least_avg", "average, worst corners"},
           {"jacobian_least_min", "least corner of all"}},
-         {{Mark::At::y, 0.97, "threshold 0.97"}},
+         {},
          "Averages over the elements whose epsilon_q exceeds /fem/strain_threshold. The centre's "
          "ratio is the change of area and blind to shear; the worst corner's is not.",
          always},
@@ -90,11 +120,32 @@ std::vector<Plan> plans() {
          "epsilon_q,avg [%]",
          0.01,
          {{"epsilon_q_avg", "average"}},
-         {{Mark::At::y, 20, "threshold 20 %"}},
+         {},
          "Volume average of epsilon_q = sqrt(2/3 e:e) over the elements whose epsilon_q exceeds "
          "/fem/strain_threshold.",
          always},
     };
+}
+
+/// What the run's triggers and the scene's window compare these fields with.
+std::vector<Mark> thresholds_of(const Run& run, const Plan& plan) {
+    std::vector<Mark> marks;
+    for (const Threshold& each : thresholds_in(run)) {
+        const bool mine = std::ranges::any_of(
+            plan.curves, [&](const Curve& curve) { return curve.field == each.field; });
+        const double value = each.value / plan.unit;
+        const bool known = std::ranges::find(marks, value, &Mark::value) != marks.end();
+        if (mine && !known) {
+            marks.push_back({Mark::At::y, value, "threshold " + short_number(value)});
+        }
+    }
+    return marks;
+}
+
+/// How the FEM ended, where that is worth a sentence.
+std::string end_of(const PhaseFolder& fem) {
+    if (!fem.fault.empty()) return "The FEM ended early: " + fem.fault;
+    return entanglement_of(fem);
 }
 
 }  // namespace
@@ -109,12 +160,10 @@ void add_shaking(const Material& from, Document& document) {
         return;
     }
     const Telemetry telemetry = telemetry_of(from.run, *fem);
-    Chapter chapter{"Shaking and failure",
-                    fem->fault.empty() ? "" : "The FEM ended early: " + fem->fault};
-    for (const Plan& plan : plans()) {
+    Chapter chapter{"Shaking and failure", end_of(*fem)};
+    for (const Plan& plan : plans(fem->scene.value("fem", json::object()))) {
         Figure figure{plan.file, {plan.title, {"time [s]"}, {plan.label}, {}}, plan.caption};
-        const bool needed =
-            *plan.needs == 0 || fem->scene.contains(nlohmann::json::json_pointer(plan.needs));
+        const bool needed = *plan.needs == 0 || fem->scene.contains(json::json_pointer(plan.needs));
         for (const Curve& curve : plan.curves) {
             if (!telemetry.has(curve.field) || !needed) continue;
             figure.chart.series.push_back(telemetry.series(curve.field, curve.name, plan.unit));
@@ -124,6 +173,8 @@ void add_shaking(const Material& from, Document& document) {
             continue;
         }
         figure.chart.marks = plan.marks;
+        const std::vector<Mark> thresholds = thresholds_of(from.run, plan);
+        figure.chart.marks.insert(figure.chart.marks.end(), thresholds.begin(), thresholds.end());
         const WindowEdges window = window_of(from.run, telemetry);
         if (window.lower)
             figure.chart.marks.push_back({Mark::At::x, *window.lower, "window opens"});

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -9,47 +10,56 @@ using nlohmann::json;
 
 namespace {
 
-/// The same change to several materials reads better once: "/materials/*/viscosity=0".
-std::string without_its_material(const std::string& change) {
-    const std::string materials = "/materials/";
-    if (!change.starts_with(materials)) return change;
-    std::string text = materials;
-    text.append("*").append(change, change.find('/', materials.size()));
-    return text;
-}
+const std::string materials = "/materials/";
 
-/// One entry of the scene and the values that it gets.
+/// One entry of the scene and the values that it gets. The same entry of several materials is one
+/// change, and reads as such.
 struct Change {
-    std::string entry;
+    std::string entry;                ///< of a material: what follows its name
+    std::vector<std::string> names;   ///< of the materials; empty: no material's
     std::vector<std::string> values;  ///< one per material
 };
 
 std::vector<Change> changes_in(const json& overrides) {
     std::vector<Change> changes;
     for (const json& each : overrides) {
-        const std::string text = without_its_material(each);
+        const std::string text = each;
         const std::size_t equals = text.find('=');
-        const std::string entry = text.substr(0, equals), value = text.substr(equals + 1);
-        const auto same = std::ranges::find(changes, entry, &Change::entry);
+        const std::string pointer = text.substr(0, equals), value = text.substr(equals + 1);
+        const std::size_t end = pointer.starts_with(materials) ? pointer.find('/', materials.size())
+                                                               : std::string::npos;
+        if (end == std::string::npos) {
+            changes.push_back({pointer, {}, {value}});
+            continue;
+        }
+        const std::string name = pointer.substr(materials.size(), end - materials.size());
+        const std::string entry = pointer.substr(end);
+        const auto same = std::ranges::find_if(
+            changes, [&](const Change& c) { return !c.names.empty() && c.entry == entry; });
         if (same == changes.end()) {
-            changes.push_back({entry, {value}});
+            changes.push_back({entry, {name}, {value}});
         } else {
+            same->names.push_back(name);
             same->values.push_back(value);
         }
     }
     return changes;
 }
 
-/// "a=1 (7 materials)", "a=1, 2, 3".
-std::string text_of(const Change& change) {
-    const auto& values = change.values;
-    std::string text = change.entry + "=" + values.front();
-    if (values.size() == 1) return text;
-    if (std::ranges::all_of(values, [&](const auto& each) { return each == values.front(); })) {
-        return text.append(" (" + std::to_string(values.size()) + " materials)");
-    }
-    for (std::size_t k = 1; k < values.size(); ++k) text.append(", ").append(values[k]);
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& each : words) text += (text.empty() ? "" : ", ") + each;
     return text;
+}
+
+/// "/materials/{a, b}/viscosity=0", "/materials/{a, b}/law/c_kPa=1, 2"; of one alone its pointer.
+std::string text_of(const Change& change) {
+    const auto& [entry, names, values] = change;
+    if (names.empty()) return entry + "=" + values.front();
+    const std::string whose = names.size() == 1 ? names.front() : "{" + joined(names) + "}";
+    const bool same =
+        std::ranges::all_of(values, [&](const auto& each) { return each == values.front(); });
+    return materials + whose + entry + "=" + (same ? values.front() : joined(values));
 }
 
 std::string changes_of(const Run& run, const std::string& variant) {
@@ -68,6 +78,12 @@ std::string or_dash(const std::optional<double>& value) {
     return value ? short_number(*value) : "-";
 }
 
+bool is_bound(const std::optional<Plateau>& plateau) {
+    return plateau && std::ranges::any_of(plateau->runouts, [](const PhaseFolder* each) {
+               return still_moves(*each);
+           });
+}
+
 /// Median of a fact over the plateau's runouts.
 std::optional<double> median_of(const std::optional<Plateau>& plateau, const char* key) {
     std::vector<double> values;
@@ -79,22 +95,20 @@ std::optional<double> median_of(const std::optional<Plateau>& plateau, const cha
 }
 
 struct Count {
-    std::size_t ended = 0, all = 0;
+    std::vector<const PhaseFolder*> runouts =
+        {};  ///< those of the variant, whatever became of them
+    std::size_t ended = 0;
     double cpu_seconds = 0.0;
-    std::string fault;  ///< of the first that did not end well
 };
 
 Count count_of(const Run& run, const std::string& variant) {
     Count count;
     for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
         if (each->variant != variant) continue;
-        ++count.all;
-        if (each->result.is_object()) {
-            ++count.ended;
-            count.cpu_seconds += each->result.value("cpu_seconds", 0.0);
-        } else if (count.fault.empty()) {
-            count.fault = each->fault;
-        }
+        count.runouts.push_back(each);
+        if (!each->result.is_object()) continue;
+        ++count.ended;
+        count.cpu_seconds += each->result.value("cpu_seconds", 0.0);
     }
     return count;
 }
@@ -113,28 +127,34 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
                                 const std::optional<double>& reference) {
     const auto plateau = plateau_of(run, variant);
     const auto runout = median_of(plateau, "runout");
+    const bool bound = is_bound(plateau);
+    const auto distance = [&](const std::optional<double>& value) {
+        return (bound && value ? at_least : "") + or_dash(value);
+    };
     const Count count = count_of(run, variant);
     WindowEdges window;
     std::string fem_end = "-";
     if (const PhaseFolder* fem = phase_of_variant(run, "fem_solver", variant);
         fem && has_telemetry(*fem)) {
         window = window_of(run, telemetry_of(run, *fem));
-        fem_end = fem->fault.empty() ? "at " + fact(fem->result, "/end_time") + " s" : fem->fault;
+        fem_end = how_it_ended(*fem);
+        if (fem_end == "well") fem_end = "at " + fact(fem->result, "/end_time") + " s";
     }
-    const bool comparable = runout && reference && *runout > 0.0 && *reference > 0.0;
+    const double now = runout.value_or(0.0), then = reference.value_or(0.0);
+    const bool comparable = now > 0.0 && then > 0.0 && !bound;
     return {variant,
             changes_of(run, variant),
-            std::to_string(count.ended) + " of " + std::to_string(count.all),
+            std::to_string(count.ended) + " of " + std::to_string(count.runouts.size()),
             plateau ? short_number(plateau->first) + " to " + short_number(plateau->last) : "-",
-            or_dash(runout),
-            comparable ? rounded(100.0 * (*runout / *reference - 1.0), 3) : "-",
-            or_dash(median_of(plateau, "runout_beyond_toe")),
-            or_dash(median_of(plateau, "runout_beyond_toe_95")),
+            distance(runout),
+            comparable ? rounded(100.0 * (now / then - 1.0), 3) : "-",
+            distance(median_of(plateau, "runout_beyond_toe")),
+            distance(median_of(plateau, "runout_beyond_toe_95")),
             or_dash(window.lower),
             or_dash(window.upper),
             fem_end,
             rounded(count.cpu_seconds, 3),
-            count.fault.empty() ? "well" : count.fault};
+            how_they_ended(count.runouts)};
 }
 
 }  // namespace
@@ -151,8 +171,11 @@ void add_variants(const Material& from, Document& document) {
         {},
         "Runout and distances beyond the toe: medians over the plateau, the transfer times "
         "around the largest runout that give at least 75 % of it; variants that share a "
-        "FEM share its edges. - where nothing ran past the toe."};
-    const auto reference = median_of(plateau_of(from.run, variants.front()), "runout");
+        "FEM share its edges. - where nothing ran past the toe. \u2265: soil of a runout behind it "
+        "still moved, so it is a lower bound and compared with nothing."};
+    const auto first = plateau_of(from.run, variants.front());
+    std::optional<double> reference;
+    if (!is_bound(first)) reference = median_of(first, "runout");
     for (const std::string& each : variants) {
         table.rows.push_back(row_of(from.run, each, reference));
     }

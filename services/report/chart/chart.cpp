@@ -1,246 +1,21 @@
 #include "services/report/chart/chart.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
-
-#include "services/report/chart/frame.hpp"
 
 namespace breach::report {
 
-namespace {
-
-constexpr double left = 80, top = 50, bottom = 65, row = 22;
-constexpr double free_width = 560, free_height = 360;
-constexpr double equal_width = 860, least_equal_height = 150;
-// colours that stay apart for colour-blind eyes (Okabe and Ito, then Tol)
-constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-                                "#117733", "#000000", "#882255", "#999933", "#332288", "#aa4499"};
-constexpr std::array earths = {"#b08d57", "#d9c9a5", "#8c8c7a", "#c2b280", "#a3a380"};
-
-Range covering(const std::vector<double>& values, Scale scale) {
-    if (values.empty()) throw std::invalid_argument("a chart without data");
-    for (const double v : values) {
-        if (!std::isfinite(v) || (scale == Scale::logarithmic && v <= 0.0)) {
-            throw std::invalid_argument("a value that has no place on its axis");
-        }
+const char* name_of(Certainty certainty) {
+    switch (certainty) {
+        case Certainty::certain:
+            return "certain";
+        case Certainty::at_least:
+            return "lower bound";
+        case Certainty::doubtful:
+            return "questionable";
+        case Certainty::unknown:
+            return "not known";
     }
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    if (scale == Scale::logarithmic) return {*low / 1.2, *high * 1.2};
-    double margin = 0.04 * (*high - *low);
-    if (margin <= 0.0) margin = *high == 0.0 ? 1.0 : 0.1 * std::abs(*high);
-    return {*low - margin, *high + margin};
-}
-
-Range range_of(const Chart& chart, Mark::At at) {
-    std::vector<double> values;
-    const auto add = [&](const std::vector<double>& x, const std::vector<double>& y) {
-        const std::vector<double>& own = at == Mark::At::x ? x : y;
-        values.insert(values.end(), own.begin(), own.end());
-    };
-    for (const Series& each : chart.series) add(each.x, each.y);
-    if (chart.field) add(chart.field->x, chart.field->y);
-    for (const Mark& mark : chart.marks) {
-        if (mark.at == at) values.push_back(mark.value);
-    }
-    return covering(values, at == Mark::At::x ? chart.x.scale : chart.y.scale);
-}
-
-void draw_ticks(std::ostream& svg, const Frame& f) {
-    const double base = f.top + f.height;
-    const auto ticks = [](const Range& r, Scale s, double length) {
-        return s == Scale::linear ? linear_ticks(r, std::clamp(length / 60.0, 1.5, 8.0))
-                                  : log_ticks(r);
-    };
-    for (const double t : ticks(f.x, f.chart.x.scale, f.width)) {
-        svg << "<path d=\"M" << f.px(t) << ' ' << base << "V" << f.top << "\" stroke=\"#ddd\"/>\n"
-            << text_at(f.px(t), base + 20, short_number(t), "text-anchor=\"middle\"");
-    }
-    for (const double t : ticks(f.y, f.chart.y.scale, f.height)) {
-        svg << "<path d=\"M" << f.left << ' ' << f.py(t) << "h" << f.width
-            << "\" stroke=\"#ddd\"/>\n"
-            << text_at(f.left - 8, f.py(t) + 5, short_number(t), "text-anchor=\"end\"");
-    }
-}
-
-void draw_axes(std::ostream& svg, const Frame& f, const std::string& y_label) {
-    draw_ticks(svg, f);
-    svg << "<rect x=\"" << f.left << "\" y=\"" << f.top << "\" width=\"" << f.width
-        << "\" height=\"" << f.height << "\" fill=\"none\" stroke=\"#333\"/>\n"
-        << text_at(f.left + f.width / 2, f.top + f.height + 46, f.chart.x.label,
-                   "text-anchor=\"middle\"");
-    std::ostringstream turn;
-    turn << "text-anchor=\"middle\" transform=\"rotate(-90 20 " << f.top + f.height / 2 << ")\"";
-    svg << text_at(20, f.top + f.height / 2, y_label, turn.str())
-        << text_at(f.left, 28, f.chart.title, "font-size=\"17\" font-weight=\"bold\"");
-}
-
-void draw_line(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
-    svg << "<path d=\"";
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-        svg << (i == 0 ? 'M' : 'L') << f.px(s.x[i]) << ' ' << f.py(s.y[i]);
-    }
-    if (s.style == Style::area) {
-        svg << "Z\" fill=\"" << colour << "\" fill-opacity=\"0.55\" stroke=\"#777\"/>\n";
-    } else {
-        svg << "\" fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.8\"/>\n";
-    }
-}
-
-/// Meshes and clouds, which have many places.
-void draw_many(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
-    const bool dots = s.style == Style::dots;
-    svg << "<path transform=\"scale(.1)\" fill=\"none\" stroke=\"" << colour
-        << "\" stroke-linecap=\"round\" stroke-width=\"" << (dots ? 10.0 * dot_size(f) : 5.0)
-        << "\" d=\"";
-    Pen pen(svg, f);
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-        if (dots) {
-            pen.dot(s.x[i], s.y[i]);
-        } else if (i % 2 == 0) {
-            pen.move(s.x[i], s.y[i]);
-        } else {
-            pen.line(s.x[i], s.y[i]);
-        }
-    }
-    svg << "\"/>\n";
-}
-
-void draw_series(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
-    if (s.x.empty()) return;
-    if (s.style == Style::segments || s.style == Style::dots) return draw_many(svg, f, s, colour);
-    if (s.style != Style::points) draw_line(svg, f, s, colour);
-    if (s.style != Style::points && s.style != Style::line_and_points) return;
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-        svg << "<circle cx=\"" << f.px(s.x[i]) << "\" cy=\"" << f.py(s.y[i]) << "\" r=\"4\" fill=\""
-            << colour << "\"/>\n";
-    }
-}
-
-/// Labels of upright marks stand on lines of their own, on the side where there is room.
-void draw_marks(std::ostream& svg, const Frame& f) {
-    int upright_ones = 0;
-    for (const Mark& mark : f.chart.marks) {
-        const bool upright = mark.at == Mark::At::x;
-        const double x = upright ? f.px(mark.value) : f.left + f.width;
-        const double y = upright ? f.top : f.py(mark.value);
-        svg << "<path d=\"M" << x << ' ' << y << (upright ? "v" : "h")
-            << (upright ? f.height : -f.width) << "\" stroke=\"#333\" stroke-dasharray=\"6 4\"/>\n";
-        const bool room = !upright || x - f.left > width_of(mark.label) + 12;
-        const double below = upright ? 18 + 18 * (upright_ones++ % 6) : -6;
-        svg << text_at(room ? x - 6 : x + 6, y + below, mark.label,
-                       room ? "text-anchor=\"end\"" : "");
-    }
-}
-
-/// Areas have earth colours of their own, so that a line never looks like the ground it crosses,
-/// and meshes are grey.
-std::vector<std::string> colours_of(const Chart& chart) {
-    std::vector<std::string> result;
-    std::size_t areas = 0, others = 0;
-    for (const Series& each : chart.series) {
-        if (each.style == Style::segments)
-            result.emplace_back("#555");
-        else if (each.style == Style::area)
-            result.emplace_back(earths[areas++ % earths.size()]);
-        else
-            result.emplace_back(colours[others++ % colours.size()]);
-    }
-    return result;
-}
-
-/// Names in columns: beside a free chart in one, below one of equal aspect in as many as fit.
-struct Legend {
-    double x, y, column_width;
-    std::size_t columns, rows;
-};
-
-Legend legend_of(const Chart& chart, const Frame& f) {
-    double widest = 0.0;
-    for (const Series& each : chart.series) widest = std::max(widest, width_of(each.name));
-    const double column = widest + 60;
-    if (chart.aspect == Aspect::free) {
-        return {f.left + f.width + 14, f.top + 12, column, 1, chart.series.size()};
-    }
-    const std::size_t fit = static_cast<std::size_t>(std::max(1.0, (f.width + 10) / column));
-    return {f.left, f.top + f.height + bottom + (chart.field ? colour_bar_height : 8.0), column,
-            fit, (chart.series.size() + fit - 1) / fit};
-}
-
-void draw_legend(std::ostream& svg, const Legend& legend, const Chart& chart,
-                 const std::vector<std::string>& colour) {
-    for (std::size_t i = 0; i < chart.series.size(); ++i) {
-        const double x = legend.x + legend.column_width * static_cast<double>(i % legend.columns);
-        const double y = legend.y + row * static_cast<double>(i / legend.columns);
-        svg << "<path d=\"M" << x << ' ' << y << "h20\" stroke=\"" << colour[i]
-            << "\" stroke-width=\"4\"/>\n"
-            << text_at(x + 28, y + 5, chart.series[i].name);
-    }
-}
-
-/// Equal aspect keeps its promise as long as the picture is high enough to see something.
-Frame frame_of(const Chart& chart, std::string& y_label) {
-    Frame f{chart,
-            range_of(chart, Mark::At::x),
-            range_of(chart, Mark::At::y),
-            left,
-            top,
-            free_width,
-            free_height};
-    y_label = chart.y.label;
-    if (chart.aspect == Aspect::free) return f;
-    f.width = equal_width;
-    f.height = f.width * (f.y.high - f.y.low) / (f.x.high - f.x.low);
-    const double times = std::ceil(least_equal_height / f.height);
-    if (times > 1.0) {
-        f.height *= times;
-        y_label += ", heights x " + short_number(times);
-    }
-    return f;
-}
-
-}  // namespace
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return out;
-}
-
-std::string text_at(double x, double y, const std::string& text, const std::string& more) {
-    std::ostringstream svg;
-    svg << "<text x=\"" << x << "\" y=\"" << y << "\" " << more << ">" << escaped(text)
-        << "</text>\n";
-    return svg.str();
-}
-
-double width_of(const std::string& text) {
-    const auto begins_letter = [](char c) {
-        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-    };
-    return 7.6 * static_cast<double>(std::count_if(text.begin(), text.end(), begins_letter));
-}
-
-double dot_size(const Frame& frame) {
-    std::size_t dots =
-        frame.chart.field && frame.chart.field->corners == 1 ? frame.chart.field->value.size() : 0;
-    for (const Series& each : frame.chart.series) {
-        if (each.style == Style::dots) dots += each.x.size();
-    }
-    const double share =
-        frame.width * frame.height / static_cast<double>(std::max<std::size_t>(1, dots));
-    return std::clamp(0.75 * std::sqrt(share), 2.0, 6.0);
+    return "";
 }
 
 void check_columns(const Chart& chart) {
@@ -249,6 +24,12 @@ void check_columns(const Chart& chart) {
             throw std::invalid_argument("\"" + each.name + "\" has " +
                                         std::to_string(each.x.size()) + " values of x and " +
                                         std::to_string(each.y.size()) + " of y");
+        }
+        if (!each.certainty.empty() && each.certainty.size() != each.x.size()) {
+            throw std::invalid_argument("\"" + each.name + "\" has " +
+                                        std::to_string(each.x.size()) + " points and says of " +
+                                        std::to_string(each.certainty.size()) +
+                                        " how certain they are");
         }
         if (each.style == Style::segments && each.x.size() % 2 != 0) {
             throw std::invalid_argument("\"" + each.name + "\" has a segment without an end");
@@ -261,35 +42,6 @@ void check_columns(const Chart& chart) {
                                     std::to_string(chart.field->value.size()) +
                                     " values that do not fit its corners");
     }
-}
-
-std::string as_svg(const Chart& chart) {
-    check_columns(chart);
-    std::string y_label;
-    const Frame f = frame_of(chart, y_label);
-    const Legend legend = legend_of(chart, f);
-    const bool below = chart.aspect == Aspect::equal;
-    const double legend_end = legend.y + row * static_cast<double>(legend.rows);
-    const double total_width = f.left + f.width + (below ? 30.0 : legend.column_width);
-    const double total_height = std::max(f.top + f.height + bottom, legend_end);
-    const std::vector<std::string> colour = colours_of(chart);
-    std::ostringstream svg;
-    svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << total_width << ' '
-        << total_height << "\" width=\"" << total_width << "\" height=\"" << total_height
-        << "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n"
-        << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
-    draw_axes(svg, f, y_label);
-    if (chart.field) {
-        draw_field(svg, f, *chart.field);
-        draw_colour_bar(svg, f.left, f.top + f.height + bottom, *chart.field);
-    }
-    for (std::size_t i = 0; i < chart.series.size(); ++i) {
-        draw_series(svg, f, chart.series[i], colour[i]);
-    }
-    draw_legend(svg, legend, chart, colour);
-    draw_marks(svg, f);
-    svg << "</svg>\n";
-    return svg.str();
 }
 
 }  // namespace breach::report

@@ -1,4 +1,4 @@
-// A chart as data, and its picture as self-contained SVG. Knows nothing of soils or files.
+// A chart as data. Its picture is in draw.hpp; it knows nothing of soils or files.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,17 @@ struct Axis {
     Scale scale = Scale::linear;
 };
 
+/// What a point's value is worth. at_least: a lower bound, drawn with an arrow upwards.
+enum class Certainty { certain, at_least, doubtful, unknown };
+/// "lower bound": for legends and data.
+const char* name_of(Certainty certainty);
+
 struct Series {
     std::string name;
     std::vector<double> x;
     std::vector<double> y;
     Style style = Style::line;
+    std::vector<Certainty> certainty = {};  ///< of each point; empty: all are certain
 };
 
 /// Polygons (or, with one corner each, dots) coloured by a value.
@@ -51,12 +57,6 @@ struct Chart {
     Aspect aspect = Aspect::free;
     std::optional<Field> field = {};  ///< drawn beneath the series
 };
-
-/// Axes cover all series, marks and the field. Values are finite, and positive on a logarithmic
-/// axis; columns of a series are equally long, of segments even; throws std::invalid_argument
-/// otherwise, or when there is nothing to draw. A flat chart of equal aspect is drawn with heights
-/// exaggerated by a whole number, which its y axis states.
-std::string as_svg(const Chart& chart);
 
 /// Throws std::invalid_argument when columns that belong together differ in length.
 void check_columns(const Chart& chart);

@@ -30,11 +30,18 @@ struct LeftOut {
     std::string why;
 };
 
+/// What must be known before the numbers are believed, in sentences.
+struct Verdict {
+    std::vector<std::string> doubts;  ///< a number is a bound, is wrong or cannot be trusted
+    std::vector<std::string> notes;   ///< all else, and that there is nothing
+};
+
 struct Document {
     std::string title;
     std::vector<std::string> remarks;  ///< below the title: what everybody must know first
     std::vector<Chapter> chapters;
     std::vector<LeftOut> left_out;
+    Verdict verdict = {};  ///< above the remarks; empty: nothing is said
 };
 
 /// Comma-separated, heads first; every cell quoted that is not a number. Throws

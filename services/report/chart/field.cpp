@@ -1,10 +1,10 @@
-// Draws places coloured by a value, and the bar that says which colour means what.
+#include "services/report/chart/field.hpp"
+
 #include <algorithm>
 #include <array>
 #include <sstream>
 
 #include "services/report/chart/colour_map.hpp"
-#include "services/report/chart/frame.hpp"
 
 namespace breach::report {
 

@@ -1,7 +1,10 @@
 #include "services/report/chart/figure.hpp"
 
+#include <algorithm>
+
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "services/report/chart/draw.hpp"
 
 namespace breach::report {
 
@@ -34,10 +37,19 @@ std::string quoted(const std::string& text) {
 std::string as_csv(const Chart& chart) {
     check_columns(chart);
     if (chart.field) return as_csv(*chart.field);
-    std::string csv = "series," + quoted(chart.x.label) + ',' + quoted(chart.y.label) + '\n';
+    const bool told = std::ranges::any_of(
+        chart.series, [](const Series& each) { return !each.certainty.empty(); });
+    std::string csv = "series," + quoted(chart.x.label) + ',' + quoted(chart.y.label) +
+                      (told ? ",\"certainty\"\n" : "\n");
     for (const Series& each : chart.series) {
         for (std::size_t i = 0; i < each.x.size(); ++i) {
-            csv += quoted(each.name) + ',' + exact(each.x[i]) + ',' + exact(each.y[i]) + '\n';
+            csv += quoted(each.name) + ',' + exact(each.x[i]) + ',' + exact(each.y[i]);
+            if (told) {
+                const Certainty one =
+                    each.certainty.empty() ? Certainty::certain : each.certainty[i];
+                csv += ',' + quoted(name_of(one));
+            }
+            csv += '\n';
         }
     }
     return csv;

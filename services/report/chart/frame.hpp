@@ -58,9 +58,4 @@ double width_of(const std::string& text);
 /// Diameter of the dots of clouds: they nearly touch where they lie densely [px].
 double dot_size(const Frame& frame);
 
-void draw_field(std::ostream& svg, const Frame& frame, const Field& field);
-/// The colours with their values, below `y`.
-void draw_colour_bar(std::ostream& svg, double x, double y, const Field& field);
-constexpr double colour_bar_height = 62;
-
 }  // namespace breach::report

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "services/report/chart/draw.hpp"
 #include "services/report/chart/frame.hpp"
 
 namespace breach::report {
@@ -21,7 +22,21 @@ constexpr const char* style =
     "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
     "right;font-variant-numeric:tabular-nums;"
     "white-space:nowrap}nav li{display:inline;margin-right:1.2em}nav ul{padding:0}a{color:#0059a0}"
-    "@media print{body{max-width:none}figure{break-inside:avoid}}";
+    ".verdict{border-left:4px solid #3b7a8c;background:#eaf4f6;padding:.4em 1em}.verdict.doubt{"
+    "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
+    "td.b{white-space:nowrap;font-weight:bold}"
+    // A page cannot be scrolled: tables take its width, wide ones lie on their side with their
+    // chapter when it has nothing else, rows stay whole, and only long texts are broken anywhere.
+    "@page{margin:12mm}@page wide{size:landscape}"
+    "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
+    "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.verdict,.remark{break-inside:avoid}"
+    ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
+    "th,td{padding:.15em .4em}td.long{overflow-wrap:anywhere;min-width:6em}"
+    "tbody tr:first-child{break-before:avoid}.many,.sheet{page:wide}.sheet "
+    "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
+
+constexpr std::size_t many = 9;        // columns that a printed page has no room for when it stands
+constexpr std::size_t long_text = 12;  // characters that need not stay on one line
 
 bool is_number(const std::string& text) {
     double value = 0.0;
@@ -56,20 +71,44 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
          << link(file + ".png", "PNG") << "</figcaption>\n</figure>\n";
 }
 
+/// Numbers stand at the right; lower bounds are told apart from them.
+const char* opening_of(const std::string& cell) {
+    if (is_number(cell)) return "<td class=\"n\">";
+    if (cell.starts_with("\u2265")) return "<td class=\"n b\">";
+    return cell.size() > long_text ? "<td class=\"long\">" : "<td>";
+}
+
+void write_verdict(std::ostream& html, const Verdict& verdict) {
+    if (verdict.doubts.empty() && verdict.notes.empty()) return;
+    const bool doubt = !verdict.doubts.empty();
+    html << "<section id=\"verdict\" class=\"verdict" << (doubt ? " doubt" : "") << "\"><h2>"
+         << (doubt ? "Before these numbers are believed" : "How it ended") << "</h2>\n<ul>\n";
+    for (const auto* sentences : {&verdict.doubts, &verdict.notes}) {
+        for (const std::string& each : *sentences) html << "<li>" << escaped(each) << "</li>\n";
+    }
+    html << "</ul></section>\n";
+}
+
+bool has_many(const std::vector<Table>& tables) {
+    return std::ranges::any_of(tables,
+                               [](const Table& each) { return each.columns.size() >= many; });
+}
+
 void write_table(std::ostream& html, const Table& table, const std::string& folder) {
-    html << "<div class=\"wide\"><table id=\"" << escaped(table.name) << "\"><caption>"
-         << escaped(table.title) << "</caption>\n<tr>";
+    html << (table.columns.size() >= many ? "<div class=\"wide many\">" : "<div class=\"wide\">")
+         << "<table id=\"" << escaped(table.name) << "\"><caption>" << escaped(table.title)
+         << "</caption>\n<thead><tr>";
     for (const std::string& each : table.columns) html << "<th>" << escaped(each) << "</th>";
-    html << "</tr>\n";
+    html << "</tr></thead>\n<tbody>";
     for (const auto& row : table.rows) {
         html << "<tr>";
         for (const std::string& cell : row) {
-            html << (is_number(cell) ? "<td class=\"n\">" : "<td>") << escaped(cell) << "</td>";
+            html << opening_of(cell) << escaped(cell) << "</td>";
         }
         html << "</tr>\n";
     }
-    html << "</table></div>\n<p>" << escaped(table.caption) << ' '
-         << link(folder + "/" + table.name + ".csv", "data") << "</p>\n";
+    html << "</tbody></table>\n<p>" << escaped(table.caption) << ' '
+         << link(folder + "/" + table.name + ".csv", "data") << "</p></div>\n";
 }
 
 }  // namespace
@@ -98,6 +137,7 @@ std::string as_html(const Document& document, const std::string& figures) {
          << "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>"
          << escaped(document.title) << "</title>\n<style>" << style << "</style>\n</head>\n<body>\n"
          << "<h1>" << escaped(document.title) << "</h1>\n";
+    write_verdict(html, document.verdict);
     for (const std::string& each : document.remarks) {
         html << "<p class=\"remark\">" << escaped(each) << "</p>\n";
     }
@@ -110,10 +150,13 @@ std::string as_html(const Document& document, const std::string& figures) {
     html << "</ul></nav>\n";
     for (std::size_t i = 0; i < document.chapters.size(); ++i) {
         const Chapter& chapter = document.chapters[i];
-        html << "<h2 id=\"" << anchor_of(i) << "\">" << escaped(chapter.title) << "</h2>\n";
+        const bool sheet = chapter.figures.empty() && has_many(chapter.tables);
+        html << "<section" << (sheet ? " class=\"sheet\">" : ">") << "<h2 id=\"" << anchor_of(i)
+             << "\">" << escaped(chapter.title) << "</h2>\n";
         if (!chapter.text.empty()) html << "<p>" << escaped(chapter.text) << "</p>\n";
         for (const Figure& each : chapter.figures) write_figure(html, each, figures);
         for (const Table& each : chapter.tables) write_table(html, each, figures);
+        html << "</section>\n";
     }
     if (!document.left_out.empty()) {
         html << "<h2>Left out</h2>\n<ul>\n";

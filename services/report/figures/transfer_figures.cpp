@@ -6,6 +6,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "services/report/chart/draw.hpp"
 #include "services/report/figures/mesh_figures.hpp"
 #include "services/report/read/read_results.hpp"
 

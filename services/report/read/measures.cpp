@@ -5,6 +5,7 @@
 
 #include "core/fault/fault.hpp"
 #include "services/report/chart/axis.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -27,8 +28,10 @@ double cpu_of(const PhaseFolder& phase) {
 void measure_stability(const Run& run, Measures& found) {
     const PhaseFolder* lem = phase_named(run, "lem_tool");
     if (!lem || !lem->result.is_object()) return;
+    const auto slices = number_at(lem->result, "slices");
+    const std::string error = slices ? short_number(*slices) + " slices" : "";
     const auto keep = [&](const std::string& key, std::optional<double> value) {
-        if (value) found[key] = {*value, lem->label, cpu_of(*lem), "50 slices: 1e-4 in FS"};
+        if (value) found[key] = {*value, lem->label, cpu_of(*lem), error};
     };
     keep("factor_of_safety_intact", number_at(lem->result, "factor_of_safety"));
     keep("depth_at_fs_1", number_at(lem->result, "depth_at_fs_1"));
@@ -39,36 +42,57 @@ void measure_stability(const Run& run, Measures& found) {
     }
 }
 
-void measure_shaking(const Run& run, Measures& found) {
+/// When the mesh entangled; of a run older than that end's own result its last line of telemetry.
+std::optional<double> entangled_at(const PhaseFolder& fem, const Telemetry& telemetry) {
+    if (fem.result.is_object()) {
+        if (fem.result.value("ended", "") != "entangled") return {};
+        return number_at(fem.result.value("entanglement", json::object()), "time");
+    }
+    if (fem.fault.find("entangled") == std::string::npos || telemetry.lines().empty()) return {};
+    return telemetry.lines().back().at("time").get<double>();
+}
+
+void measure_shaking(const Run& run, const std::optional<Paper>& paper, Measures& found) {
     const PhaseFolder* fem = phase_named(run, "fem_solver");
     if (!fem || !has_telemetry(*fem)) return;
     const Telemetry telemetry = telemetry_of(run, *fem);
     const auto keep = [&](const std::string& key, std::optional<double> time) {
         if (time) found[key] = {*time, fem->label, cpu_of(*fem), "telemetry interval"};
     };
-    keep("time_liquefied_12_m", telemetry.first_time("liquefaction_depth >= 12"));
-    keep("time_liquefied_critical", telemetry.first_time("liquefaction_depth >= 18.5"));
-    keep("time_first_surface", telemetry.first_time("failure_surfaces >= 1"));
-    keep("time_second_surface", telemetry.first_time("failure_surfaces >= 2"));
-    keep("time_epsilon_q_20", telemetry.first_time("epsilon_q_avg > 0.2"));
-    keep("time_jacobian_least_97", telemetry.first_time("jacobian_least_avg < 0.97"));
-    keep("time_jacobian_centre_97", telemetry.first_time("jacobian_centre_avg < 0.97"));
-    if (fem->fault.find("entangled") != std::string::npos && !telemetry.lines().empty()) {
-        keep("time_entangled", telemetry.lines().back().at("time").get<double>());
+    for (const PaperValue& each : paper ? paper->values : std::vector<PaperValue>{}) {
+        if (!each.first_time.empty()) keep(each.key, telemetry.first_time(each.first_time));
     }
+    keep("time_entangled", entangled_at(*fem, telemetry));
     const WindowEdges window = window_of(run, telemetry);
     keep("window_lower", window.lower);
     keep("window_upper", window.upper);
 }
 
-void measure_runout(const Run& run, const std::string& variant, Measures& found) {
+/// Runouts at the transfer times that the paper tells of.
+void measure_paper_times(const std::vector<const PhaseFolder*>& runouts, const std::string& suffix,
+                         const Paper& paper, Measures& found) {
+    for (const PaperValue& value : paper.values) {
+        const bool mine =
+            suffix.empty() ? value.key.find(':') == std::string::npos : value.key.ends_with(suffix);
+        if (!value.runout_at || !mine) continue;
+        for (const PhaseFolder* each : runouts) {
+            if (std::abs(each->transfer_time.value_or(0.0) - *value.runout_at) >= same_time) {
+                continue;
+            }
+            found[value.key] = {runout_of(each), each->label, cpu_of(*each),
+                                "see the table of runouts", still_moves(*each)};
+        }
+    }
+}
+
+void measure_runout(const Run& run, const std::string& variant, const std::optional<Paper>& paper,
+                    Measures& found) {
     const std::string suffix = variant.empty() ? "" : ":" + variant;
+    const auto all = runouts_of(run, variant);
+    if (paper) measure_paper_times(all, suffix, *paper, found);
     bool begun = false;
-    for (const PhaseFolder* each : runouts_of(run, variant)) {
+    for (const PhaseFolder* each : all) {
         const double runout = runout_of(each), t_T = each->transfer_time.value_or(0.0);
-        const Measure here{runout, each->label, cpu_of(*each), "see the table of runouts"};
-        if (std::abs(t_T - 13.0) < same_time) found["runout_at_13" + suffix] = here;
-        if (std::abs(t_T - 16.0) < same_time) found["runout_at_16" + suffix] = here;
         if (!begun && runout > runs_out) {
             begun = true;
             found["first_runout_time" + suffix] = {t_T, each->label, cpu_of(*each),
@@ -78,6 +102,8 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
     const auto plateau = plateau_of(run, variant);
     if (!plateau) return;
     std::vector<double> runouts, released;
+    const auto moving = std::ranges::count_if(
+        plateau->runouts, [](const PhaseFolder* each) { return still_moves(*each); });
     double cpu = 0.0;
     for (const PhaseFolder* each : plateau->runouts) {
         runouts.push_back(runout_of(each));
@@ -89,7 +115,9 @@ void measure_runout(const Run& run, const std::string& variant, Measures& found)
         const auto [least, most] = std::ranges::minmax(values);
         found[key + suffix] = {
             median(values), "median of " + std::to_string(values.size()) + " runouts", cpu,
-            "they lie between " + short_number(least) + " and " + short_number(most)};
+            "they lie between " + short_number(least) + " and " + short_number(most) +
+                (moving > 0 ? "; " + std::to_string(moving) + " still moving" : ""),
+            moving > 0};
     };
     keep_median("plateau_runout", runouts);
     keep_median("released_area", released);
@@ -205,16 +233,54 @@ WindowEdges window_of(const Run& run, const Telemetry& fem) {
     return edges;
 }
 
-Measures measures_of(const Run& run) {
+std::vector<Threshold> thresholds_in(const Run& run) {
+    std::vector<std::string> conditions;
+    const auto add = [&](const json& spec) {
+        for (const char* key : {"when", "lower", "upper"}) {
+            if (spec.is_object() && spec.contains(key)) conditions.push_back(spec.at(key));
+        }
+    };
+    const json triggers =
+        run.study.is_object() ? run.study.value("triggers", json::array()) : json();
+    for (const json& each : triggers) add(each);
+    if (conditions.empty() && run.scene.contains("transfer")) {
+        add(run.scene.at("transfer").value("window", json()));
+    }
+    std::vector<Threshold> found;
+    for (const std::string& text : conditions) {
+        const auto condition = criteria::parse(text, criteria::Kind::condition, "/triggers");
+        const auto& steps = condition.program;
+        for (std::size_t k = 0; k + 2 < steps.size(); ++k) {
+            using Code = criteria::Instruction::Code;
+            const Code what = steps[k + 2].code;
+            if (what != Code::less && what != Code::less_equal && what != Code::greater &&
+                what != Code::greater_equal) {
+                continue;
+            }
+            std::size_t field = k, number = k + 1;
+            if (steps[field].code != Code::field) std::swap(field, number);
+            if (steps[field].code != Code::field || steps[number].code != Code::constant) continue;
+            const std::string& name = condition.fields[steps[field].index];
+            if (name != "time") found.push_back({name, steps[number].value});
+        }
+    }
+    return found;
+}
+
+Measures measures_of(const Run& run, const std::optional<Paper>& paper) {
     Measures found;
     measure_stability(run, found);
-    measure_shaking(run, found);
-    for (const std::string& variant : variants_of(run)) measure_runout(run, variant, found);
+    measure_shaking(run, paper, found);
+    for (const std::string& variant : variants_of(run)) {
+        measure_runout(run, variant, paper, found);
+    }
     const auto softened = found.find("plateau_runout:softened");
     const auto strong = found.find("plateau_runout:not_softened");
     if (softened != found.end() && strong != found.end() && strong->second.value > runs_out) {
+        const bool bounds = softened->second.lower_bound || strong->second.lower_bound;
         found["plateau_ratio"] = {softened->second.value / strong->second.value, "both variants",
-                                  softened->second.cpu_seconds + strong->second.cpu_seconds};
+                                  softened->second.cpu_seconds + strong->second.cpu_seconds,
+                                  bounds ? "soil still moved: neither bound nor value" : ""};
     }
     return found;
 }
@@ -233,9 +299,11 @@ Table comparison(const Paper& paper, const Measures& ours) {
         std::vector<std::string> row = {each.what, each.unit, short_number(each.value)};
         if (const auto it = ours.find(each.key); it != ours.end()) {
             const Measure& m = it->second;
-            row.insert(row.end(), {short_number(m.value),
-                                   each.value == 0.0 ? "-" : rounded(m.value / each.value, 3),
-                                   m.source, m.error, rounded(m.cpu_seconds, 3)});
+            const std::string bound = m.lower_bound ? at_least : "";
+            row.insert(row.end(),
+                       {bound + short_number(m.value),
+                        each.value == 0.0 ? "-" : bound + rounded(m.value / each.value, 3),
+                        m.source, m.error, rounded(m.cpu_seconds, 3)});
         } else {
             row.insert(row.end(), {"-", "-", "not in this run", "", ""});
         }

@@ -13,9 +13,10 @@ namespace breach::report {
 /// One number with where it comes from.
 struct Measure {
     double value;
-    std::string source;      ///< label of the phase
-    double cpu_seconds;      ///< of that phase; of a number from several runs, their sum
-    std::string error = {};  ///< what is known about its error
+    std::string source;        ///< label of the phase
+    double cpu_seconds;        ///< of that phase; of a number from several runs, their sum
+    std::string error = {};    ///< what is known about its error
+    bool lower_bound = false;  ///< soil still moved in a run behind it
 };
 using Measures = std::map<std::string, Measure>;
 
@@ -32,6 +33,14 @@ struct WindowEdges {
     std::optional<double> lower, upper;
 };
 WindowEdges window_of(const Run& run, const Telemetry& fem);
+
+/// A field of the telemetry that a condition compares with one number.
+struct Threshold {
+    std::string field;
+    double value;
+};
+/// Of the study's triggers, or of /transfer/window of the scene.
+std::vector<Threshold> thresholds_in(const Run& run);
 
 /// Runs of the MPM that ended, of one variant, ascending in t_T.
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant);
@@ -51,8 +60,9 @@ std::optional<Plateau> plateau_of(const Run& run, const std::string& variant);
 double median(std::vector<double> values);
 
 /// Keys are those of paper.json; a quantity that the run does not hold is missing. With a variant
-/// the key ends in ":<variant>"; that of a plateau is the median over its runouts.
-Measures measures_of(const Run& run);
+/// the key ends in ":<variant>"; that of a plateau is the median over its runouts. What depends on
+/// a condition or a transfer time of the paper is measured for its scenes only.
+Measures measures_of(const Run& run, const std::optional<Paper>& paper);
 
 /// Paper beside ours, one row per value of the paper; "-" where the run does not hold it.
 Table comparison(const Paper& paper, const Measures& ours);

@@ -15,6 +15,16 @@ struct PaperValue {
     std::string what;  ///< in words
     std::string unit;
     double value;
+    std::string first_time = {};           ///< the condition of which ours is the first time
+    std::optional<double> runout_at = {};  ///< the transfer time of which ours is the runout [s]
+};
+
+/// Something that holds for the paper's case alone, said below a table.
+struct PaperNote {
+    std::string table;
+    std::string text;
+    std::string entry;  ///< of the first phase's result in that table: "/slices"
+    double value;       ///< that the entry must have for the note to hold
 };
 
 /// Points that stand in a figure beside ours.
@@ -28,6 +38,7 @@ struct Paper {
     std::vector<std::string> remarks;  ///< what must be said wherever a result is shown
     std::vector<PaperValue> values;
     std::vector<PaperPoints> points;
+    std::vector<PaperNote> notes;
     std::string case_history_runout;  ///< as it is told: "> 800"
 };
 

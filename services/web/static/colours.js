@@ -2,7 +2,9 @@
 // for regions. 32-bit values are little-endian RGBA, as ImageData holds them.
 
 const anchors = ["#2b5ea7", "#2a8fb0", "#4fae86", "#d9a92c", "#dd6b20", "#b3132b"];
-const region_colours = ["#2f7fc1", "#c8791e", "#3a9c6e", "#b65a93", "#8a7a2e", "#6b6fc9"];
+// Twelve that stay apart for colour-blind eyes too, on a light and on a dark canvas; a test measures it.
+const region_colours = ["#2f7fc1", "#c8791e", "#3a9c6e", "#881048", "#d0a0d0", "#686000", "#0000f8", "#b0b800", "#f038f8", "#005078",
+                        "#906080", "#8808b8"];
 
 const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
@@ -37,6 +39,7 @@ const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale
 export const scale_packed = Uint32Array.from(scale_css, packed);
 export const scale_gradient = `linear-gradient(to right, ${anchors.join(", ")})`;
 
+export const region_count = region_colours.length;
 export const region_css = (index) => region_colours[index % region_colours.length];
 
 export const unknown_css = "#8b93a1";

@@ -1,6 +1,7 @@
 // Error against run time: what each point of the sweep cost, what its own error indicators say, and where the CPU time
 // of the run went.
 import { by_id, element, mirror, set_text } from "./dom.js";
+import { flag_note, look_of } from "./flags.js";
 import { number, seconds } from "./format.js";
 import { Plot } from "./plot.js";
 import { key_of, series_by_variant } from "./results.js";
@@ -33,6 +34,7 @@ export class Cost {
             plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : plot.labels.y;
             plot.show({ series: series_by_variant(finished, variants).map(({ variant, rows: points }) => ({
                 name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),
+                looks: points.map((row) => (column === "runout" ? look_of(row) : look_of(row).replace(/.*bound.*/, "doubtful"))), notes: points.map(flag_note),
                 names: points.map((row) => `t_T = ${number(row.transfer_time)} s`),
                 x: points.map((row) => row.cpu_seconds), y: points.map((row) => row[field] ?? null) })) });
         }

@@ -2,6 +2,7 @@
 // gives, page by page; the address says which table and of which run: #/database/TABLE/RUN.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
+import { counts_text, flag_codes, rest_text } from "./flags.js";
 import { short_json, show_state } from "./format.js";
 import { run_address } from "./runs.js";
 import { DataTable } from "./table.js";
@@ -25,8 +26,8 @@ const run = text("run", "run", { cell: open_run });
 const columns = {
     runs: [text("id", "id", { cell: open_run }), text("name"), text("title", "title", { wide: true }), state, moment("created"),
            moment("started"), moment("finished"), amount("tasks_total"), amount("tasks_done"), amount("tasks_failed"),
-           text("message", "message", { wide: true })],
-    tasks: [text("label"), text("phase"), text("variant"), amount("transfer_time", "s", "t_T"), state, moment("started"),
+           amount("questionable"), text("flags", "flags", { wide: true }), text("message", "message", { wide: true })],
+    tasks: [text("label"), text("phase"), text("variant"), amount("transfer_time", "s", "t_T"), state, text("ended"), text("flags", "flags", { wide: true }), moment("started"),
             moment("finished"), amount("attempts"), amount("cpu_seconds", "s", "CPU"), amount("wall_seconds", "s", "wall"),
             amount("files"), amount("bytes"), text("fault", "fault", { wide: true }),
             text("same_as", "taken from"), text("id"), run],
@@ -36,7 +37,8 @@ const columns = {
     events: [amount("seq"), moment("time"), text("kind"), text("detail", "detail", { wide: true }), text("task"), run],
     results: [amount("transfer_time", "s", "t_T"), text("variant"), state, amount("runout", "m"),
               amount("runout_beyond_toe", "m", "passed the toe"), amount("runout_largest", "m", "farthest"), amount("volume_ratio"),
-              amount("numerical_share"), amount("overlap"), amount("cpu_seconds", "s", "CPU"), text("trigger"), text("reused"),
+              amount("numerical_share"), amount("overlap"), text("rest"), amount("kinetic_share"), amount("end_time", "s", "end"),
+              text("flags", "flags", { wide: true }), amount("cpu_seconds", "s", "CPU"), text("trigger"), text("reused"),
               text("reason", "reason", { wide: true }), run],
     triggers: [text("name"), text("kind"), state, amount("transfer_time", "s", "t_T"),
                amount("wanted_time", "s"), amount("lag_s", "s", "lag"), amount("fem_step"), amount("fired_ms", "ms", "fired after"),
@@ -47,13 +49,17 @@ const of_one_run = ["tasks", "attempts", "results", "triggers"];
 
 const sum = (list, name) => list.reduce((total, each) => total + (each[name] ?? 0), 0);
 
+/// Those of a result; "" where there is none yet, or of an earlier version none that is known.
+const codes_of = ({ flags }) => (flags ? flag_codes(flags) : "");
+
 const readers = {
     tasks: (whole) => whole.tasks.map((task) => ({ ...task, attempts: task.attempts.length, cpu_seconds: sum(task.attempts, "cpu_seconds"),
-        wall_seconds: sum(task.attempts, "wall_seconds"), files: task.artifacts.length, bytes: sum(task.artifacts, "bytes"),
+        wall_seconds: sum(task.attempts, "wall_seconds"), flags: codes_of(task), files: task.artifacts.length, bytes: sum(task.artifacts, "bytes"),
         fault: task.fault?.summary ?? "" })),
     attempts: (whole) => whole.tasks.flatMap(({ id, label, phase, variant, transfer_time, attempts }) =>
         attempts.map((attempt) => ({ run: whole.id, task: id, label, phase, variant, transfer_time, ...attempt }))),
-    results: async ({ id }) => (await api.read_results(id)).rows.map((row) => ({ run: id, ...row })),
+    results: async ({ id }) => (await api.read_results(id)).rows.map((row) => ({ run: id, ...row, rest: row.runout === null ? "" : rest_text(row),
+        flags: codes_of(row) })),
     triggers: async ({ id }) => (await api.read_triggers(id)).flatMap((trigger) =>
         (trigger.firings.length ? trigger.firings : [{}]).map((firing) => ({ run: id, ...trigger, ...firing, lag_s: Number(firing.lag_s?.toFixed(9) ?? NaN) }))),
 };
@@ -116,7 +122,7 @@ export class Database {
         for (let batch = 0; batch < batches_at_once && !finished; batch += 1) {
             const { runs, events, next } = name === "runs" ? await api.page_of_runs(place, page_size)
                                                            : await api.page_of_events(place ?? 0);
-            records.push(...(runs ?? events));
+            records.push(...(runs?.map((each) => ({ ...each, flags: counts_text(each.flag_counts) })) ?? events));
             finished = name === "runs" ? !next : events.length === 0;
             place = next;
         }

@@ -50,16 +50,19 @@ export function elapsed(from, to) {
 
 export const percent = (fraction) => `${Math.floor(100 * Math.min(1, Math.max(0, fraction ?? 0)))} %`;
 
-const ended = new Set(["succeeded", "cached", "partial", "failed", "cancelled", "skipped", "lost"]);
+const ended = new Set(["succeeded", "questionable", "cached", "partial", "failed", "cancelled", "skipped", "lost"]);
 export const is_active = (state) => !ended.has(state);
 
 /// One colour family and one sign per state: never told by colour alone.
 export function state_look(state) {
+    if (state.startsWith("ended: ")) return { family: "calm", sign: "■" };
     switch (state) {
         case "succeeded":
         case "cached":
         case "fired":
             return { family: "good", sign: "✓" };
+        case "questionable":
+            return { family: "warn", sign: "⚠" };
         case "partial":
         case "paused":
             return { family: "warn", sign: "◐" };
@@ -80,6 +83,13 @@ export function state_look(state) {
         default:
             return { family: "idle", sign: "·" };
     }
+}
+
+/// What a task's state is called: one that went well may have ended as a failing dam ends, or with a doubtful result.
+export function task_state({ state, ended: how, end_time, questionable }) {
+    if (!["succeeded", "cached"].includes(state)) return state;
+    if (questionable) return "questionable";
+    return how === "entangled" ? `ended: entangled at ${seconds(end_time)}` : state;
 }
 
 export function show_state(badge, state) {

@@ -6,7 +6,7 @@ export const panels = [
     { title: "Kinetic energy", y: "kinetic energy [J]", unit: "J", fields: { kinetic_energy: "kinetic" } },
     { title: "Liquefaction depth", y: "depth below the ground [m]", unit: "m",
       fields: { liquefaction_depth: "deepest liquefied soil", critical_depth: "critical depth" } },
-    { title: "Pore pressure ratio", y: "r_u [–]", unit: "", fields: { r_u_max: "largest", r_u_avg: "average" } },
+    { title: "Pore pressure ratio", y: "r_u [–]", unit: "", fields: { r_u_max: "largest" } },
     { title: "Failure surfaces", y: "number of surfaces [–]", unit: "", fields: { failure_surfaces: "bands through the body" } },
     { title: "Jacobian ratio, averages", y: "|J_t| / |J_0| [–]", unit: "",
       fields: { jacobian_ratio_avg: "strained elements", jacobian_least_avg: "their worst corners" } },

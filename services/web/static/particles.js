@@ -318,9 +318,10 @@ export class Particles {
     }
 
     draw_names(names) {
-        mirror(by_id("view-regions"), names, (name) => name,
-               (name) => element("li", {}, element("span", { class: "chip",
-                   style: `background: ${region_css(names.indexOf(name))}` }), ` ${name}`), () => {});
+        // A region and a material may share their name and not their colour: the place in the list is the key.
+        mirror(by_id("view-regions"), names.map((name, i) => ({ name, i })), ({ name, i }) => `${i}/${name}`,
+               ({ name, i }) => element("li", {}, element("span", { class: "chip", style: `background: ${region_css(i)}` }), ` ${name}`),
+               () => {});
     }
 
     update_controls() {

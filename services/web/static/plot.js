@@ -1,11 +1,13 @@
 // A plot of curves against one abscissa, as SVG: axes with units, gaps where values are missing, marks on the
 // abscissa, hover and keyboard readout. Knows nothing of where the numbers come from.
 import { element, set_text, svg } from "./dom.js";
+import { looks } from "./flags.js";
 import { number } from "./format.js";
 import { band, curve, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
 import { range_of, tick_label, ticks, widened } from "./plot_scale.js";
 
 const character = 7.6; // width of a digit at the plot's font size [px]
+const longest_name = 20; // characters of a named tick; the rest is in its title
 
 export class Plot {
     /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: what the
@@ -13,7 +15,7 @@ export class Plot {
     /// the point's entry in its series' `keys`, null for a mark.
     constructor(host, labels, { height = 260, choose = null, y_from_zero = false } = {}) {
         this.labels = labels;
-        this.height = height;
+        this.plain_height = height;
         this.choose = choose;
         this.y_from_zero = y_from_zero;
         this.data = { series: [], marks: [], lines: [], levels: [], bands: [] };
@@ -31,10 +33,11 @@ export class Plot {
         this.picture.addEventListener("keydown", (event) => this.key(event));
     }
 
-    /// data: {series: [{name, unit, x, y, points, scatter, keys, names}], marks: [{x, kind, label}],
-    /// lines: [{x, label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}]}. points: markers;
-    /// scatter: no line between them; names: what each point is called. Marks sit on the abscissa (kind: failed, skipped,
-    /// running, pending), lines are verticals, levels horizontals, bands shaded stretches.
+    /// data: {series: [{name, unit, x, y, points, scatter, keys, names, looks, notes}], marks: [{x, kind, label}],
+    /// lines: [{x, label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}], names: [{x, label}] when the
+    /// abscissa has names at 0, 1, 2, ... instead of numbers, x_label: what they are}. points: markers; scatter: no line between
+    /// them; names: what each point is called; looks, notes: what is to be known of it (flags.js). Marks sit on the abscissa
+    /// (kind: failed, skipped, running, pending), lines are verticals, levels horizontals, bands shaded stretches.
     show(data) {
         this.data = { marks: [], lines: [], levels: [], bands: [], ...data };
         const stops = new Set(this.data.marks.map((each) => each.x));
@@ -50,9 +53,12 @@ export class Plot {
         const { series, marks, lines, levels, bands } = this.data;
         this.find_ranges();
         this.width = width;
-        this.y_ticks = ticks(...this.y_range, (this.height - margin.top - margin.bottom) / 40);
+        this.bottom = margin.bottom;
+        this.height = this.plain_height;
+        this.y_ticks = ticks(...this.y_range, (this.height - margin.top - this.bottom) / 40);
         this.y_labels = this.y_ticks.values.map((y) => tick_label(y, this.y_ticks.step));
         this.left = 36 + character * Math.max(...this.y_labels.map((label) => label.length), 2);
+        this.turn_names();
         this.picture.setAttribute("viewBox", `0 0 ${width} ${this.height}`);
         this.picture.setAttribute("height", this.height);
         this.picture.setAttribute("aria-label", this.summary());
@@ -69,14 +75,28 @@ export class Plot {
         this.draw_cursor();
     }
 
+    /// Named ticks that do not fit side by side are turned, and the picture grows for them.
+    turn_names() {
+        const { names } = this.data;
+        this.turned = 0;
+        if (!names) return;
+        const longest = Math.min(longest_name, Math.max(...names.map(({ label }) => label.length)));
+        const space = (this.width - this.left - margin.right) / names.length;
+        if (longest * character + 6 <= space) return;
+        this.turned = space < 40 ? 90 : 50;
+        const more = longest * character * Math.sin((this.turned * Math.PI) / 180);
+        this.bottom += more;
+        this.height += more;
+    }
+
     find_ranges() {
-        const { series, marks, levels } = this.data;
+        const { series, marks, levels, names } = this.data;
         const [left, right] = range_of(series.map((each) => each.x), marks.map((each) => each.x));
         const [low, high] = widened(range_of(series.map((each) => each.y), this.y_from_zero ? [0] : []),
                                     levels.map((each) => each.y));
         const pad_x = (right - left) * (marks.length || series.some((each) => each.points) ? 0.04 : 0);
         const pad_y = (high - low) * 0.06;
-        this.x_range = [left - pad_x, right + pad_x];
+        this.x_range = names ? [-0.5, names.length - 0.5] : [left - pad_x, right + pad_x];
         this.y_range = [low === 0 ? 0 : low - pad_y, high + pad_y];
     }
 
@@ -93,18 +113,19 @@ export class Plot {
 
     py(y) {
         const [low, high] = this.y_range;
-        return this.height - margin.bottom - ((y - low) / (high - low)) * (this.height - margin.top - margin.bottom);
+        return this.height - this.bottom - ((y - low) / (high - low)) * (this.height - margin.top - this.bottom);
     }
 
     axes() {
-        const bottom = this.height - margin.bottom;
+        const bottom = this.height - this.bottom;
         const right = this.width - margin.right;
         const parts = [];
-        const x_ticks = ticks(...this.x_range, (right - this.left) / 80);
-        for (const x of x_ticks.values) {
+        for (const { x, label, title } of this.x_ticks()) {
             const at = this.px(x);
+            const place = this.turned ? { transform: `translate(${at + 4},${bottom + 12}) rotate(${-this.turned})`, "text-anchor": "end" }
+                                      : { x: at, y: bottom + 17, "text-anchor": "middle" };
             parts.push(svg("path", { class: "grid", d: `M${at},${margin.top}V${bottom}` }),
-                       svg("text", { x: at, y: bottom + 17, "text-anchor": "middle" }, tick_label(x, x_ticks.step)));
+                       svg("text", { ...place, class: "tick-x" }, label, ...(title ? [svg("title", {}, title)] : [])));
         }
         this.y_ticks.values.forEach((y, i) => {
             const at = this.py(y);
@@ -114,16 +135,26 @@ export class Plot {
         const middle = (margin.top + bottom) / 2;
         parts.push(svg("path", { class: "axis", d: `M${this.left},${margin.top}V${bottom}H${right}` }),
                    svg("text", { class: "label", x: (this.left + right) / 2, y: this.height - 8,
-                                 "text-anchor": "middle" }, this.labels.x),
+                                 "text-anchor": "middle" }, this.data.x_label ?? this.labels.x),
                    svg("text", { class: "label", x: 14, y: middle, "text-anchor": "middle",
                                  transform: `rotate(-90 14 ${middle})` }, this.labels.y));
         return parts;
     }
 
+    x_ticks() {
+        const { names } = this.data;
+        if (names) {
+            return names.map(({ x, label }) => (label.length <= longest_name ? { x, label }
+                : { x, label: `${label.slice(0, longest_name - 1)}…`, title: label }));
+        }
+        const { values, step } = ticks(...this.x_range, (this.width - margin.right - this.left) / 80);
+        return values.map((x) => ({ x, label: tick_label(x, step) }));
+    }
+
     summary() {
         const filled = this.data.series.reduce((most, s) => Math.max(most, s.y.filter(Number.isFinite).length), 0);
         const levels = this.data.levels.map(({ label, y }) => ` ${label} ${number(y)}.`).join("");
-        return `${this.labels.title}: ${this.labels.y} against ${this.labels.x}, ${filled} values.${levels} ` +
+        return `${this.labels.title}: ${this.labels.y} against ${this.data.x_label ?? this.labels.x}, ${filled} values.${levels} ` +
                "Left and right arrow keys read them out.";
     }
 
@@ -195,14 +226,16 @@ export class Plot {
             return;
         }
         const x = this.stops[this.at];
-        this.cursor.append(svg("path", { d: `M${this.px(x)},${margin.top}V${this.height - margin.bottom}` }));
+        this.cursor.append(svg("path", { d: `M${this.px(x)},${margin.top}V${this.height - this.bottom}` }));
         const values = this.at_stop(x).map(({ series, index, i }) => {
             const meant = index === this.curve_at && this.data.series.length > 1 && this.choose;
             this.cursor.append(svg("circle", { class: series_class(index), cx: this.px(x), cy: this.py(series.y[i]), r: meant ? 6.5 : 4.5 }));
             const name = [series.name, series.names?.[i]].filter(Boolean).join(", ");
-            return `${name} ${number(series.y[i])} ${series.unit ?? ""}`.trim();
+            const meaning = (series.looks?.[i] ?? "").split(" ").filter(Boolean).map((look) => looks[look]).join(", ");
+            return `${name} ${number(series.y[i])} ${series.unit ?? ""}`.trim() + (meaning && ` (${meaning})`);
         });
         for (const each of this.data.marks) if (each.x === x) values.push(each.label);
-        set_text(this.readout, `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}: ${values.join(" · ")}`);
+        const named = this.data.names?.find((each) => each.x === x)?.label;
+        set_text(this.readout, `${named ?? `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}`}: ${values.join(" · ")}`);
     }
 }

@@ -1,30 +1,50 @@
 // The parts of a plot's picture: curves, marks on the abscissa, verticals, levels, bands, and their legend. Each takes
 // the plot for its scales: px(x), py(y), left, width, height.
 import { element, svg } from "./dom.js";
+import { looks } from "./flags.js";
 import { number } from "./format.js";
 import { thinned } from "./plot_scale.js";
 
-export const margin = { right: 14, top: 12, bottom: 46 };
+export const margin = { right: 14, top: 12, bottom: 46 }; // below: more where ticks have long names, see plot.bottom
 const label_width = 15; // verticals closer than this share one label [px]
 
 const marker_shapes = ["M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-4,-4h8v8h-8z", "M0,-5.5L5,3.5H-5z", "M0,-5.5L5,0L0,5.5L-5,0z",
-                       "M0,5.5L5,-3.5H-5z", "M-5,-2h10v4h-10z"];
+                       "M0,5.5L5,-3.5H-5z", "M-5.5,-2.2h11v4.4h-11z",
+                       "M-1.8,-5.2h3.6v3.4h3.4v3.6h-3.4v3.4h-3.6v-3.4h-3.4v-3.6h3.4z",
+                       "M0,-6L1.5,-2L5.7,-1.9L2.4,.8L3.5,4.9L0,2.5L-3.5,4.9L-2.4,.8L-5.7,-1.9L-1.5,-2z",
+                       "M-5.5,0L3.5,-5V5z", "M5.5,0L-3.5,-5V5z", "M-4.5,-5H4.5L-4.5,5H4.5z",
+                       "M0,-2.4L2.9,-5.3L5.3,-2.9L2.4,0L5.3,2.9L2.9,5.3L0,2.4L-2.9,5.3L-5.3,2.9L-2.4,0L-5.3,-2.9L-2.9,-5.3z"];
+const arrow_shape = "M0,-7V-16M-3.5,-12.5L0,-16L3.5,-12.5"; // upwards from a marker: the value is a lower bound
 const mark_shapes = {
     failed: "M-5,-5L5,5M-5,5L5,-5",
     skipped: "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0M-3.5,3.5L3.5,-3.5",
     pending: "M0,-4V4",
     running: "M-3,-5L5,0L-3,5z",
 };
-const series_colours = marker_shapes.length;
+export const series_colours = 12;
 export const series_class = (index) => `series-${index % series_colours}`;
+/// After the twelfth series the colours begin again with other shapes.
+const shape_of = (index) => marker_shapes[(index + 5 * Math.floor(index / series_colours)) % marker_shapes.length];
 
 export function curve(plot, data, index) {
     const kept = data.points ? data.x.map((_, i) => i) : thinned(data.x, data.y, plot.width);
     const drawn = kept.filter((i) => Number.isFinite(data.y[i]) && Number.isFinite(data.x[i]));
     const parts = data.scatter ? [] : [svg("path", { class: `curve ${series_class(index)}`, d: path_of(plot, data, kept) })];
     if (!data.points) return parts;
-    return [...parts, ...drawn.map((i) => svg("path", { class: `marker ${series_class(index)}`,
-        d: marker_shapes[index % series_colours], transform: `translate(${plot.px(data.x[i])},${plot.py(data.y[i])})` }))];
+    return [...parts, ...drawn.flatMap((i) => marker(data, index, i, `translate(${plot.px(data.x[i])},${plot.py(data.y[i])})`))];
+}
+
+/// One point: filled when it is sound, hollow and so on as its look says, with its note as a title.
+function marker(data, index, i, transform) {
+    const look = data.looks?.[i] ?? "";
+    const note = data.notes?.[i] ? [svg("title", {}, data.notes[i])] : [];
+    return marker_parts(series_class(index), shape_of(index), look, transform, note);
+}
+
+function marker_parts(series, shape, look, transform, note = []) {
+    const parts = [svg("path", { class: `marker ${series} ${look}`.trim(), d: shape, transform }, ...note)];
+    if (look.includes("bound")) parts.push(svg("path", { class: `arrow ${series}`, d: arrow_shape, transform }));
+    return parts;
 }
 
 function path_of(plot, data, kept) {
@@ -43,14 +63,14 @@ function path_of(plot, data, kept) {
 }
 
 export function mark(plot, { x, kind, label }) {
-    const at = plot.height - margin.bottom - 9;
+    const at = plot.height - plot.bottom - 9;
     return svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: `translate(${plot.px(x)},${at})` },
                svg("title", {}, label));
 }
 
 /// Verticals, and the texts of those that have one; neighbours' texts are put together.
 export function verticals(plot, lines) {
-    const bottom = plot.height - margin.bottom;
+    const bottom = plot.height - plot.bottom;
     const parts = lines.map((line) => svg("path", { class: `event ${line.kind ?? ""}`, d: `M${plot.px(line.x)},${margin.top}V${bottom}` },
                                           svg("title", {}, line.label)));
     const groups = [];
@@ -84,7 +104,7 @@ export function level(plot, { y, label }, index) {
 export function band(plot, { from, to, label, kind }, index) {
     const clamp = (x) => Math.min(plot.x_range[1], Math.max(plot.x_range[0], x));
     const [left, right] = [plot.px(clamp(from)), plot.px(clamp(to))];
-    const bottom = plot.height - margin.bottom;
+    const bottom = plot.height - plot.bottom;
     return [svg("rect", { class: `band ${kind}`, x: left, y: margin.top, width: Math.max(right - left, 1), height: bottom - margin.top },
                 svg("title", {}, `${label}: ${number(from)} to ${number(to)}`)),
             svg("path", { class: `band-edge ${kind}`, d: `M${left},${margin.top}V${bottom}M${right},${margin.top}V${bottom}` }),
@@ -94,8 +114,14 @@ export function band(plot, { from, to, label, kind }, index) {
 export function legend({ series, marks, lines, bands }, lines_name) {
     const items = series.map((data, i) => legend_item(
         [...(data.scatter ? [] : [svg("path", { class: `curve ${series_class(i)}`, d: "M0,7H24" })]),
-         ...(data.points ? [svg("path", { class: `marker ${series_class(i)}`, d: marker_shapes[i % series_colours],
-                                          transform: "translate(12,7)" })] : [])], data.name));
+         ...(data.points ? [svg("path", { class: `marker ${series_class(i)}`, d: shape_of(i), transform: "translate(12,7)" })] : [])],
+        data.name));
+    const seen = new Set(series.flatMap(({ looks = [], y }) => looks.filter((look, i) => look && Number.isFinite(y[i])))
+        .flatMap((look) => look.split(" ")));
+    for (const look of Object.keys(looks).filter((each) => seen.has(each))) {
+        items.push(legend_item(marker_parts("neutral", marker_shapes[0], look, look === "bound" ? "translate(12,18)" : "translate(12,7)"),
+                               looks[look], look === "bound" ? 24 : 14));
+    }
     for (const kind of new Set(marks.map((each) => each.kind))) {
         items.push(legend_item([svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: "translate(12,7)" })], kind));
     }
@@ -108,6 +134,6 @@ export function legend({ series, marks, lines, bands }, lines_name) {
     return items;
 }
 
-function legend_item(parts, name) {
-    return element("li", {}, svg("svg", { viewBox: "0 0 24 14", width: 24, height: 14, "aria-hidden": "true" }, ...parts), ` ${name}`);
+function legend_item(parts, name, height = 14) {
+    return element("li", {}, svg("svg", { viewBox: `0 0 24 ${height}`, width: 24, height, "aria-hidden": "true" }, ...parts), ` ${name}`);
 }

@@ -2,7 +2,8 @@
 // with its settings, inputs, files and hashes, and the command that makes it again.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
-import { bytes, clock, number, point_name, seconds, short_json, show_state, task_name } from "./format.js";
+import { flag_items } from "./flags.js";
+import { bytes, clock, is_active, number, point_name, seconds, short_json, show_state, task_name, task_state } from "./format.js";
 import { moments } from "./triggers.js";
 
 const column_names = {
@@ -78,11 +79,12 @@ function asked_for(run, row, steps) {
 
 function step_section({ task, provenance }, has_variants) {
     const state = element("span");
-    show_state(state, task.state);
+    show_state(state, task_state(task));
     return element("section", { class: "step" },
         element("div", { class: "row" }, element("h3", {}, task_name(task)), state),
         facts(facts_of(task, provenance)),
-        settings(provenance, has_variants && task.variant === "" ? " (given by one variant for all that share this task)" : ""),
+        task.flags?.length ? element("ul", { class: "flags" }, ...flag_items(task.flags)) : null,
+        settings(task, provenance, has_variants && task.variant === "" ? " (given by one variant for all that share this task)" : ""),
         files(task),
         again(task, provenance));
 }
@@ -107,8 +109,16 @@ const facts = (lines) => element("dl", { class: "facts" }, ...lines.map(([name, 
 const hash_link = (sha256, name) => element("a", { href: api.artifact_path(sha256), download: name }, element("code", {}, sha256));
 const file_name = (path) => path.split("/").at(-1);
 
-function settings(provenance, shared) {
-    if (!provenance) return element("p", { class: "muted" }, "No result.json yet.");
+/// A task that ended without a result says why, and what that leaves unknown.
+function no_result(task) {
+    if (is_active(task.state)) return "No result.json yet.";
+    const fault = task.fault ? ` with exit code ${task.fault.exit_code}: ${task.fault.summary}` : "";
+    return `It left no result.json: it ended as “${task.state}”${fault}. Which version and settings it had is not known from here; ` +
+           "scene.completed.json and the log say what it was given.";
+}
+
+function settings(task, provenance, shared) {
+    if (!provenance) return element("p", { class: "muted" }, no_result(task));
     const overrides = provenance.overrides ?? [];
     const inputs = provenance.inputs ?? [];
     return element("div", {},

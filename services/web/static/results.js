@@ -1,7 +1,8 @@
 // Runout against transfer time: one curve per variant, the window and the plateau of the triggers, its table, its CSV.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { by_point, is_active, number, show_state, state_look, variants_of } from "./format.js";
+import { flag_codes, flag_note, look_of, rest_text, trust_of } from "./flags.js";
+import { by_point, is_active, number, point_name, show_state, state_look, variants_of } from "./format.js";
 import { Plot } from "./plot.js";
 import { plateaus, windows } from "./triggers.js";
 
@@ -12,6 +13,9 @@ export const measures = {
 };
 const columns = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap", "cpu_seconds"];
 
+/// Left out where the table has no room for them, until a person asks for all.
+const folded = new Set(["runout_largest", "volume_ratio", "overlap"]);
+
 export class Results {
     /// look_at(row): a person wants to see this point's particles. ask(row, column): where its numbers come from.
     constructor({ look_at, ask }) {
@@ -21,6 +25,8 @@ export class Results {
             hint: "Point at the curve, or use the arrow keys; click or Enter shows where the number comes from.",
         }, { height: 340, y_from_zero: true, choose: (_, key) => key && this.ask(this.row(key), this.measure()) });
         by_id("runout-measure").addEventListener("change", () => this.draw());
+        by_id("runout-all").addEventListener("change", (event) => by_id("runout-table").classList.toggle("all", event.target.checked));
+        by_id("runout-trust").addEventListener("change", () => this.refresh());
         by_id("runout-rows").addEventListener("click", (event) => {
             const cell = event.target.closest("[data-column]");
             if (cell) this.ask(this.row(cell.parentElement.dataset.key), cell.dataset.column);
@@ -42,24 +48,53 @@ export class Results {
         this.run = run;
         this.variants = variants_of(run);
         this.rows = rows.sort(by_point(this.variants));
-        this.draw();
+        this.refresh();
         const finished = rows.filter((row) => Number.isFinite(row.runout)).length;
         const several = this.variants.length > 1;
         const what = several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${what} finished`);
         by_id("runout-table").classList.toggle("one-variant", !several);
-        mirror(by_id("runout-rows"), rows, key_of, () => this.new_row(), fill_row);
         return this.rows;
+    }
+
+    /// The rows that a person wants to see: all, or without the finished ones that are not known to be sound.
+    shown() {
+        if (by_id("runout-trust").value === "all") return this.rows;
+        return this.rows.filter((row) => !is_finished(row) || trust_of(row) === "sound");
+    }
+
+    refresh() {
+        const note = trust_note(this.rows, this.rows.length - this.shown().length);
+        by_id("runout-note").hidden = !note;
+        set_text(by_id("runout-note"), note);
+        mirror(by_id("runout-rows"), this.shown(), key_of, () => this.new_row(), fill_row);
+        this.draw();
     }
 
     draw() {
         const measure = this.measure();
         const several = this.variants.length > 1;
+        const rows = this.shown();
+        const lines = series_by_variant(rows, this.variants);
+        const points = (some) => ({ unit: "m", points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
+                                    looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
+        const marks = rows.filter((row) => !is_finished(row));
+        const side_by_side = several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1;
+        set_text(by_id("runout-title"), side_by_side ? "Runout by variant" : "Runout against transfer time");
+        if (side_by_side) {
+            // One transfer time: the variants stand side by side.
+            const at = (row) => lines.findIndex(({ variant }) => variant === row.variant);
+            this.plot.show({
+                series: [{ name: `${measures[measure]}, t_T = ${number(rows[0].transfer_time)} s`, scatter: true, ...points(rows), x: rows.map(at) }],
+                marks: marks.map((row) => ({ ...mark_of(row, several), x: at(row) })),
+                names: lines.map(({ variant }, x) => ({ x, label: variant })), x_label: "variant",
+            });
+            return;
+        }
         this.plot.show({
-            series: series_by_variant(this.rows, this.variants).map(({ variant, rows }) => ({
-                name: several ? variant : measures[measure], unit: "m", points: true, keys: rows.map(key_of),
-                x: rows.map((row) => row.transfer_time), y: rows.map((row) => row[measure] ?? null) })),
-            marks: this.rows.filter((row) => !Number.isFinite(row.runout)).map((row) => mark_of(row, several)),
+            series: lines.map(({ variant, rows: some }) => ({ name: several ? variant : measures[measure], ...points(some),
+                                                              x: some.map((row) => row.transfer_time) })),
+            marks: marks.map((row) => mark_of(row, several)),
             bands: [...windows(this.run.triggers), ...plateaus(this.run.triggers)],
         });
     }
@@ -69,13 +104,37 @@ export class Results {
         const ask = element("button", { type: "button", class: "link", onclick: () => this.ask(this.row(row.dataset.key), "runout") }, "trace");
         const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", { class: "variant" }),
                             element("td", {}, element("span")));
-        for (const column of columns) row.append(element("td", { class: "number", "data-column": column, title: "Where this number comes from" }));
-        row.append(element("td", {}), element("td", {}, ask));
+        for (const column of columns) {
+            row.append(element("td", { class: folded.has(column) ? "number fold" : "number", "data-column": column,
+                                       title: "Where this number comes from" }));
+            if (column === "runout") row.append(element("td", { class: "rest" }), element("td", { class: "flag-codes" }));
+        }
+        row.append(element("td", { class: "fold" }), element("td", {}, ask));
         return row;
     }
 }
 
 export const key_of = (row) => `${row.transfer_time}/${row.variant}`;
+
+const is_finished = (row) => Number.isFinite(row.runout);
+
+/// What is to be known of a point before its number is believed.
+function note_of(row, measure) {
+    return is_finished(row) ? [`${point_name(row)}: ${number(row[measure])} m, ${rest_text(row)}`, flag_note(row)].filter(Boolean).join("\n") : "";
+}
+
+/// In one line: how many of the finished runouts are not to be taken as they stand.
+function trust_note(rows, hidden) {
+    const finished = rows.filter(is_finished);
+    const looks = finished.map(look_of);
+    const count = (part) => looks.filter((look) => look.includes(part)).length;
+    const [bounds, unknown] = [count("bound"), count("unknown")];
+    const doubtful = looks.filter((look) => look === "doubtful").length;
+    const parts = [bounds && `${bounds} still moving: lower bounds`, doubtful && `${doubtful} questionable for other reasons`,
+                   unknown && `${unknown} without flags: not known`].filter(Boolean);
+    if (parts.length === 0) return "";
+    return `Of ${finished.length} runouts ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
+}
 
 /// [{variant, rows}] in the study's order, rows in order of time.
 export function series_by_variant(rows, variants) {
@@ -98,9 +157,17 @@ function fill_row(row, values) {
     look.disabled = !values.mpm_task || ["blocked", "ready", "skipped"].includes(values.state);
     look.title = "Show the particles";
     set_text(variant, values.variant);
-    show_state(state.firstElementChild, values.reused ? "cached" : values.state);
-    state.title = values.reason ?? "";
+    show_state(state.firstElementChild, values.reused && values.state === "succeeded" ? "cached" : values.state);
+    if (is_finished(values) && trust_of(values) === "unknown") state.firstElementChild.className = "state off";
+    state.title = [values.reason, values.state === "questionable" ? flag_note(values) : ""].filter(Boolean).join("\n");
     for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
+    const bound = is_finished(values) && look_of(values).includes("bound");
+    if (bound) set_text(row.querySelector('[data-column="runout"]'), `≥ ${number(values.runout)}`);
+    const [rest, flags] = [row.querySelector(".rest"), row.querySelector(".flag-codes")];
+    set_text(rest, is_finished(values) ? rest_text(values) : "–");
+    set_text(flags, is_finished(values) ? flag_codes(values.flags) : "–");
+    flags.title = is_finished(values) ? flag_note(values) : "";
+    row.dataset.trust = is_finished(values) ? trust_of(values) : "";
     set_text(row.children[row.children.length - 2], values.trigger === "at_time" ? "study" : values.trigger ?? "");
     row.lastElementChild.firstElementChild.setAttribute("aria-label", `Where the numbers at t_T = ${number(values.transfer_time)} s ` +
                                                                       `${values.variant} come from`);

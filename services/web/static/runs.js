@@ -1,6 +1,7 @@
 // The list of runs at the side, and the head of the run that is open.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
+import { counts_text } from "./flags.js";
 import { clock, elapsed, is_active, percent, show_state, span } from "./format.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
@@ -15,12 +16,12 @@ export function draw_list(runs, open_id) {
 function new_item(run) {
     return element("li", {}, element("a", { href: run_address(run.id) },
         element("span", { class: "run-name" }), element("span"), element("progress", { max: 1 }),
-        element("span", { class: "run-time" })));
+        element("span", { class: "run-time" }), element("span", { class: "run-why" })));
 }
 
 function fill_item(item, run, open_id) {
     const link = item.firstElementChild;
-    const [name, state, progress, time] = link.children;
+    const [name, state, progress, time, why] = link.children;
     set_text(name, run.name);
     show_state(state, state_of(run));
     progress.value = run.progress ?? 0;
@@ -28,9 +29,17 @@ function fill_item(item, run, open_id) {
     progress.setAttribute("aria-label", `progress of ${run.name}`);
     set_text(time, `${clock(run.created)} · ${is_active(run.state) ? percent(run.progress) + " · " : ""}` +
                    `${run.tasks_done} of ${run.tasks_total} tasks`);
-    link.title = run.title || run.name;
+    set_text(why, doubt_of(run));
+    why.hidden = why.textContent === "";
+    link.title = [run.title || run.name, run.message].filter(Boolean).join("\n");
     if (run.id === open_id) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
+}
+
+/// In one line, why the results of a run are not simply fine; "" when nothing is known against them.
+function doubt_of(run) {
+    if (!run.questionable) return "";
+    return run.state === "questionable" && run.message ? run.message : `${run.questionable} questionable: ${counts_text(run.flag_counts)}`;
 }
 
 export class RunHead {
@@ -51,6 +60,10 @@ export class RunHead {
         by_id("run-progress").value = run.progress ?? 0;
         set_text(by_id("run-summary"), summary(run));
         set_text(by_id("run-message"), run.message ?? "");
+        by_id("run-message").className = run.state === "questionable" ? "notice warn" : "muted";
+        const counts = counts_text(run.flag_counts);
+        by_id("run-flags").hidden = !counts;
+        set_text(by_id("run-flags"), `Flags of its results: ${counts}`);
         set_text(by_id("run-id"), run.id);
         by_id("cancel").hidden = !active;
         by_id("pause").hidden = !active || run.paused;
@@ -77,6 +90,7 @@ export class RunHead {
 function summary(run) {
     const parts = [`${run.tasks_done} of ${run.tasks_total} tasks done`];
     if (run.tasks_failed > 0) parts.push(`${run.tasks_failed} failed`);
+    if (run.questionable > 0) parts.push(`${run.questionable} questionable`);
     parts.push(`created ${clock(run.created)}`);
     if (run.started) parts.push(`${is_active(run.state) ? "running for" : "took"} ${elapsed(run.started, run.finished)}`);
     if (run.paused && is_active(run.state)) parts.push("paused: nothing new is started");

@@ -1,7 +1,8 @@
 // The tasks of a run: a compact picture of the workflow, a table, and one task in detail.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { by_point, bytes, clock, elapsed, is_active, number, percent, seconds, show_state, state_look, task_name, variants_of } from "./format.js";
+import { by_point, bytes, clock, elapsed, is_active, number, percent, seconds, show_state, state_look, task_name, task_state, variants_of } from "./format.js";
+import { flag_codes, flag_items, flag_note } from "./flags.js";
 import { LogView } from "./log.js";
 
 const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
@@ -79,7 +80,8 @@ export class Tasks {
 
     async detail(task) {
         set_text(by_id("task-title"), task_name(task));
-        show_state(by_id("task-state"), task.state);
+        show_state(by_id("task-state"), task_state(task));
+        draw_flags(task);
         const fault = task.fault ? `Exit code ${task.fault.exit_code}: ${task.fault.summary}` : "";
         by_id("task-fault").hidden = !fault;
         set_text(by_id("task-fault"), fault);
@@ -103,17 +105,17 @@ function rows_of(tasks) {
 
 function fill_named_chip(chip, task) {
     fill_chip(chip, task);
-    set_text(chip, `${state_look(task.state).sign} ${task.phase}${task.variant && ` ${task.variant}`}`);
+    set_text(chip, `${state_look(task_state(task)).sign} ${task.phase}${task.variant && ` ${task.variant}`}`);
     chip.classList.add("named");
 }
 
 function fill_chip(chip, task) {
-    const { family, sign } = state_look(task.state);
+    const { family, sign } = state_look(task_state(task));
     chip.className = `flow-chip ${family}`;
     chip.style.setProperty("--progress", percent(task.progress).replace(" ", ""));
     set_text(chip, sign);
-    const text = `${task_name(task)}: ${task.state}, ${percent(task.progress)}`;
-    chip.title = text;
+    const text = `${task_name(task)}: ${task_state(task)}, ${percent(task.progress)}`;
+    chip.title = task.flags?.length ? `${text}\n${flag_note(task)}` : text;
     chip.setAttribute("aria-label", text);
 }
 
@@ -122,7 +124,8 @@ function fill_row(row, task) {
     set_text(name.firstElementChild, task.phase);
     set_text(variant, task.variant);
     set_text(time, Number.isFinite(task.transfer_time) ? number(task.transfer_time) : "");
-    show_state(state.firstElementChild, task.state);
+    show_state(state.firstElementChild, task_state(task));
+    state.title = task.flags?.length ? flag_note(task) : "";
     const never_ran = task.attempts.length === 0 && !is_active(task.state);
     progress.firstElementChild.hidden = never_ran;
     progress.firstElementChild.value = task.progress ?? 0;
@@ -132,7 +135,15 @@ function fill_row(row, task) {
     const last = task.attempts.at(-1);
     set_text(took, last ? (Number.isFinite(last.wall_seconds) ? seconds(Number(last.wall_seconds.toPrecision(3)))
                                                               : elapsed(last.started, last.finished)) : "");
-    set_text(message, task.fault?.summary ?? task.message ?? "");
+    const flagged = task.flags?.length ? flag_codes(task.flags) : "";
+    set_text(message, task.fault?.summary || flagged || (task.message ?? ""));
+}
+
+/// Of a task that went well: its flags, or that it carries none to go by.
+function draw_flags(task) {
+    const went_well = ["succeeded", "cached"].includes(task.state);
+    by_id("task-flags").hidden = !went_well || task.flags?.length === 0;
+    by_id("task-flags").replaceChildren(...(task.flags ? flag_items(task.flags) : [element("li", {}, flag_note(task))]));
 }
 
 function new_attempt() {

@@ -70,9 +70,10 @@ def run_dam(program, folder, settings, limit=2400.0):
     if code is None or code in INTERRUPTED:
         ended = STOPPED
     elif code == 0:
-        ended = DURATION
+        result = json.loads((folder / "result.json").read_text())
+        ended = ENTANGLED if result["ended"] == "entangled" else DURATION
     elif code == 70:
-        ended = ENTANGLED if "entangled" in last else NO_CONVERGENCE
+        ended = NO_CONVERGENCE
     else:
         raise SystemExit(f"{folder}: exit {code}: {last}")
     done = {"ended": ended, "message": last if code else "", "settings": settings,

@@ -109,6 +109,48 @@ class Breach(unittest.TestCase):
         self.assertEqual([each["run"] for each in lines[:-1]], [run_id])
         self.assertEqual(lines[-1]["run"]["state"], "succeeded")
 
+    def test_a_questionable_end_is_said_and_counts_when_asked_to(self):
+        for words in (["watch", run_id], ["submit", self.study(), "--watch"], ["results", run_id]):
+            for strict, code in (([], 0), (["--strict"], 70)):
+                done = call(self.serve(end="questionable", looks=0), *words, *strict)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertIn("questionable: 1 of 1 runouts still moving: lower bounds", done.stderr)
+
+    def test_rows_are_filtered_by_state_and_flag(self):
+        service = self.serve(looks=0)
+        call(service, "results", run_id, "--state", "questionable", "--flag", "still_moving", "--csv")
+        self.assertIn(f"/v1/runs/{run_id}/results?format=csv&state=questionable&flag=still_moving", service.asked)
+
+    def test_orders_to_a_run(self):
+        service = self.serve()
+        for words in (["pause"], ["resume"], ["retry"], ["priority", "10"]):
+            done = call(service, words[0], "latest", *words[1:])
+            self.assertEqual((done.returncode, "running" in done.stdout), (0, True), done.stderr)
+            self.assertEqual(service.posted[-1][0], f"/v1/runs/{run_id}/{words[0]}")
+        self.assertEqual(service.posted[-1][1], {"priority": 10})
+
+    def test_a_scene_is_made_a_study(self):
+        service = self.serve()
+        self.study()
+        done = call(service, "submit", "--scene", self.here / "scene.json", "--times", "0.5,1", "--set", "/a=1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(service.posted[0][1], {"format": "breachline-study/1", "name": "a scene", "overrides": ["/a=1"],
+                                                "scene": {"name": "a scene"}, "transfer_times": [0.5, 1.0]})
+        both = call(service, "submit", self.study(), "--scene", self.here / "scene.json")
+        self.assertEqual((both.returncode, len(service.posted)), (2, 1))
+
+    def test_every_word_has_an_example_and_a_wrong_one_is_named(self):
+        words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "priority",
+                 "results", "logs", "telemetry", "export", "plan")
+        for word in words:
+            self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)
+        wrong = call("http://127.0.0.1:1", "restart", run_id)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn('there is no word "restart"', wrong.stderr)
+        for word in words:
+            self.assertIn(word, wrong.stderr)
+        self.assertIn("For example: breach submit", call("http://127.0.0.1:1").stderr)
+
     def test_submit_can_watch(self):
         done = call(self.serve(end="failed"), "submit", self.study(), "--watch")
         self.assertEqual(done.returncode, 70)
@@ -116,7 +158,7 @@ class Breach(unittest.TestCase):
 
     def test_results(self):
         service = self.serve(looks=0)
-        self.assertIn("0.5  succeeded        12.5", call(service, "results", run_id).stdout)
+        self.assertIn("0.5  succeeded        12.5\n", call(service, "results", run_id).stdout)
         self.assertEqual(call(service, "results", run_id, "--csv").stdout, "transfer_time,runout\n0.5,12.5\n")
         self.assertEqual(json.loads(call(service, "results", run_id, "--json").stdout)["rows"][0]["runout"], 12.5)
         self.assertEqual(call(self.serve(end="failed", looks=0), "results", run_id).returncode, 70)

@@ -44,7 +44,8 @@ class RealService(unittest.TestCase):
 
     def test_a_study_from_submission_to_export(self):
         run = self.breach("submit", self.study(small, [0.1, 0.2])).stdout.strip()
-        self.assertIn("100 %  succeeded  5 of 5 tasks", self.breach("watch", run).stdout)
+        # A second of the MPM may leave the soil moving, which is no failure but is said.
+        self.assertRegex(self.breach("watch", run).stdout, "100 %  (succeeded|questionable)  5 of 5 tasks")
         rows = json.loads(self.breach("results", run, "--json").stdout)["rows"]
         self.assertEqual([each["transfer_time"] for each in rows], [0.1, 0.2])
         self.assertTrue(all(each["runout"] > 0 for each in rows))

@@ -7,6 +7,9 @@ import urllib.parse
 
 run_id = "01JD0000000000000000000000"
 log = "".join(f"line {i}\n" for i in range(1, 6)).encode()
+doubt = "1 of 1 runouts still moving: lower bounds"
+columns = [{"name": name, "kind": kind, "unit": unit, "title": name, "meaning": ""}
+           for name, kind, unit in (("transfer_time", "number", "s"), ("state", "word", ""), ("runout", "number", "m"))]
 artifact = b"\x89HDF pretend " * 1000
 result = json.dumps({"runout": 12.5, "provenance": {"version": "0.1.0", "inputs": [
     {"path": "/somewhere/particles.vtkhdf", "sha256": hashlib.sha256(artifact).hexdigest()}]}}).encode()
@@ -35,7 +38,7 @@ class Service(http.server.ThreadingHTTPServer):
 
     def tasks(self):
         over = self.looks_left <= 0
-        mpm_state = {"succeeded": "succeeded", "failed": "failed", "cancelled": "cancelled"}[self.end] if over else "running"
+        mpm_state = ("succeeded" if self.end == "questionable" else self.end) if over else "running"
         fault = {"exit_code": 70, "summary": "the points\033[2J left the grid"} if mpm_state == "failed" else None
         common = {"run": run_id, "started": "2026-11-21T02:00:01Z", "finished": "2026-11-21T02:00:03Z", "message": ""}
         attempt = {"number": 1, "state": "exited" if over else "running", "started": "2026-11-21T02:00:01Z",
@@ -57,7 +60,9 @@ class Service(http.server.ThreadingHTTPServer):
                 "created": "2026-11-21T02:00:00Z", "started": "2026-11-21T02:00:01Z",
                 "finished": "2026-11-21T02:00:03Z" if over else None, "progress": 1.0 if over else 0.5,
                 "tasks_total": 3, "tasks_done": 3 if over else 1,
-                "tasks_failed": 1 if over and self.end == "failed" else 0, "message": ""}
+                "tasks_failed": 1 if over and self.end == "failed" else 0,
+                "questionable": 1 if over and self.end == "questionable" else 0,
+                "message": doubt if over and self.end == "questionable" else ""}
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
@@ -104,6 +109,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
         elif self.path == f"/v1/runs/{run_id}/cancel":
             self.server.end, self.server.looks_left = "cancelled", 0
             self.answer(202, self.server.run())
+        elif self.path in [f"/v1/runs/{run_id}/{word}" for word in ("pause", "resume", "retry", "priority")]:
+            self.answer(202, self.server.run())
         elif self.path == "/v1/scenes/plan":
             self.answer(200, {"plans": {"mpm_solver": "pore pressure  left out: the scene is dry\n"}})
         else:
@@ -126,7 +133,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
             if query.get("format") == "csv":
                 self.answer(200, b"transfer_time,runout\r\n0.5,12.5\r\n", "text/csv")
             else:
-                self.answer(200, {"run": run_id, "rows": [{"transfer_time": 0.5, "state": "succeeded", "runout": 12.5}]})
+                self.answer(200, {"run": run_id, "columns": columns, "rows": [
+                    {"transfer_time": 0.5, "state": "succeeded", "runout": 12.5, "questionable": False, "flags": []}]})
         elif parts == ["runs", run_id, "telemetry"]:
             begin = int(query["from"])
             lines = [{"time": 0.1 * i, "kinetic_energy": 2.0 * i} for i in range(begin, min(begin + 2, 5))]

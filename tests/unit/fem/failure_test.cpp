@@ -20,7 +20,7 @@ Mesh level_ground(int columns, int rows) {
 }
 
 std::size_t surfaces(const Mesh& mesh, const std::vector<double>& epsilon_q) {
-    return count_failure_surfaces(mesh, ground_of(mesh), epsilon_q, 0.1, 1.5);
+    return failure_surfaces_of(mesh, ground_of(mesh), epsilon_q, 0.1, 1.5).count;
 }
 
 TEST(FailureSurface, GroundRunsFromTheUpperLeftToTheUpperRightCorner) {

@@ -1,7 +1,9 @@
 // Unstructured regions through gmsh's command line. Skipped where gmsh is not installed.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
+#include <fstream>
 
 #include "fem_solver/mesh/mesh.hpp"
 
@@ -72,6 +74,25 @@ TEST_F(Gmsh, IsNamedWhenItIsMissing) {
         EXPECT_NE(std::string(error.what()).find("install"), std::string::npos) << error.what();
     }
     setenv("PATH", path.c_str(), 1);
+}
+
+/// A gmsh that never comes to an end: the test would not either if it were waited for.
+TEST_F(Gmsh, IsEndedWhenTheRunIsStopped) {
+    const auto fake = folder_ / "gmsh";
+    std::ofstream(fake) << "#!/bin/sh\necho $$ > '" << (folder_ / "pid").string()
+                        << "'\nexec sleep 100000\n";
+    std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+    const auto stop = [&] {
+        std::ifstream pid(folder_ / "pid");
+        return pid.peek() != std::ifstream::traits_type::eof();
+    };
+    EXPECT_THROW(mesh_with_gmsh(dam(), folder_, stop), MeshingStopped);
+    setenv("PATH", path.c_str(), 1);
+    pid_t child = 0;
+    std::ifstream(folder_ / "pid") >> child;
+    EXPECT_EQ(kill(child, 0), -1) << "gmsh still runs";
 }
 
 TEST_F(Gmsh, AnOddBorderGetsOneMoreEdgeOnItsOwnSide) {

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "fem_solver/model/model.hpp"
+#include "core/telemetry/columns.hpp"
+#include "fem_solver/model/build_model.hpp"
+#include "fem_solver/monitors/monitors.hpp"
 #include "fem_solver/run.hpp"
 #include "fem_solver/snapshot.hpp"
 
@@ -74,6 +76,20 @@ TEST(Model, HasElasticLawsInAnElasticStage) {
     }
     EXPECT_TRUE(std::holds_alternative<materials::MohrCoulomb>(
         laws_for(model, scene::StageLaws::scene)[1]));
+}
+
+/// Triggers, reports and the page read these names from the one table.
+TEST(Telemetry, HasTheColumnsOfTheTable) {
+    std::vector<std::string> wanted{"phase"}, written;
+    for (const telemetry::Column& each : telemetry::fem_columns()) wanted.emplace_back(each.name);
+    const json line = telemetry_line(Reading{});
+    for (const auto& [name, value] : line.items()) written.push_back(name);
+    std::vector<std::string> kept;
+    for (const Column& each : columns()) kept.emplace_back(each.name);
+    EXPECT_EQ(kept, std::vector<std::string>(wanted.begin() + 1, wanted.end())) << "in this order";
+    std::ranges::sort(wanted);
+    std::ranges::sort(written);
+    EXPECT_EQ(written, wanted);
 }
 
 TEST(Snapshot, IsNamedAfterItsTime) { EXPECT_EQ(snapshot_name(0.25), "snapshot_0.250000.vtkhdf"); }

@@ -17,8 +17,8 @@ json moved(json text, const Map& map, double length, double stress) {
     }
     for (auto& [name, material] : text["materials"].items()) {
         material["law"]["c_kPa"] = material["law"]["c_kPa"].get<double>() * stress;
-        material["density"] = material["density"].get<double>() * stress / length;
     }
+    text["gravity"] = text["gravity"].get<double>() * stress / length;
     json& lem = text["lem"];
     if (lem.contains("circle")) {
         json& circle = lem["circle"];

@@ -174,7 +174,7 @@ TEST(MohrCoulomb, SmallStepsAndOneStepAgreeOnAProportionalPlanePath) {
 TEST(MohrCoulomb, ReadyLawGivesTheSameDigits) {
     samples::Draw draw(15);
     for (const MohrCoulomb& law : samples::soils()) {
-        const ReadyMohrCoulomb prepared = ready(law);
+        const MohrCoulombNumbers prepared = ready(law);
         for (int n = 0; n < 20; ++n) {
             const State old = admissible_state(law, draw);
             const Voigt d_epsilon = draw.strain(1e-2);

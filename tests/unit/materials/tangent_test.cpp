@@ -8,7 +8,7 @@
 namespace breach::materials {
 namespace {
 
-Matrix4 by_differences(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+Matrix4 by_differences(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon,
                        double step) {
     Matrix4 tangent;
     for (int j = 0; j < 4; ++j) {
@@ -22,7 +22,7 @@ Matrix4 by_differences(const ReadyMohrCoulomb& law, const State& old, const Voig
 
 /// True when no perturbation of the step crosses into another facet (differences would then mix two
 /// tangents).
-bool same_facet_around(const ReadyMohrCoulomb& law, const State& old, const Voigt& d_epsilon,
+bool same_facet_around(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon,
                        double step) {
     const auto facet_at = [&](const Voigt& e) {
         const Voigt trial = trial_stress(law.moduli, old.sigma, e);
@@ -47,7 +47,7 @@ TEST(ConsistentTangent, AgreesWithFiniteDifferencesOnEveryFacet) {
     std::map<Return, int> reached;
     double worst = 0.0;
     for (const MohrCoulomb& law : samples::soils()) {
-        const ReadyMohrCoulomb prepared = ready(law);
+        const MohrCoulombNumbers prepared = ready(law);
         const double stiffest = law.elasticity.constrained_modulus();
         for (int n = 0; n < 200; ++n) {
             const State old = integrate(prepared, State{Voigt::Zero()}, draw.strain(1e-3)).state;

@@ -55,9 +55,7 @@ inline scene::Scene one_soil(const materials::Law& law, double density,
     mpm.stiffness_scale = 1.0;
     mpm.cfl = 0.4;
     mpm.duration = 1e9;
-    mpm.rest_change = 0.05;
-    mpm.rest_window = 2.0;
-    mpm.rest_earliest = 3.0;
+    mpm.rest = {.change = 0.05, .window = 2.0, .earliest = 3.0, .speed = 0.05};
     mpm.snapshot_interval = 1e9;
     mpm.telemetry_interval = 0.05;
     mpm.runout = {.toe = {0.0, 0.0}, .regions = {}};

@@ -63,6 +63,29 @@ TEST(Flow, ImmobileSoilHasNoDepth) {
     EXPECT_NEAR(flow_at(body.points, view, 3.0).depth, 2.5, 0.1);
 }
 
+TEST(Flow, SurfaceLiesOnWhatDoesNotMove) {
+    scene::Scene scene =
+        one_soil(elastic(1e6, 0.3), 2000.0, rectangle(0, 1, 6, 3.5), 1.0, 12.0, 6.0);
+    scene.section.regions.push_back(
+        {.name = "ground", .material = 0, .polygon = rectangle(0, 0, 9, 1)});
+    scene.mpm->runout.regions = {"soil"};
+    const Body body = filled_body(scene);
+    const FlowView view = flow_view(scene, body.grid);
+    const std::vector<double> ground =
+        ground_profile(body.points, view, std::vector<double>(13, 0.0));
+    const std::vector<double> surface = surface_profile(body.points, view, ground);
+    const std::vector<Flow> profile = flow_profile(body.points, view);
+    for (const std::size_t k : {0, 3, 5}) {
+        EXPECT_NEAR(ground[k], 1.0, 1e-12);
+        EXPECT_NEAR(surface[k], 3.5, 1e-12);
+        EXPECT_NEAR(ground[k] + profile[k].depth, surface[k], 1e-12) << "nothing has loosened";
+    }
+    EXPECT_NEAR(ground[8], 1.0, 1e-12);
+    EXPECT_NEAR(surface[8], 1.0, 1e-12);  // the ground's own top
+    EXPECT_EQ(ground[11], 0.0);
+    EXPECT_EQ(surface[11], 0.0);
+}
+
 TEST(Flow, FrontLiesWhereTheDepthIsReachedLast) {
     const FlowView view{.mobile = {1}, .width = 2.0, .thickness = 1.0, .low = 10.0, .high = 20.0};
     const std::vector<Flow> profile{{5, 0}, {0.5, 0}, {3, 0}, {1, 0}, {0, 0}, {0, 0}};

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "mpm_solver/measure/history.hpp"
 #include "mpm_solver/measure/overlap.hpp"
 #include "mpm_solver/measure/runout.hpp"
 #include "mpm_solver/run.hpp"
@@ -50,16 +49,6 @@ TEST(Overlap, IsZeroForALatticeAndDoubledByDoubling) {
     for (double& volume : state.volume) volume *= 2.0;
     Body twice = make_body(scene, zoned_points(scene, state, "test"), "test");
     EXPECT_NEAR(OverlapMeter(twice, 1.0).measure(twice), 1.0, 0.08);  // less at the free surface
-}
-
-TEST(Rest, NeedsAStillFrontOverTheWholeWindow) {
-    scene::Mpm mpm = *one_soil(elastic(1e6, 0.3), 1.0, rectangle(0, 0, 1, 1), 1.0, 2.0, 2.0).mpm;
-    History history;
-    for (int k = 0; k <= 100; ++k) {
-        const double t = 0.1 * k;
-        history.push_back({.time = t, .runout = std::min(t, 4.0), .runout_beyond_toe = 1.0});
-        EXPECT_EQ(at_rest(history, mpm), t > 5.94) << t;  // 2 s after 3.95 m was passed
-    }
 }
 
 TEST(Sort, ChangesTheOrderAndNothingElse) {

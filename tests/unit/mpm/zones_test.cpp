@@ -15,7 +15,7 @@ scene::Scene softening_soil() {
 
 materials::Softening softening_of(const scene::Scene& scene) {
     const Body body = filled_body(scene);
-    return *std::get<materials::ReadyMohrCoulomb>(body.zones.at(0).law).law.softening;
+    return *materials::softening(body.zones.at(0).law);
 }
 
 TEST(Zones, SofteningStrainsAreTakenAsTheyStandWithoutALength) {

@@ -107,6 +107,27 @@ TEST_F(Api, BadSceneIsAnsweredWithEveryFaultAndItsPointer) {
     EXPECT_TRUE(pointers.contains("/scene/gravty"));
 }
 
+TEST_F(Api, WhatOnlyALaterPhaseWouldMeetIsRefusedWithEverythingElse) {
+    json bad = study("", {0.25, 99.0});
+    bad["scene"]["mpm"]["runout"]["toe"] = {500, 0};
+    bad["scene"]["lem"]["search"]["exit"] = {200, 300};
+    bad["variants"] = json::array(
+        {{{"name", "sound"}, {"overrides", {"/mpm/cfl=0.3"}}},
+         {{"name", "hung"},
+          {"overrides", {"/fem/supports/2/from=[0,-8]", "/fem/supports/2/to=[60,-8]"}}}});
+    const Answer answer = service->post("/v1/runs", bad.dump());
+    ASSERT_EQ(answer.status, 422);
+    std::set<std::string> pointers;
+    for (const json& each : answer.body.at("faults")) pointers.insert(each.at("pointer"));
+    EXPECT_TRUE(pointers.contains("/transfer_times")) << answer.text;
+    EXPECT_TRUE(pointers.contains("/scene/mpm/runout/toe")) << answer.text;
+    EXPECT_TRUE(pointers.contains("/scene/lem/search/exit")) << answer.text;
+    EXPECT_TRUE(pointers.contains("/variants/1/overrides")) << answer.text;
+    const Answer plan = service->post("/v1/scenes/plan", bad["scene"].dump());
+    ASSERT_EQ(plan.status, 422);
+    EXPECT_EQ(plan.body.at("faults").size(), 2u) << plan.text;
+}
+
 TEST_F(Api, TextThatIsNotSoundJsonIsRefused) {
     for (const std::string body :
          {"", "{", "[]", "nonsense", "{\"name\":1,\"name\":2}", "{\"a\":1e400}", "\xff\xfe"}) {

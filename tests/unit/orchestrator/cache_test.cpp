@@ -102,10 +102,26 @@ TEST(Cache, ResultsOfFailedTasksAreNotReused) {
     EXPECT_EQ(why(service, second, "mpm_0.250000").at("reason"), "earlier task did not succeed");
 }
 
-TEST(Cache, AnEntangledMeshIsEntangledAgainWithoutRunningAndARetryRunsIt) {
+TEST(Cache, AnEntangledFemIsAResultLikeAnyOther) {
     const Sandbox sandbox;
     Service service(sandbox);
     const json wanted = study("entangle_at=1", {0.25, 0.5, 2.0});
+    const json first = service.wait_for_end(service.submit(wanted));
+    EXPECT_EQ(task_labelled(first, "fem").at("state"), "succeeded");
+    const json second = service.wait_for_end(service.submit(wanted));
+    EXPECT_EQ(second.at("state"), "succeeded");
+    EXPECT_EQ(task_labelled(second, "fem").at("state"), "cached");
+    EXPECT_EQ(task_labelled(second, "mpm_0.500000").at("state"), "cached");
+    EXPECT_EQ(task_labelled(second, "transfer_2.000000").at("not_reached"), true);
+    const json rows = service.table(second.at("id"));
+    EXPECT_EQ(rows[2].at("state"), "not_reached");
+    EXPECT_EQ(rows[2].at("reason"), service.table(first.at("id"))[2].at("reason"));
+}
+
+TEST(Cache, ABreakdownBreaksDownAgainWithoutRunningAndARetryRunsIt) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json wanted = study("breakdown_at=1", {0.25, 0.5, 2.0});
     const json first = service.wait_for_end(service.submit(wanted));
     ASSERT_EQ(task_labelled(first, "fem").at("state"), "failed");
     const json second = service.wait_for_end(service.submit(wanted));

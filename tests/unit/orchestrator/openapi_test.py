@@ -113,7 +113,7 @@ class Described(unittest.TestCase):
         get = lambda template, path, status=200, **headers: self.check("GET", template, path, status, **headers)
         post = lambda template, path, status, body=None: self.check("POST", template, path, status, body)
         for path in ("/", "/healthz", "/readyz", "/metrics", "/openapi.json", "/v1/schema/scene", "/v1/schema/study",
-                     "/v1/examples", "/v1/runs", "/v1/sweeps"):
+                     "/v1/examples", "/v1/runs", "/v1/sweeps", "/v1/telemetry/fields"):
             get(path, path)
         get("/static/{file...}", "/static/none.js", 404)
         example = json.loads(get("/v1/examples", "/v1/examples"))["examples"][0]["name"]

@@ -110,7 +110,7 @@ TEST(Queue, CancelledRunCanBeRetriedWithItsSkippedChildren) {
 TEST(Queue, OutputsOfAFailedTaskAreHashedToo) {
     const Sandbox sandbox;
     Service service(sandbox);
-    const json end = service.wait_for_end(service.submit(study("entangle_at=1.6", {0.25, 2.0})));
+    const json end = service.wait_for_end(service.submit(study("breakdown_at=1.6", {0.25, 2.0})));
     const std::string fem = task_labelled(end, "fem").at("id");
     EXPECT_TRUE(eventually([&] {
         const json artifacts = service.get("/v1/tasks/" + fem).body.at("artifacts");

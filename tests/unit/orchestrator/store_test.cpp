@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "services/orchestrator/records/identity.hpp"
@@ -98,9 +99,118 @@ TEST_F(StoreTest, RunsTasksAttemptsAndArtifactsComeBackAsTheyWereWritten) {
     EXPECT_EQ(store.artifacts_of(tasks[0].id).at(0).bytes, 10);
     const auto rows = store.results(run.id);
     ASSERT_EQ(rows.size(), 1u);
-    EXPECT_EQ(rows[0].runout, 12.5);
-    EXPECT_EQ(rows[0].numerical_share, 0.01);
-    EXPECT_FALSE(rows[0].volume_ratio);
+    EXPECT_EQ(value_of(rows[0], "runout"), 12.5);
+    EXPECT_EQ(value_of(rows[0], "numerical_share"), 0.01);
+    EXPECT_TRUE(value_of(rows[0], "volume_ratio").is_null());
+}
+
+json flag(const char* code, const char* severity, const char* pointer = "") {
+    return {{"code", code}, {"severity", severity}, {"message", "why"}, {"pointer", pointer}};
+}
+
+TEST_F(StoreTest, QuestionableResultMakesItsRowAndItsRunQuestionable) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    const json implausible = flag("implausible", "warning", "/materials/a/density");
+    bring_to_success(store, task_id(run.id, 0), {{"flags", {implausible}}});
+    bring_to_success(store, task_id(run.id, 1), {{"flags", {implausible}}});
+    EXPECT_EQ(store.run(run.id)->questionable, 0);
+    bring_to_success(store, task_id(run.id, 2),
+                     {{"runout", 12.5},
+                      {"at_rest", false},
+                      {"flags", {implausible, flag("still_moving", "questionable")}}});
+    const auto ended = *store.run(run.id);
+    EXPECT_EQ(ended.state, "questionable");
+    EXPECT_EQ(ended.questionable, 1);
+    EXPECT_EQ(ended.message, "1 of 1 runouts still moving: lower bounds");
+    EXPECT_EQ(counts_of(ended.flags),
+              (std::map<std::string, std::int64_t>{{"implausible", 1}, {"still_moving", 1}}));
+    const auto rows = store.results(run.id);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(value_of(rows[0], "state"), "questionable");
+    EXPECT_EQ(value_of(rows[0], "questionable"), true);
+    EXPECT_EQ(value_of(rows[0], "at_rest"), false);
+    const json flags = value_of(rows[0], "flags");
+    ASSERT_EQ(flags.size(), 2u) << flags;  // what all three phases say is said once
+    EXPECT_EQ(flags[0].at("code"), "still_moving");
+    EXPECT_EQ(flags[1].at("phase"), "fem_solver");
+    EXPECT_EQ(store.task(task_id(run.id, 2))->state, TaskState::succeeded);
+    Connection database(file(), Access::read_only);
+    database.query("SELECT state, flags FROM sweep_results WHERE run=?", {run.id},
+                   [&](const Row& row) {
+                       EXPECT_EQ(row.text(0), "questionable");
+                       EXPECT_EQ(row.text(1), "still_moving;implausible");
+                   });
+}
+
+TEST_F(StoreTest, DoubtAboutTheFemIsDoubtAboutItsRunouts) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    bring_to_success(store, task_id(run.id, 0),
+                     {{"flags", {flag("entangled_corner", "questionable")}}});
+    bring_to_success(store, task_id(run.id, 1), {{"flags", json::array()}});
+    bring_to_success(store, task_id(run.id, 2), {{"runout", 1.0}, {"flags", json::array()}});
+    EXPECT_EQ(value_of(store.results(run.id).at(0), "state"), "questionable");
+    EXPECT_EQ(store.run(run.id)->message, "1 of 1 FEM results ended by one bad corner of the mesh");
+}
+
+TEST_F(StoreTest, WhatAResultDoesNotSayIsNotKnownRatherThanFine) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    EXPECT_TRUE(value_of(store.results(run.id).at(0), "questionable").is_null());  // no result yet
+    for (const Task& task : store.tasks_of(run.id))
+        bring_to_success(store, task.id, {{"runout", 12.5}, {"at_rest", true}});
+    const auto rows = store.results(run.id);
+    EXPECT_EQ(value_of(rows[0], "state"), "succeeded");
+    EXPECT_EQ(value_of(rows[0], "at_rest"), true);
+    EXPECT_TRUE(value_of(rows[0], "questionable").is_null());
+    EXPECT_TRUE(value_of(rows[0], "flags").is_null());
+}
+
+TEST_F(StoreTest, RowsComeInTheStudysOrderOfVariantsPageByPage) {
+    Store store(file());
+    NewRun run = small_run();
+    run.study = R"({"variants": [{"name": "weak"}, {"name": "medium"}, {"name": "strong"}]})";
+    run.tasks.resize(1);
+    for (const char* variant : {"medium", "strong", "weak"}) {
+        for (const double time : {1.0, 0.5}) {
+            const std::string end = "_" + std::to_string(time) + variant;
+            run.tasks.push_back({.phase = "transfer_tool",
+                                 .label = "transfer" + end,
+                                 .transfer_time = time,
+                                 .parent = 0,
+                                 .release = Release::file_exists,
+                                 .input = "snapshot",
+                                 .overrides = {},
+                                 .variant = variant});
+            run.tasks.push_back({.phase = "mpm_solver",
+                                 .label = "mpm" + end,
+                                 .transfer_time = time,
+                                 .parent = run.tasks.size() - 1,
+                                 .release = Release::parent_succeeded,
+                                 .input = "particles",
+                                 .overrides = {},
+                                 .variant = variant});
+        }
+    }
+    store.write([&](Transaction& t) { t.add_run(run); });
+    const auto places = [](const std::vector<ResultRow>& rows) {
+        std::string text;
+        for (const ResultRow& row : rows)
+            text += value_of(row, "variant").get<std::string>() +
+                    (value_of(row, "transfer_time") == 0.5 ? " early, " : " late, ");
+        return text;
+    };
+    EXPECT_EQ(places(store.results(run.id)),
+              "weak early, weak late, medium early, medium late, strong early, strong late, ");
+    EXPECT_EQ(places(store.results(run.id, {.state = {}, .flag = {}, .from = 1, .most = 3})),
+              "weak late, medium early, medium late, ");
+    EXPECT_EQ(places(store.results(run.id, {.state = "blocked", .flag = {}, .from = 4})),
+              "strong early, strong late, ");
+    EXPECT_TRUE(store.results(run.id, {.state = {}, .flag = "still_moving"}).empty());
 }
 
 TEST_F(StoreTest, EveryChangeOfStateLeavesItsEventInTheSameTransaction) {
@@ -244,6 +354,53 @@ TEST_F(StoreTest, DatabaseOfAnOlderProgramIsMigratedAndItsStateIsKept) {
     for (const auto& entry : std::filesystem::directory_iterator(file().parent_path()))
         backed_up |= entry.path().string().find(".before_version_") != std::string::npos;
     EXPECT_TRUE(backed_up);
+}
+
+TEST_F(StoreTest, ResultsOfAnOlderDatabaseSayWhatTheyKnew) {
+    {
+        Connection database(file(), Access::read_write);
+        for (const char* version : {version_1, version_2, version_3, version_4, version_5})
+            database.script(version);
+        database.script(
+            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
+            "'2026-01-01T00:00:00.000Z', '{\"variants\": [{\"name\": \"b\"}, {\"name\": "
+            "\"a\"}]}', '{}');"
+            "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
+            "overrides, state, finished, result, variant) VALUES "
+            "('r-0', 'r', 'transfer_tool', 'ta', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
+            "'{}', 'a'),"
+            "('r-1', 'r', 'transfer_tool', 'tb', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
+            "'{}', 'b'),"
+            "('r-2', 'r', 'mpm_solver', 'ma', 1, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
+            "'{\"runout\": 1, \"at_rest\": true}', 'a'),"
+            "('r-3', 'r', 'mpm_solver', 'mb', 1, 'r-1', 'at_once', '', '[]', 'succeeded', '1', "
+            "'{\"runout\": 2, \"at_rest\": false}', 'b');"
+            "PRAGMA user_version=5");
+    }
+    Store store(file());
+    const auto rows = store.results("r");
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(value_of(rows[0], "variant"), "b");
+    EXPECT_EQ(value_of(rows[0], "state"), "questionable");
+    EXPECT_EQ(codes_of(value_of(rows[0], "flags")), "still_moving");
+    EXPECT_EQ(value_of(rows[1], "state"), "succeeded");
+    EXPECT_TRUE(value_of(rows[1], "questionable").is_null());
+    EXPECT_EQ(store.run("r")->state, "questionable");
+    EXPECT_EQ(store.run("r")->message, "1 of 2 runouts still moving: lower bounds");
+}
+
+TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {
+    { const Store store(file()); }
+    Connection(file(), Access::read_write)
+        .script("DROP VIEW sweep_results; CREATE VIEW sweep_results AS SELECT 1 AS outdated");
+    const Store store(file());
+    EXPECT_TRUE(store.results("nobody").empty());
+    std::set<std::string> columns;
+    Connection(file(), Access::read_only)
+        .query("SELECT name FROM pragma_table_info('sweep_results')", {},
+               [&](const Row& row) { columns.insert(row.text(0)); });
+    for (const ResultColumn& each : result_columns()) EXPECT_TRUE(columns.contains(each.name));
+    EXPECT_FALSE(columns.contains("outdated"));
 }
 
 TEST_F(StoreTest, MigrationThatFailsHalfWayLeavesTheOldDatabase) {

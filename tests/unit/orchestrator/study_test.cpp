@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "core/fault/fault.hpp"
+#include "core/scene/file_paths.hpp"
+#include "core/telemetry/columns.hpp"
 #include "services/orchestrator/dispatch/verdict.hpp"
 #include "services/orchestrator/programs/command.hpp"
 #include "services/orchestrator/programs/numerics.hpp"
@@ -89,6 +92,83 @@ TEST(Study, AllFaultsOfStudyAndSceneAreReportedAtOnceWithPointersIntoTheStudy) {
     EXPECT_TRUE(holds(pointers, "/scene/materials/slope_soil/density"));
     EXPECT_TRUE(holds(pointers, "/scene/materials/base_soil/law/nu"));
     EXPECT_TRUE(holds(pointers, "/scene/mpm"));
+}
+
+json whole(const std::string& name) {
+    const std::filesystem::path file = BREACH_ROOT "/workflows/studies/" + name;
+    std::ifstream stream(file);
+    json study = json::parse(stream);
+    const auto scene = file.parent_path() / study["scene"].get<std::string>();
+    std::ifstream scene_stream(scene);
+    study["scene"] = json::parse(scene_stream);
+    scene::make_files_absolute(study["scene"], scene.parent_path());
+    scene::make_override_files_absolute(study, scene.parent_path());
+    return study;
+}
+
+TEST(Study, EveryShippedStudyPassesTheCheck) {
+    std::size_t studies = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(BREACH_ROOT "/workflows/studies")) {
+        if (entry.path().extension() != ".json") continue;
+        const std::string name = entry.path().filename();
+        ++studies;
+        try {
+            read_study(whole(name).dump());
+        } catch (const fault::BadInput& error) {
+            ADD_FAILURE() << name << ": " << error.what();
+        }
+    }
+    EXPECT_GE(studies, 11u);
+}
+
+TEST(Study, FaultsOfStudySceneAndALaterVariantStandInOneList) {
+    json study = whole("mochikoshi_quarter.json");
+    study["nam"] = "typo";                                        // the study's schema
+    study["transfer_times"] = {1.0, 99.0};                        // after the FEM's end
+    study["scene"]["materials"]["tailings"]["density"] = -1;      // the scene's schema
+    study["scene"]["fem"]["supports"][0]["from"] = {-40, -5.01};  // drawn beside the section
+    study["scene"]["fem"]["supports"][0]["to"] = {280, -5.01};
+    study["scene"]["mpm"]["runout"]["toe"] = {900, 0};  // outside the grid
+    study["variants"] =
+        json::array({{{"name", "sound"}, {"overrides", {"/mpm/duration=30"}}},
+                     {{"name", "lost"}, {"overrides", {"/fem/motion/file=/nowhere/record.at2"}}}});
+    const auto pointers = pointers_of_faults(study);
+    EXPECT_TRUE(holds(pointers, "/nam"));
+    EXPECT_TRUE(holds(pointers, "/transfer_times"));
+    EXPECT_TRUE(holds(pointers, "/scene/materials/tailings/density"));
+    EXPECT_TRUE(holds(pointers, "/scene/fem/supports/0"));
+    EXPECT_TRUE(holds(pointers, "/scene/mpm/runout/toe"));
+    EXPECT_TRUE(holds(pointers, "/variants/1/overrides"));
+    EXPECT_FALSE(holds(pointers, "/variants/0/overrides")) << "the scene's own are not repeated";
+}
+
+TEST(Study, AVariantThatEndsBeforeItsTransfersIsRefused) {
+    json study = slope_study();
+    study["variants"] =
+        json::array({{{"name", "long"}, {"overrides", json::array()}},
+                     {{"name", "short"}, {"overrides", {"/fem/stages/1/duration=0.75"}}}});
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/variants/1/overrides"});
+}
+
+TEST(Study, ARelativeFileIsRefusedInOverridesAsWell) {
+    json study = slope_study();
+    study["variants"] =
+        json::array({{{"name", "meshed"}, {"overrides", {"/fem/msh_file=meshes/slope.msh"}}}});
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/variants/0/overrides"});
+}
+
+TEST(Study, TriggersOnWhatTheRunDoesNotRecordAreRefused) {
+    json study = slope_study();  // without water, and without stages of liquefaction
+    study["triggers"] = json::array(
+        {{{"kind", "criterion"}, {"when", "liquefaction_depth > 2"}},
+         {{"kind", "window"}, {"lower", "crest_dx > 1"}, {"upper", "crest_dy > critical_depth"}}});
+    EXPECT_EQ(pointers_of_faults(study),
+              (std::vector<std::string>{"/triggers/0/when", "/triggers/1/upper"}));
+}
+
+TEST(Study, ASceneInPlaceOfAStudyIsNamedAsSuch) {
+    EXPECT_EQ(pointers_of_faults(slope_study()["scene"]), std::vector<std::string>{"/format"});
 }
 
 TEST(Study, SceneByPathAndRelativeMeshFileAreRefused) {
@@ -286,6 +366,19 @@ TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
     EXPECT_EQ(verdict({}, 9, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict(0, {}, StopReason::shutdown), Verdict::well);
     EXPECT_EQ(verdict(70, {}, StopReason::shutdown), Verdict::badly);
+}
+
+TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {
+    for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()}) {
+        for (const telemetry::Column& each : table) {
+            json study = slope_study();
+            study["triggers"] = {
+                {{"kind", "criterion"}, {"when", std::string(each.name) + " > 0.5"}}};
+            EXPECT_TRUE(pointers_of_faults(study).empty()) << each.name;
+            EXPECT_NE(std::string(each.unit), "") << each.name;
+            EXPECT_NE(std::string(each.meaning), "") << each.name;
+        }
+    }
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <fstream>
 #include <set>
 #include <thread>
 
+#include "core/exchange/archive.hpp"
 #include "tests/faults/service_under_test.hpp"
 
 namespace breach::testing {
@@ -106,7 +108,7 @@ TEST(ListOfRuns, IsFilteredByStateAndName) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string good = service.submit(study("", {0.25}));
-    json named = study("entangle_at=0.1", {1.0});
+    json named = study("breakdown_at=0.1", {1.0});
     named["name"] = "broken";
     const std::string bad = service.submit(named);
     service.wait_for_end(good);
@@ -124,6 +126,118 @@ TEST(ListOfRuns, IsFilteredByStateAndName) {
     EXPECT_TRUE(ids("state=succeeded&name=broken").empty());
     EXPECT_EQ(service.get("/v1/runs?state=happy").status, 400);
     EXPECT_EQ(service.get("/v1/runs?colour=red").status, 400);
+}
+
+json task_labelled(const json& run, const std::string& label) {
+    for (const json& each : run.at("tasks"))
+        if (each.at("label") == label) return each;
+    return json::object();
+}
+
+std::vector<std::string> of_rows(const json& rows, const char* key) {
+    std::vector<std::string> found;
+    for (const json& row : rows) found.push_back(row.at(key));
+    return found;
+}
+
+TEST(ResultsThatMove, AreQuestionableWhereverTheyAreShown) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(study("moving_from=0.5", {0.25, 0.5, 0.75}));
+    const json ended = service.wait_for_end(run);
+    EXPECT_EQ(ended.at("state"), "questionable");
+    EXPECT_EQ(ended.at("questionable"), 2);
+    EXPECT_EQ(ended.at("message"), "2 of 3 runouts still moving: lower bounds");
+    EXPECT_EQ(ended.at("flag_counts"), json({{"still_moving", 2}, {"implausible", 3}}));
+    const json task = task_labelled(ended, "mpm_0.500000");
+    EXPECT_EQ(task.at("state"), "succeeded");  // what the lifecycle says
+    EXPECT_EQ(task.at("questionable"), true);
+    EXPECT_EQ(task.at("ended"), "duration");
+    EXPECT_EQ(task.at("flags").size(), 2u);
+    EXPECT_TRUE(task_labelled(ended, "fem").at("flags").is_null());  // the fake FEM says nothing
+
+    const std::string path = "/v1/runs/" + run + "/results";
+    const json rows = service.get(path).body.at("rows");
+    EXPECT_EQ(of_rows(rows, "state"),
+              (std::vector<std::string>{"succeeded", "questionable", "questionable"}));
+    EXPECT_EQ(rows[0].at("questionable"), false);
+    EXPECT_EQ(rows[1].at("at_rest"), false);
+    EXPECT_EQ(rows[1].at("flags")[0].at("pointer"), "/mpm/duration");
+    const std::string csv = service.get(path + "?format=csv").text;
+    EXPECT_NE(csv.find("0.5,\"questionable\","), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",true,\"still_moving;implausible\"\r\n"), std::string::npos) << csv;
+    EXPECT_EQ(service.get(path + "?state=questionable").body.at("rows").size(), 2u);
+    EXPECT_EQ(service.get(path + "?flag=implausible&from=2").body.at("rows").size(), 1u);
+    EXPECT_TRUE(service.get(path + "?flag=moving").body.at("rows").empty());
+    EXPECT_EQ(service.get(path + "?state=happy").status, 400);
+    EXPECT_EQ(service.get("/v1/runs?state=questionable").body.at("runs").size(), 1u);
+    EXPECT_TRUE(service.get("/v1/runs?state=succeeded").body.at("runs").empty());
+}
+
+TEST(ResultsOfAnEarlierVersion, AreNotSaidToBeFine) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(study("as_before=1 moving_from=0.5", {0.25, 0.5}));
+    service.wait_for_end(run);
+    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
+    EXPECT_TRUE(rows[0].at("questionable").is_null());
+    EXPECT_TRUE(rows[0].at("flags").is_null());
+    EXPECT_EQ(rows[1].at("state"), "questionable");  // it says that it did not come to rest
+}
+
+TEST(Variants, KeepTheStudysOrderInEveryTable) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json wanted = study("", {0.25, 0.5});
+    wanted["variants"] = {{{"name", "weak"}},
+                          {{"name", "medium"}, {"overrides", {"/mpm/duration=5"}}},
+                          {{"name", "strong"}, {"overrides", {"/mpm/duration=6"}}}};
+    const std::string run = service.submit(wanted);
+    service.wait_for_end(run);
+    const std::vector<std::string> order{"weak", "weak", "medium", "medium", "strong", "strong"};
+    const std::string path = "/v1/runs/" + run + "/results";
+    EXPECT_EQ(of_rows(service.get(path).body.at("rows"), "variant"), order);
+    EXPECT_EQ(of_rows(service.get(path + "?from=1&limit=2").body.at("rows"), "variant"),
+              (std::vector<std::string>{"weak", "medium"}));
+    const std::string csv = service.get(path + "?format=csv").text;
+    EXPECT_LT(csv.find("\"weak\""), csv.find("\"medium\""));
+    EXPECT_LT(csv.find("\"medium\""), csv.find("\"strong\""));
+
+    const auto file = sandbox.root() / "results.h5";
+    std::ofstream(file, std::ios::binary) << service.get(path + "?format=hdf5").text;
+    const auto archive = exchange::read_archive(file, "sweep_results", 1);
+    EXPECT_EQ(archive.texts.at("variant"), "weak\nweak\nmedium\nmedium\nstrong\nstrong\n");
+    EXPECT_EQ(archive.integers.at("questionable"), std::vector<std::int64_t>(6, 0));
+    EXPECT_EQ(archive.units.at("runout"), "m");
+}
+
+TEST(Submission, TakesASceneForWhatItIs) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json scene = study("", {0.25}).at("scene");
+    const json faults = service.post("/v1/runs", scene.dump()).body.at("faults");
+    ASSERT_EQ(faults.size(), 1u) << faults;
+    EXPECT_NE(faults[0].at("cause").get<std::string>().find("a scene, not a study"),
+              std::string::npos);
+    EXPECT_NE(faults[0].at("remedy").get<std::string>().find("breach submit --scene"),
+              std::string::npos);
+    const json other = service.post("/v1/scenes/plan", study("", {0.25}).dump()).body.at("faults");
+    ASSERT_EQ(other.size(), 1u) << other;
+    EXPECT_NE(other[0].at("cause").get<std::string>().find("a study, not a scene"),
+              std::string::npos);
+}
+
+TEST(Submission, SaysWhereAFileIsLookedFor) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json wanted = study("", {0.25});
+    wanted["scene"]["fem"]["motion"] = {{"file", "/home/somebody/motion.txt"}};
+    const json faults = service.post("/v1/runs", wanted.dump()).body.at("faults");
+    bool told = false;
+    for (const json& each : faults)
+        told |= each.at("pointer") == "/scene/fem/motion/file" &&
+                each.at("remedy").get<std::string>().find("copy it there") != std::string::npos;
+    EXPECT_TRUE(told) << faults;
 }
 
 TEST(Sweeps, AreRunsSeenAsTables) {

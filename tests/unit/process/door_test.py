@@ -46,6 +46,10 @@ def main(folder):
         check(f"{title} ends with {code}", done.returncode == code, done)
         fault = json.loads((out / "fault.json").read_text())
         check("fault.json has code and summary", fault["exit_code"] == code and fault["summary"], fault)
+        known = fault["provenance"]
+        check("fault.json says which version, scene and settings gave up", known["phase"] == "toy_phase" and
+              known["version"] and known["overrides"] == [f"/title={title}"] and known["scene"]["title"] == title and
+              fault["plan"][0]["feature"] == "counting", fault)
         check("the last line says it too", json.loads(done.stdout.splitlines()[-1])["event"] == "fault")
         check("no result is left", not (out / "result.json").exists())
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/fault/fault.hpp"
+#include "services/report/chart/draw.hpp"
 #include "services/report/figures/element_test_figures.hpp"
 #include "services/report/figures/stability_figures.hpp"
 
@@ -30,6 +31,29 @@ TEST(Chart, EscapesTextAndDrawsEachPoint) {
     std::size_t circles = 0;
     for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at) ++circles;
     EXPECT_EQ(circles, 3u);
+}
+
+TEST(Chart, DrawsAPointByWhatItsValueIsWorth) {
+    Chart chart = sample();
+    EXPECT_EQ(as_svg(chart).find("lower bound"), std::string::npos);
+    chart.series[0].certainty = {Certainty::certain, Certainty::at_least, Certainty::doubtful};
+    const std::string svg = as_svg(chart);
+    const auto count = [&](const std::string& text) {
+        std::size_t found = 0;
+        for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++found;
+        return found;
+    };
+    EXPECT_EQ(count("v-9m-3.5 3.5l3.5-3.5l3.5 3.5"), 2u)
+        << "an arrow at its point and in the legend";
+    EXPECT_EQ(count("r=\"4\" fill=\"#fff\""), 4u) << "hollow, both there and in the legend";
+    EXPECT_EQ(count("stroke-dasharray=\"2.4 1.6\""), 2u);
+    EXPECT_EQ(count(">lower bound</text>"), 1u);
+    EXPECT_EQ(count(">questionable</text>"), 1u);
+    EXPECT_EQ(as_csv(chart),
+              "series,\"N [-]\",\"CSR [-]\",\"certainty\"\n\"one\",1,0.3,\"certain\"\n"
+              "\"one\",10,0.2,\"lower bound\"\n\"one\",100,0.1,\"questionable\"\n");
+    chart.series[0].certainty.pop_back();
+    EXPECT_THROW(as_svg(chart), std::invalid_argument);
 }
 
 TEST(Chart, RefusesWhatHasNoPlace) {

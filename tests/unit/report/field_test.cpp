@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "services/report/chart/colour_map.hpp"
+#include "services/report/chart/draw.hpp"
 #include "services/report/chart/figure.hpp"
 
 namespace breach::report {

@@ -59,7 +59,7 @@ def main(folder):
         check(f"{href} is there", missing_png or (page.parent / href).is_file())
 
     runout = json.loads((mpm / "result.json").read_text())["runout"]
-    shown = [float(value) for name, time, value in rows(files / "runout_against_transfer_time.csv")]
+    shown = [float(row[2]) for row in rows(files / "runout_against_transfer_time.csv")]
     check("the runout is the one in result.json, to the last digit", shown == [runout], (shown, runout))
 
     lines = [json.loads(line) for line in (folder / "fem/telemetry.jsonl").read_text().splitlines()]

@@ -39,6 +39,75 @@ class WetRun : public testing::Test {
         throw std::runtime_error("no figure " + name);
     }
 
+    static const Table& table(const Document& document, const std::string& name) {
+        for (const Chapter& chapter : document.chapters) {
+            for (const Table& each : chapter.tables) {
+                if (each.name == name) return each;
+            }
+        }
+        throw std::runtime_error("no table " + name);
+    }
+
+    static std::string cell(const Document& document, const std::string& name, std::size_t row,
+                            const std::string& column) {
+        const Table& in = table(document, name);
+        const auto head = std::ranges::find(in.columns, column);
+        if (head == in.columns.end()) throw std::runtime_error("no column " + column);
+        return in.rows.at(row).at(static_cast<std::size_t>(head - in.columns.begin()));
+    }
+
+    static std::string in_one(const std::vector<std::string>& sentences) {
+        std::string text;
+        for (const std::string& each : sentences) text += each + "\n";
+        return text;
+    }
+
+    /// Entries put into a phase's result.json, which is made if it is not there.
+    void edit_result(const std::string& label, const nlohmann::json& entries) const {
+        const fs::path file = folder_ / "tasks" / label / "result.json";
+        nlohmann::json result = nlohmann::json::object();
+        if (fs::exists(file)) result = nlohmann::json::parse(text_of(file));
+        result.update(entries);
+        std::ofstream(file) << result.dump();
+    }
+
+    /// As the phases of this version write it: all runouts warn, one still moves, the FEM entangled.
+    void flag_all() const {
+        const nlohmann::json moving = {{"code", "still_moving"},
+                                       {"severity", "questionable"},
+                                       {"message", "12 % of the released energy is left"},
+                                       {"pointer", "/mpm/duration"}};
+        const nlohmann::json implausible = {{"code", "implausible"},
+                                            {"severity", "warning"},
+                                            {"message", "19 looks like kN/m3"},
+                                            {"pointer", "/materials/sand/density"}};
+        for (const char* sound : {"mpm_13.000000_softened", "mpm_16.000000_not_softened"}) {
+            edit_result(sound, {{"at_rest", true}, {"flags", {implausible}}});
+        }
+        edit_result("mpm_16.000000_softened",
+                    {{"at_rest", false}, {"flags", {implausible, moving}}});
+        edit_result("transfer_14.000000", {{"flags", nlohmann::json::array()}});
+        fs::remove(folder_ / "tasks/fem/fault.json");
+        edit_result("fem", {{"phase", "fem_solver"},
+                            {"ended", "entangled"},
+                            {"end_time", 20.5},
+                            {"flags",
+                             {{{"code", "entangled"},
+                               {"severity", "warning"},
+                               {"message", "the mesh entangled"},
+                               {"pointer", ""}}}},
+                            {"entanglement",
+                             {{"time", 20.5},
+                              {"element", 212},
+                              {"region", "sand"},
+                              {"x", 1.5},
+                              {"y", 0.25},
+                              {"mean_epsilon_q", 0.34},
+                              {"failure_surfaces", 2},
+                              {"kind", "band"}}},
+                            {"provenance", {{"overrides", nlohmann::json::array()}}}});
+    }
+
     static std::string text_of(const fs::path& file) {
         std::ostringstream text;
         text << std::ifstream(file).rdbuf();
@@ -59,7 +128,7 @@ TEST_F(WetRun, KnowsItsPhases) {
 }
 
 TEST_F(WetRun, IsMeasuredWhereItsTelemetryCrosses) {
-    const Measures m = measures_of(read_run(folder_));
+    const Measures m = measures_of(read_run(folder_), paper_for("mochikoshi-small"));
     EXPECT_EQ(m.at("time_liquefied_12_m").value, 11);
     EXPECT_EQ(m.at("time_first_surface").value, 13);
     EXPECT_EQ(m.at("time_epsilon_q_20").value, 17) << "0.0125 t exceeds 0.2 after 16 s";
@@ -95,12 +164,14 @@ TEST_F(WetRun, ShowsThePapersNumbersBesideItsOwn) {
 TEST_F(WetRun, KnowsTheCriticalDepthThatItsTriggersAskFor) {
     std::ofstream(folder_ / "study.json") << R"({"triggers": [{"kind": "window",
         "lower": "liquefaction_depth >= critical_depth", "upper": "time >= 18"}]})";
-    EXPECT_EQ(measures_of(read_run(folder_)).count("window_lower"), 0u) << "no stability analysis";
+    EXPECT_EQ(measures_of(read_run(folder_), paper_for("mochikoshi-small")).count("window_lower"),
+              0u)
+        << "no stability analysis";
     fs::create_directories(folder_ / "tasks/lem");
     fs::copy(folder_ / "tasks/fem/scene.completed.json",
              folder_ / "tasks/lem/scene.completed.json");
     std::ofstream(folder_ / "tasks/lem/result.json") << R"({"critical_depth": 12.25})";
-    const Measures m = measures_of(read_run(folder_));
+    const Measures m = measures_of(read_run(folder_), paper_for("mochikoshi-small"));
     EXPECT_EQ(m.at("window_lower").value, 11);
     EXPECT_EQ(m.at("window_upper").value, 18);
 }
@@ -112,8 +183,7 @@ TEST_F(WetRun, TellsWhatEachVariantChanges) {
     const auto& rows = chapter->tables.front().rows;
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0][1], "nothing");
-    EXPECT_EQ(rows[1][1],
-              "/materials/*/viscosity=0 (2 materials); /mpm/terrain=[[0,0],[2,0],[102,-20]]");
+    EXPECT_EQ(rows[1][1], "/materials/{a, b}/viscosity=0; /mpm/terrain=[[0,0],[2,0],[102,-20]]");
     EXPECT_EQ(rows[0][4], "210");
     EXPECT_EQ(rows[1][4], "30") << "on the first one's plateau, 16 s";
     EXPECT_EQ(rows[1][5], "-85.7");
@@ -152,6 +222,137 @@ TEST_F(WetRun, CarriesTheVariantsOfACompanion) {
     EXPECT_EQ(last.title, "Variants: wet");
     EXPECT_EQ(last.tables.front().name, "variants_wet");
     EXPECT_EQ((d.chapters.end() - 2)->figures.front().name, "ground_softened_wet");
+}
+
+TEST_F(WetRun, NamesTheMaterialThatAVariantChanges) {
+    std::ofstream(folder_ / "study.json") << R"({"variants": [{"name": "softened"},
+        {"name": "not_softened", "overrides": ["/materials/liquefied/viscosity=0",
+         "/materials/a/law/c_kPa=1", "/materials/b/law/c_kPa=2"]}]})";
+    const Document d = document();
+    const auto chapter = std::ranges::find(d.chapters, "Variants", &Chapter::title);
+    ASSERT_NE(chapter, d.chapters.end());
+    EXPECT_EQ(chapter->tables.front().rows[1][1],
+              "/materials/liquefied/viscosity=0; /materials/{a, b}/law/c_kPa=1, 2");
+}
+
+TEST_F(WetRun, WithoutFlagsIsNotSaidToBeFine) {
+    const Document d = document();
+    ASSERT_FALSE(d.verdict.doubts.empty());
+    const std::string all = in_one(d.verdict.doubts);
+    EXPECT_NE(all.find("4 of 4 results carry no flags"), std::string::npos) << all;
+    EXPECT_NE(all.find("The FEM left no result: the mesh is entangled at 21 s."), std::string::npos)
+        << all;
+    const Series& s = figure(d, "runout_against_transfer_time").chart.series.front();
+    EXPECT_EQ(s.certainty, std::vector<Certainty>(2, Certainty::unknown));
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 0, "how it ended"), "carries no flags: not known");
+    EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "settings"), "not known: no result.json");
+}
+
+TEST_F(WetRun, OfAnEarlierVersionThatStillMovedIsALowerBound) {
+    edit_result("mpm_16.000000_softened", {{"at_rest", false}});
+    const Document d = document();
+    EXPECT_EQ(figure(d, "runout_against_transfer_time").chart.series.front().certainty,
+              (std::vector<Certainty>{Certainty::unknown, Certainty::at_least}));
+    EXPECT_NE(in_one(d.verdict.doubts).find("1 runouts among them still moved"), std::string::npos);
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 2, "runout [m]"), "\u2265 210");
+}
+
+TEST_F(WetRun, SaysAtItsHeadWhatMustBeKnownFirst) {
+    flag_all();
+    const Document d = document();
+    const std::string doubts = in_one(d.verdict.doubts), notes = in_one(d.verdict.notes);
+    EXPECT_NE(doubts.find("Still moving, 1 of 3 runouts: 12 % of the released energy is left."),
+              std::string::npos)
+        << doubts;
+    EXPECT_NE(notes.find("Implausible, 3 of 3 runouts: 19 looks like kN/m3 (mpm_13"),
+              std::string::npos)
+        << notes;
+    EXPECT_NE(notes.find("The mesh entangled at 20.5 s in element 212 (region sand, x = 1.5 m, "
+                         "y = 0.25 m), in the failure's band; then: mean epsilon_q 34 %, failure "
+                         "surfaces 2."),
+              std::string::npos)
+        << notes;
+    const std::string html = as_html(d, "files");
+    EXPECT_LT(html.find("id=\"verdict\" class=\"verdict doubt\""), html.find("<nav>"));
+    EXPECT_LT(html.find("Still moving, 1 of 3 runouts"), html.find("<nav>"));
+}
+
+TEST_F(WetRun, MarksLowerBoundsWhereverTheyStand) {
+    flag_all();
+    const Document d = document();
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 2, "runout [m]"), "\u2265 210");
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 2, "how it ended"),
+              "questionable: still moving; warnings: implausible");
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 0, "runout [m]"), "90");
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 0, "how it ended"), "well; warnings: implausible");
+    EXPECT_EQ(cell(d, "variants", 0, "runout [m]"), "\u2265 210");
+    EXPECT_EQ(cell(d, "variants", 1, "runout [m]"), "30");
+    EXPECT_EQ(cell(d, "variants", 1, "against the first [%]"), "-") << "of a bound";
+    EXPECT_EQ(cell(d, "variants", 0, "how the runouts ended"), "1 of 2 questionable: still moving");
+    EXPECT_EQ(cell(d, "ground", 0, "t_T = 16 s, softened"), "\u2265 210");
+    const Figure& against = figure(d, "runout_against_transfer_time");
+    EXPECT_EQ(against.chart.series.front().certainty,
+              (std::vector<Certainty>{Certainty::certain, Certainty::at_least}));
+    EXPECT_TRUE(against.chart.series[1].certainty.empty()) << "the other variant is sound";
+    EXPECT_NE(as_csv(against.chart).find("16,210,\"lower bound\""), std::string::npos);
+    EXPECT_NE(figure(d, "final_geometry_16s").caption.find("\u2265 210 m, a lower bound"),
+              std::string::npos);
+    EXPECT_EQ(cell(d, "flags", 1, "flag"), "implausible");
+    bool compared = false;
+    for (const auto& row : table(d, "comparison").rows) compared |= row[3] == "\u2265 210";
+    EXPECT_TRUE(compared);
+}
+
+TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
+    flag_all();
+    const Document d = document();
+    EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "how it ended"),
+              "entangled at 20.5 s in element 212 (region sand, x = 1.5 m, y = 0.25 m), in the "
+              "failure's band");
+    EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "settings"), "as in the scene");
+    EXPECT_EQ(measures_of(read_run(folder_), {}).at("time_entangled").value, 20.5);
+    const auto chapter = std::ranges::find(d.chapters, "Shaking and failure", &Chapter::title);
+    EXPECT_EQ(chapter->text.find("ended early"), std::string::npos) << chapter->text;
+    EXPECT_NE(chapter->text.find("it is no fault"), std::string::npos) << chapter->text;
+}
+
+TEST_F(WetRun, TellsOnlyWhatItsOwnSceneAndStudySay) {
+    fs::remove_all(folder_);
+    write_wet_run(folder_, "other-dam");
+    fs::create_directories(folder_ / "tasks/lem");
+    fs::copy(folder_ / "tasks/fem/scene.completed.json",
+             folder_ / "tasks/lem/scene.completed.json");
+    std::ofstream(folder_ / "tasks/lem/result.json") << R"({"factor_of_safety": 1.5, "slices": 30,
+        "circle": {"center": [1, 1], "radius": 1}, "entry": [0, 1], "exit": [2, 1]})";
+    const auto run = read_run(folder_);
+    const Measures m = measures_of(run, paper_for("other-dam"));
+    for (const char* key :
+         {"time_liquefied_12_m", "time_liquefied_critical", "runout_at_13:softened"})
+        EXPECT_EQ(m.count(key), 0u) << key;
+    EXPECT_EQ(m.at("factor_of_safety_intact").error, "30 slices");
+    const std::string html = as_html(document(), "files");
+    for (const char* others : {"upper dam", "50 slices", "r_u > 0.7", "threshold 20", "18.5 m"}) {
+        EXPECT_EQ(html.find(others), std::string::npos) << others;
+    }
+}
+
+TEST_F(WetRun, DrawsTheThresholdsOfItsTriggersAndTheLiquefactionOfItsScene) {
+    const auto marks = [](const Figure& figure) {
+        std::vector<double> levels;
+        for (const Mark& each : figure.chart.marks) {
+            if (each.at == Mark::At::y) levels.push_back(each.value);
+        }
+        return levels;
+    };
+    const Document d = document();
+    EXPECT_EQ(marks(figure(d, "jacobian_average")), (std::vector<double>{0.97}));
+    EXPECT_EQ(marks(figure(d, "epsilon_q_average")), (std::vector<double>{}));
+    EXPECT_EQ(marks(figure(d, "liquefaction_depth")), (std::vector<double>{18.5}));
+    EXPECT_EQ(figure(d, "liquefaction_depth").caption,
+              "Depth of the deepest liquefied node below y = 1 m (/fem/liquefaction).");
+    std::ofstream(folder_ / "study.json")
+        << R"({"triggers": [{"kind": "criterion", "when": "0.2 < epsilon_q_avg and time > 3"}]})";
+    EXPECT_EQ(marks(figure(document(), "epsilon_q_average")), (std::vector<double>{20}));
 }
 
 TEST_F(WetRun, TakesTheMotionThatTheFemKept) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fem_solver/analysis.hpp"
+#include "fem_solver/model/build_model.hpp"
 
 namespace breach::fem::bench {
 

@@ -1,5 +1,7 @@
 // The switch from elastic to plastic soil sets a slope in motion: momentum and energy must account
 // for it.
+#include <functional>
+
 #include "core/exchange/mesh_snapshot.hpp"
 #include "tests/verification/fem/bench.hpp"
 
@@ -96,27 +98,108 @@ TEST(Failure, ScarcelyDependsOnTheTimeStep) {
     expect_error("crest with dt 5 ms against 1.25 ms", std::abs(crest[0] / crest[1] - 1.0), 0.01);
 }
 
-TEST(Failure, AnEntangledMeshEndsTheRunWithTheLastGoodState) {
+TEST(Failure, AnEntangledMeshIsARegularEndWithTheLastGoodState) {
     json scene = unsupported_column();
     scene["fem"]["stages"][1]["duration"] = 1.5;
     scene["fem"]["snapshot_times"] = {0.25, 0.5};
     bench::Run run(scene);
-    try {
-        run.go();
-        FAIL() << "the column should have entangled its mesh";
-    } catch (const fault::Breakdown& breakdown) {
-        std::printf("    %s\n", breakdown.what());
-        EXPECT_NE(std::string(breakdown.what()).find("element"), std::string::npos);
-    }
+    run.go();
     const double last = run.analysis().position().time;
+    const json& facts = run.session().result();
+    ASSERT_EQ(facts.at("ended"), "entangled") << "the column should have entangled its mesh";
+    EXPECT_EQ(facts.at("end_time"), last);
+    const json& what = facts.at("entanglement");
+    std::printf("    %s\n", what.dump().c_str());
+    EXPECT_GT(what.at("time"), last) << "the step in which it folded comes after the last good one";
+    EXPECT_EQ(what.at("region"), "block");
+    EXPECT_GT(what.at("mean_epsilon_q"), 0.1);
+    EXPECT_EQ(what.at("kind"), "band") << "a whole column collapses";
+    ASSERT_EQ(run.session().flags().size(), 1u);
+    EXPECT_EQ(run.session().flags()[0].code, "entangled");
+    EXPECT_EQ(run.session().flags()[0].severity, fault::Severity::warning);
     char name[64];
     std::snprintf(name, sizeof name, "snapshot_%.6f.vtkhdf", last);
     for (const std::string& file : {std::string("snapshot_0.250000.vtkhdf"),
                                     std::string("snapshot_0.500000.vtkhdf"), std::string(name)}) {
         EXPECT_NO_THROW(exchange::read_mesh_snapshot(run.folder() / file)) << file;
     }
-    EXPECT_TRUE(std::filesystem::exists(run.folder() / "checkpoint.h5"));
     EXPECT_TRUE(std::filesystem::exists(run.folder() / "history.h5"));
+}
+
+TEST(Failure, AMeshThatFoldsInItsFirstStepIsAFaultOfTheScene) {
+    json scene = unsupported_column();
+    scene["fem"]["least_jacobian_ratio"] = 0.999999;  // any strain is too much
+    bench::Run run(scene);
+    try {
+        run.go();
+        FAIL() << "nothing had moved, so nothing had failed";
+    } catch (const fault::Breakdown& breakdown) {
+        const std::string what = breakdown.what();
+        EXPECT_NE(what.find("first step"), std::string::npos) << what;
+        EXPECT_NE(what.find("of 'block' at ("), std::string::npos) << what;
+    }
+}
+
+/// Strain of the elements of a 10 x 10 block, and what folding element 55 then means.
+Entanglement judged(const std::function<double(std::size_t)>& epsilon_q) {
+    bench::Block block{.width = 10.0, .height = 10.0, .columns = 10, .rows = 10};
+    const scene::Scene scene = bench::parse(bench::scene_of(block));
+    const Model model = bench::model_of(scene);
+    const Watch watch(scene::fem_of(scene), model);
+    Motion motion = at_rest(model);
+    for (std::size_t p = 0; p < motion.strain.size(); ++p) {
+        const double gamma = std::sqrt(3.0) * epsilon_q(p / model.points_per_element);
+        motion.strain[p] = Voigt(0.0, 0.0, 0.0, gamma);  // pure shear: epsilon_q = gamma / sqrt(3)
+    }
+    Distortion folded;
+    folded.least = 0.0;
+    folded.worst_element = 55;
+    return entanglement_of(scene.section, model, watch, motion, folded, 6.7);
+}
+
+TEST(Entangled, OneCornerInSoundSoilIsNoFailureOfTheDam) {
+    const Entanglement what = judged([](std::size_t e) { return e == 55 ? 0.9 : 0.08; });
+    EXPECT_EQ(what.kind, Entanglement::Kind::corner);
+    EXPECT_NEAR(what.mean_epsilon_q, 0.08, 1e-12) << "its own strain does not count";
+    EXPECT_EQ(flag_of(what).code, "entangled_corner");
+    EXPECT_EQ(flag_of(what).severity, fault::Severity::questionable);
+    const std::string words = in_words(what);
+    for (const char* part : {"one corner at (", "6.7 s", "8 %", "no failure surface",
+                             "not a failure of the dam", "refine"}) {
+        EXPECT_NE(words.find(part), std::string::npos) << part << " in " << words;
+    }
+}
+
+TEST(Entangled, InSoilThatHasFailedItIsTheEndOfTheFailure) {
+    const Entanglement what = judged([](std::size_t) { return 0.3; });
+    EXPECT_EQ(what.kind, Entanglement::Kind::band);
+    EXPECT_EQ(flag_of(what).code, "entangled");
+}
+
+TEST(Entangled, OnAThinBandFromGroundToGroundItIsTheEndOfTheFailure) {
+    // A trough of strained elements: down from the top at column 1, along row 5, up at column 8. Its
+    // neighbours are sound, so that their mean is small.
+    const Entanglement what = judged([](std::size_t e) {
+        const std::size_t column = e % 10, row = e / 10;
+        const bool leg = row >= 5 && (column == 1 || column == 8);
+        return leg || (row == 5 && column >= 1 && column <= 8) ? 0.2 : 0.01;
+    });
+    EXPECT_LT(what.mean_epsilon_q, 0.1);
+    EXPECT_EQ(what.failure_surfaces, 1u);
+    EXPECT_EQ(what.kind, Entanglement::Kind::band);
+}
+
+TEST(Crest, FarFromEveryNodeIsSaid) {
+    bench::Block block{.width = 10.0, .height = 10.0, .columns = 10, .rows = 10};
+    json scene = bench::scene_of(block);
+    bench::Run near(scene);
+    EXPECT_TRUE(near.session().flags().empty());
+    EXPECT_EQ(near.session().result().at("crest").at("distance"), 0.0);
+    scene["fem"]["crest"] = {510.0, 10.0};
+    bench::Run far(scene);
+    ASSERT_EQ(far.session().flags().size(), 1u);
+    EXPECT_EQ(far.session().flags()[0].code, "far_crest");
+    EXPECT_EQ(far.session().result().at("crest").at("distance"), 500.0);
 }
 
 }  // namespace

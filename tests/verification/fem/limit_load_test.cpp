@@ -1,4 +1,6 @@
-// Plastic limit load of a strip footing on clay: Prandtl's (2 + pi) c.
+// Plastic limit loads: a strip footing on clay, Prandtl's (2 + pi) c, and a smooth block between
+// two pressures, sigma_3 K_p + 2 c sqrt(K_p); with Mohr-Coulomb, and with Drucker-Prager fitted to
+// it.
 #include <numbers>
 
 #include "tests/verification/fem/bench.hpp"
@@ -8,54 +10,117 @@ namespace {
 
 using bench::expect_error;
 
-/// Largest uniform pressure over c that weightless clay carries on 0 <= x <= 1 m (half the
-/// footing), found by halving the load step until it is 0.2 % of the load.
-double limit_pressure(int per_metre) {
-    constexpr double c = 100e3;
-    bench::Block block{
-        .width = 5.0, .height = 3.0, .columns = 5 * per_metre, .rows = 3 * per_metre};
-    block.law = {{"type", "mohr_coulomb"}, {"E_MPa", 50},  {"nu", 0.45},
-                 {"c_kPa", 100},           {"phi_deg", 0}, {"tension_cutoff_kPa", 1e6}};
-    block.gravity = 0.0;
-    Model model = bench::model_of(bench::parse(bench::scene_of(block)));
-    const double h = 1.0 / per_metre;
-    for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
-        const Vec2 x = model.mesh.nodes[i];
-        if (x.y() < 3.0 - 1e-9 || x.x() > 1.0 + 1e-9) continue;
-        const bool end = x.x() < 1e-9 || x.x() > 1.0 - 1e-9;
-        model.external_force[static_cast<Eigen::Index>(2 * i + 1)] = -c * h * (end ? 0.5 : 1.0);
-    }
+struct Specimen {
+    const char* law;
+    double psi_deg;
+};
+void PrintTo(const Specimen& specimen, std::ostream* out) {
+    *out << specimen.law << "_" << specimen.psi_deg;
+}
+
+/// Largest share of the way from the force `start` to the model's external force, and beyond, at
+/// which `motion` still finds rest: the step is halved down to `least`.
+double limit_load(const Model& model, Motion motion, const Eigen::VectorXd& start, double step,
+                  double least) {
     Seconds seconds;
     Newton newton(model, Solved::displacement, {1e-5, 40}, Symmetry::general, seconds);
     const auto laws = laws_for(model, scene::StageLaws::scene);
-    Motion motion = at_rest(model), trial = motion;
+    Motion trial = motion;
     Prediction prediction = prediction_for(model);
-    const Eigen::VectorXd no_force = Eigen::VectorXd::Zero(model.dofs());
-    double q = 0.0, step = 1.0;
-    while (step > 0.002 * 5.0) {
+    double load = 0.0;
+    while (step > least) {
         const auto outcome =
-            static_step(newton, model, laws, q + step, no_force, motion, prediction, trial);
+            static_step(newton, model, laws, load + step, start, motion, prediction, trial);
         if (outcome.end == NewtonOutcome::End::converged) {
             std::swap(motion, trial);
-            q += step;
+            load += step;
         } else {
             step *= 0.5;
         }
     }
-    std::printf("    h = 1/%d: q / c = %.3f, %lld iterations, %.2f s\n", per_metre, q,
-                static_cast<long long>(newton.counts().iterations),
-                seconds.solve + seconds.law + seconds.assembly);
-    return q;
+    std::printf("    limit load %.4f, %lld iterations\n", load,
+                static_cast<long long>(newton.counts().iterations));
+    return load;
 }
 
-TEST(StripFooting, CarriesPrandtlsLoad) {
+/// Share of a unit pressure's force that a node of a side of four elements carries.
+double share_of(double along) { return along > 1e-9 && along < 1.0 - 1e-9 ? 1.0 : 0.5; }
+
+/// Largest uniform pressure over c that weightless clay carries on 0 <= x <= 1 m (half the
+/// footing), to 0.2 % of the load.
+double footing_load(const char* law, int per_metre) {
+    constexpr double c = 100e3;
+    bench::Block block{
+        .width = 5.0, .height = 3.0, .columns = 5 * per_metre, .rows = 3 * per_metre};
+    block.law = {{"type", law},  {"E_MPa", 50},  {"nu", 0.45},
+                 {"c_kPa", 100}, {"phi_deg", 0}, {"tension_cutoff_kPa", 1e6}};
+    block.gravity = 0.0;
+    Model model = bench::model_of(bench::parse(bench::scene_of(block)));
+    for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
+        const Vec2 x = model.mesh.nodes[i];
+        if (x.y() < 3.0 - 1e-9 || x.x() > 1.0 + 1e-9) continue;
+        model.external_force[static_cast<Eigen::Index>(2 * i + 1)] =
+            -c / per_metre * share_of(x.x());
+    }
+    const Eigen::VectorXd no_force = Eigen::VectorXd::Zero(model.dofs());
+    return limit_load(model, at_rest(model), no_force, 1.0, 0.002 * 5.0);
+}
+
+class StripFooting : public testing::TestWithParam<Specimen> {};
+
+TEST_P(StripFooting, CarriesPrandtlsLoad) {
     const double exact = 2.0 + std::numbers::pi;
-    const double coarse = limit_pressure(4), fine = limit_pressure(8);
+    const double coarse = footing_load(GetParam().law, 4), fine = footing_load(GetParam().law, 8);
     // Displacement elements approach from above, with an error that halves with the element size.
     EXPECT_GT(coarse, fine);
     expect_error("Prandtl: q / ((2 + pi) c) - 1, 8 elements under half the footing",
                  std::abs(fine / exact - 1.0), 0.03);
 }
+
+INSTANTIATE_TEST_SUITE_P(Laws, StripFooting,
+                         testing::Values(Specimen{"mohr_coulomb", 0},
+                                         Specimen{"drucker_prager", 0}));
+
+class Biaxial : public testing::TestWithParam<Specimen> {};
+
+/// A smooth block under sigma_3 all round, then pressed from above. Its stress is the same
+/// everywhere: what it carries is the strength of a point in plane strain, whatever psi.
+TEST_P(Biaxial, CarriesMohrCoulombsLoad) {
+    constexpr double sigma_3 = 50e3, c = 10e3;
+    bench::Block block{.columns = 4, .rows = 4};
+    block.law = {{"type", GetParam().law}, {"E_MPa", 50},   {"nu", 0.3},
+                 {"c_kPa", c / 1e3},       {"phi_deg", 30}, {"psi_deg", GetParam().psi_deg}};
+    block.gravity = 0.0;
+    bench::json scene = bench::scene_of(block);
+    scene["fem"]["supports"] = {
+        {{"name", "left"}, {"from", {0, 0}}, {"to", {0, 1}}, {"fixes", "x"}},
+        {{"name", "base"}, {"from", {0, 0}}, {"to", {1, 0}}, {"fixes", "y"}}};
+    Model model = bench::model_of(bench::parse(scene));
+    Motion motion = at_rest(model);
+    for (State& point : motion.points) point.sigma = {-sigma_3, -sigma_3, -sigma_3, 0.0};
+    Eigen::VectorXd confined = Eigen::VectorXd::Zero(model.dofs());
+    Eigen::VectorXd pressed = confined;
+    for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
+        const Vec2 x = model.mesh.nodes[i];
+        const auto d = static_cast<Eigen::Index>(2 * i);
+        if (x.x() > 1.0 - 1e-9) confined[d] = -0.25 * sigma_3 * share_of(x.y());
+        if (x.y() > 1.0 - 1e-9) confined[d + 1] = -0.25 * sigma_3 * share_of(x.x());
+        if (x.y() > 1.0 - 1e-9) pressed[d + 1] = -0.25 * sigma_3 * share_of(x.x());
+    }
+    model.external_force = confined + pressed;
+    const double K_p = 3.0;
+    const double exact = (sigma_3 * (K_p - 1.0) + 2.0 * c * std::sqrt(K_p)) / sigma_3;
+    const double found = limit_load(model, motion, confined, 0.5, 1e-4);
+    // Load steps of 1e-4; a step converges when 1e-5 of the load is out of balance.
+    expect_error("plane strain: q / (sigma_3 (K_p - 1) + 2 c sqrt(K_p)) - 1",
+                 std::abs(found / exact - 1.0), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, Biaxial,
+                         testing::Values(Specimen{"mohr_coulomb", 0}, Specimen{"mohr_coulomb", 30},
+                                         Specimen{"drucker_prager", 0},
+                                         Specimen{"drucker_prager", 15},
+                                         Specimen{"drucker_prager", 30}));
 
 }  // namespace
 }  // namespace breach::fem

@@ -39,7 +39,8 @@ TEST(Extreme, AspectRatioOfAHundredGivesTheExactColumn) {
 TEST(Extreme, StiffnessContrastOfAMillionGivesTheExactColumn) {
     json scene = bench::scene_of({.width = 4.0, .height = 5.0, .columns = 4, .rows = 5});
     scene["materials"]["rock"] = scene["materials"]["soil"];
-    scene["materials"]["rock"]["law"]["E_MPa"] = 20e6;
+    scene["materials"]["soil"]["law"]["E_MPa"] = 1;
+    scene["materials"]["rock"]["law"]["E_MPa"] = 1e6;
     scene["section"]["regions"].push_back({{"name", "rock"},
                                            {"material", "rock"},
                                            {"polygon", {{0, -5}, {4, -5}, {4, 0}, {0, 0}, {0, -5}}},
@@ -47,7 +48,7 @@ TEST(Extreme, StiffnessContrastOfAMillionGivesTheExactColumn) {
     for (int k = 0; k < 2; ++k) scene["fem"]["supports"][k]["from"][1] = -5;
     scene["fem"]["supports"][2]["from"][1] = scene["fem"]["supports"][2]["to"][1] = -5;
     bench::Run run(scene);
-    const double M = mechanics::Elasticity{20e6, 0.3}.constrained_modulus();
+    const double M = mechanics::Elasticity{1e6, 0.3}.constrained_modulus();
     // The rock's own 5 m shorten by 3e-6 of the soil's settlement.
     expect_error("settlement on rock a million times stiffer", settlement_error(run.go(), 5.0, M),
                  5e-6);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem_solver/model/pore_water.hpp"
 #include "fem_solver/solve/step.hpp"
 #include "tests/verification/fem/bench.hpp"
 

@@ -1,4 +1,5 @@
-"""mpm_solver as a program: outputs, resume after SIGTERM with the same bits, a grid too small, a too-short duration."""
+"""mpm_solver as a program: outputs, resume after SIGTERM with the same bits, a grid too small, a duration
+too short, a run until rest."""
 import glob, json, os, signal, subprocess, sys, tempfile, time
 
 import h5py
@@ -65,7 +66,18 @@ def test_outputs_and_resume(scratch):
     assert abs(areas[0] - 200.0) < 1e-6 and np.all(abs(areas / 200.0 - 1.0) < 0.02), areas  # 10 m x 20 m of sand
     table = np.genfromtxt(os.path.join(whole, "profile.csv"), delimiter=",", names=True)
     assert np.array_equal(table["x_m"], places) and abs(table["depth_m"] @ widths / 200.0 - 1.0) < 0.02
-    assert result["at_rest"] is False  # 2 s are too short, and it says so
+    assert np.allclose(table["ground_m"], 0) and np.all(table["surface_m"] >= 0)
+    deep = table["depth_m"] > 3
+    assert np.all(abs(table["surface_m"] / table["depth_m"] - 1)[deep] < 0.25), table["surface_m"] / table["depth_m"]
+    # 2 s are too short, and it says so
+    assert result["at_rest"] is False and result["ended"] == "duration" and result["end_time"] == 2.0, result
+    assert 0.05 < result["kinetic_share"] < 0.5 and result["rest"]["moving"], result
+    assert result["questionable"] is True and [each["code"] for each in result["flags"]] == ["still_moving"], result["flags"]
+    message = result["flags"][0]["message"]
+    assert f"still moving at 2 s with {100 * result['kinetic_share']:.3g} % of the released energy" in message, message
+    for words in (f"runout {result['runout']:.2f} m", f"beyond it {result['runout_beyond_toe']:.2f} m", "STILL MOVING", "volume ratio",
+                  "numerical share", "overlap", "flags: still_moving (questionable)"):
+        assert words in first.stderr, (words, first.stderr)
     child = subprocess.Popen([SOLVER, COLUMN, "--output", stopped, "--progress", "none", *SHORT], stderr=subprocess.DEVNULL)
     while child.poll() is None and len(glob.glob(stopped + "/particles_*")) < 2:
         time.sleep(0.01)
@@ -88,6 +100,35 @@ def test_grid_too_small(scratch):
     assert os.path.exists(os.path.join(folder, "last_good.vtkhdf"))
     assert not os.path.exists(os.path.join(folder, "result.json"))
     print("grid too small: exit 70, says where and when, last good state saved")
+
+
+def test_until_rest(scratch):
+    folder = os.path.join(scratch, "rest")
+    ended = run(folder, "--set", "/mpm/cell_size=2", "--until-rest")
+    assert ended.returncode == 0, ended.stderr
+    result = json.load(open(os.path.join(folder, "result.json")))
+    assert result["at_rest"] is True and result["ended"] == "at_rest" and result["rest"]["moving"] is None, result
+    assert result["kinetic_share"] < 0.005 and "still_moving" not in [each["code"] for each in result["flags"]], result["flags"]
+    assert f"at rest at {result['end_time']:.2f} s" in ended.stderr and "STILL MOVING" not in ended.stderr, ended.stderr
+    assert result["provenance"]["overrides"][-1] == "/mpm/duration=until_rest"
+    cut = os.path.join(scratch, "cut")
+    ended = run(cut, "--set", "/mpm/cell_size=2", "--until-rest", "--set", "/mpm/longest_duration=1.5")
+    bounded = json.load(open(os.path.join(cut, "result.json")))
+    assert ended.returncode == 0 and bounded["ended"] == "duration" and bounded["end_time"] == 1.5, bounded
+    assert "raise /mpm/longest_duration" in ended.stderr, ended.stderr
+    print(f"until rest: at {result['end_time']:.2f} s of at most {result['rest']['longest_duration']:.0f} s; a bound that is too short is named")
+
+
+def test_coarse_cells(scratch):
+    sizes = ["--set", "/mpm/cell_size=6", "--set", "/mpm/domain_x=[0,60]", "--set", "/mpm/domain_y=[0,24]"]
+    refused = run(os.path.join(scratch, "refused"), *sizes)
+    assert refused.returncode == 65 and "/mpm/cell_size" in refused.stderr and "take cells of at most" in refused.stderr, refused.stderr
+    folder = os.path.join(scratch, "coarse")
+    taken = run(folder, *sizes, "--set", "/mpm/allow_coarse_cells=true", "--set", "/mpm/duration=0.5")
+    assert taken.returncode == 0, taken.stderr
+    flags = {each["code"]: each["severity"] for each in json.load(open(os.path.join(folder, "result.json")))["flags"]}
+    assert flags["coarse_cells"] == "questionable", flags
+    print("fewer than two cells across the column: refused, and questionable where the scene allows it")
 
 
 def test_terrain(scratch):
@@ -113,4 +154,6 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
         test_outputs_and_resume(scratch)
         test_grid_too_small(scratch)
+        test_until_rest(scratch)
+        test_coarse_cells(scratch)
         test_terrain(scratch)

@@ -2,13 +2,15 @@
 // runs it, so the answer is the same on one thread and on many.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-namespace breach::lem {
+namespace breach::numerics {
 
 /// Calls work(0) .. work(count - 1), each once. The first exception is thrown again here.
 template <class Work>
@@ -32,4 +34,12 @@ void run_blocks(std::size_t count, int threads, const Work& work) {
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace breach::lem
+/// Cuts [0, count) into one part per thread: part(begin, end, k), k below the number of threads and
+/// each k once, so that it may own scratch memory.
+template <class Part>
+void run_parts(std::size_t count, int threads, const Part& part) {
+    const auto n = static_cast<std::size_t>(std::max(1, threads));
+    run_blocks(n, threads, [&](std::size_t k) { part(count * k / n, count * (k + 1) / n, k); });
+}
+
+}  // namespace breach::numerics

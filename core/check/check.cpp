@@ -1,0 +1,46 @@
+#include "core/check/check.hpp"
+
+#include <utility>
+
+#include "core/check/findings.hpp"
+#include "core/scene/reading.hpp"
+
+namespace breach::check {
+
+Findings findings_of(const scene::Scene& scene) {
+    Findings findings;
+    if (!has_soil(scene)) return findings;  // the reader has said why
+    check_geometry(scene, findings);
+    if (scene.lem) check_stability(scene, findings);
+    if (scene.fem) {
+        check_stages(scene, findings);
+        check_supports(scene, findings);
+        check_water(scene, findings);
+        check_motion(scene, findings);
+    }
+    check_soils(scene, findings);
+    if (scene.transfer) check_transfer(scene, findings);
+    if (scene.mpm) check_ground(scene, findings);
+    return findings;
+}
+
+Checked checked_text(std::string_view text, const std::string& name,
+                     const std::filesystem::path& folder,
+                     const std::vector<std::string>& overrides) {
+    scene::Reading reading = scene::read_text(text, name, folder, overrides);
+    Findings findings = findings_of(reading.scene);
+    Checked checked{std::move(reading.scene), std::move(reading.faults)};
+    for (fault::Fault& each : findings.faults) checked.faults.push_back(std::move(each));
+    for (fault::Flag& each : findings.warnings) checked.scene.warnings.push_back(std::move(each));
+    return checked;
+}
+
+scene::Scene checked_scene(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides) {
+    Checked checked =
+        checked_text(scene::text_of(file), file.string(), file.parent_path(), overrides);
+    if (!checked.faults.empty()) throw fault::BadInput(file.string(), std::move(checked.faults));
+    return std::move(checked.scene);
+}
+
+}  // namespace breach::check

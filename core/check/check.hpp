@@ -1,0 +1,40 @@
+// What is wrong with a scene before anything runs: all that follows from it and from the files that
+// it names, for every phase that it has a part for. Nothing here knows a mesh's nodes or a result.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "core/fault/flag.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::check {
+
+struct Findings {
+    std::vector<fault::Fault> faults;   ///< the scene cannot run
+    std::vector<fault::Flag> warnings;  ///< it can, and is hardly meant so
+};
+
+/// Of a scene that was read, wholly or as far as it was sound (scene::Reading). Reads the motion
+/// and looks into the mesh file; a few milliseconds.
+Findings findings_of(const scene::Scene& scene);
+
+/// The reader's faults and the findings in one.
+struct Checked {
+    scene::Scene scene;  ///< its warnings hold the findings'; of use only when there are no faults
+    std::vector<fault::Fault> faults;
+};
+/// As scene::parse_scene takes it. Throws BadInput only where the text is no JSON object.
+Checked checked_text(std::string_view text, const std::string& name,
+                     const std::filesystem::path& folder,
+                     const std::vector<std::string>& overrides);
+
+/// scene::read_scene with the findings: throws BadInput with every fault of both, IoError if the
+/// file cannot be read.
+scene::Scene checked_scene(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides);
+
+}  // namespace breach::check

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <optional>
+
+#include "core/check/applied_motion.hpp"
+#include "core/check/findings.hpp"
+#include "core/check/section.hpp"
+#include "core/motion/plausibility.hpp"
+
+namespace breach::check {
+
+namespace {
+
+using motion::Quantity;
+using motion::Recording;
+
+constexpr const char* file_pointer = "/fem/motion/file";
+
+std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Findings& findings) {
+    const std::string file = wanted.file.string();
+    if (!std::filesystem::exists(wanted.file)) {
+        refuse(findings, file_pointer, "does not exist: " + file,
+               "give a path relative to the scene file, or the absolute path on the machine that "
+               "computes");
+        return std::nullopt;
+    }
+    try {
+        if (std::filesystem::is_directory(wanted.file)) throw fault::IoError(file + " is a folder");
+        return motion::read_motion(wanted.file);
+    } catch (const fault::BadInput& error) {
+        for (const fault::Fault& each : error.faults())
+            refuse(findings, file_pointer, file + ", " + each.pointer + ": " + each.cause,
+                   each.remedy);
+    } catch (const fault::IoError& error) {
+        refuse(findings, file_pointer, error.what(), "give a motion that can be read");
+    }
+    return std::nullopt;
+}
+
+/// What cannot be done with this kind of recording.
+void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& findings) {
+    if (quantity == Quantity::displacement)
+        refuse(findings, file_pointer, "is a displacement",
+               "give the acceleration or the velocity of the same motion");
+    if (quantity != Quantity::velocity) return;
+    if (wanted.scale_to_pga_g)
+        refuse(findings, "/fem/motion/scale_to_pga_g",
+               "scales an acceleration; the file holds a velocity",
+               "give the acceleration, or leave the scale out");
+    if (wanted.baseline == scene::Baseline::corrected)
+        refuse(findings, "/fem/motion/baseline",
+               "is corrected in an acceleration only; the file holds a velocity",
+               "give the acceleration, or take it as recorded");
+}
+
+/// A motion that is none; what else can be wrong with one, core/motion knows.
+bool moves(const motion::Series& series, Findings& findings) {
+    const auto [low, high] = std::ranges::minmax(series.values);
+    if (low != high) return true;
+    const std::string all = std::to_string(series.values.size()) + " samples";
+    refuse(findings, file_pointer,
+           low == 0.0 ? "holds nothing but zeros, " + all
+                      : "holds one constant value, " + text(low) + ", in " + all,
+           "give a motion that moves: is the second column the right one?");
+    return false;
+}
+
+double dynamic_duration(const scene::Fem& fem) {
+    double sum = 0.0;
+    for (const scene::Stage& stage : fem.stages) sum += stage.duration;
+    return sum;
+}
+
+/// Steps of an analysis that pass over the motion's samples.
+void check_steps(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        if (fem.stages[i].kind != scene::StageKind::dynamic) continue;
+        auto doubt = motion::doubt_about_step(series, fem.stages[i].time_step,
+                                              "/fem/stages/" + std::to_string(i) + "/time_step");
+        if (doubt) findings.warnings.push_back(std::move(*doubt));
+    }
+}
+
+/// Stages that end before most of the shaking has come.
+void check_length(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
+    const double end = dynamic_duration(fem);
+    motion::Series felt = acceleration;
+    felt.values.resize(std::min(felt.values.size(), static_cast<std::size_t>(end / felt.dt) + 1));
+    const double whole = motion::arias_intensity(acceleration);
+    const double share = felt.values.size() < 2 ? 0.0 : motion::arias_intensity(felt) / whole;
+    if (share < 0.5)
+        warn(findings, "motion_cut", "/fem/stages",
+             "the dynamic stages end at " + text(end) + " s, when " + text(100.0 * share) +
+                 " % of the motion's Arias intensity have arrived; its strong part lasts until " +
+                 text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
+}
+
+}  // namespace
+
+void check_motion(const scene::Scene& scene, Findings& findings) {
+    const scene::Fem& fem = *scene.fem;
+    if (!fem.motion) return;
+    if (dynamic_duration(fem) == 0.0)
+        refuse(findings, "/fem/motion", "has no dynamic stage in which it could shake",
+               "add a stage of type \"dynamic\", or leave the motion out");
+    const auto recording = recording_of(*fem.motion, findings);
+    if (!recording) return;
+    check_kind(*fem.motion, recording->quantity, findings);
+    if (recording->quantity == Quantity::displacement || !moves(recording->series, findings))
+        return;
+    const Recording shaking = applied(*fem.motion, *recording);
+    motion::Doubts doubts = motion::doubts_about(shaking, file_pointer);
+    for (fault::Fault& each : doubts.faults) findings.faults.push_back(std::move(each));
+    for (fault::Flag& each : doubts.flags) findings.warnings.push_back(std::move(each));
+    if (!doubts.faults.empty()) return;
+    check_steps(fem, shaking.series, findings);
+    if (shaking.quantity == Quantity::acceleration) check_length(fem, shaking.series, findings);
+}
+
+motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording) {
+    if (recording.quantity != Quantity::acceleration) return recording;
+    motion::Series& series = recording.series;
+    if (wanted.baseline == scene::Baseline::corrected)
+        series = motion::base_corrected(std::move(series));
+    if (wanted.scale_to_pga_g)
+        series = motion::scaled_to_peak(std::move(series),
+                                        *wanted.scale_to_pga_g * motion::standard_gravity);
+    return recording;
+}
+
+motion::Recording applied_motion(const scene::BaseMotion& wanted) {
+    return applied(wanted, motion::read_motion(wanted.file));
+}
+
+}  // namespace breach::check

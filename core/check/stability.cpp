@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/check/findings.hpp"
+#include "core/check/section.hpp"
+
+namespace breach::check {
+
+namespace {
+
+constexpr double gap_share = 1e-3;  // of the section's height: thinner is a drawing's inaccuracy
+
+/// Vertical slices need ground without holes below it.
+bool check_slices(const scene::Scene& scene, Findings& findings) {
+    const scene::Box box = extent(scene);
+    const double allowed = gap_share * (box.high.y() - box.low.y());
+    const std::vector<double> xs = abscissae(scene);
+    const std::string remedy =
+        "limit equilibrium cuts vertical slices: give regions that touch from the ground to the "
+        "bottom of the model, without overhang";
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+        const double x = 0.5 * (xs[i] + xs[i + 1]);
+        const std::vector<Stratum> strata = strata_at(scene, x);
+        if (strata.empty()) {
+            refuse(findings, "/section/regions",
+                   "leave nothing between x = " + metres(xs[i]) + " and " + metres(xs[i + 1]),
+                   remedy);
+            return false;
+        }
+        for (std::size_t k = 1; k < strata.size(); ++k) {
+            if (strata[k - 1].bottom - strata[k].top <= allowed) continue;
+            const auto& regions = scene.section.regions;
+            refuse(findings, "/section/regions",
+                   "leave air below ground at x = " + metres(x) +
+                       ", from y = " + metres(strata[k].top) + " (\"" +
+                       regions[strata[k].region].name + "\") to " + metres(strata[k - 1].bottom) +
+                       " (\"" + regions[strata[k - 1].region].name + "\")",
+                   remedy);
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The ground's levels over a range, lowest and highest.
+struct Levels {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+};
+
+Levels ground_over(const scene::Scene& scene, double from, double to) {
+    const scene::Box box = extent(scene);
+    const double near = 1e-6 * (box.high.x() - box.low.x());
+    std::vector<double> xs = abscissae(scene);
+    xs.push_back(from);
+    xs.push_back(to);
+    Levels levels;
+    for (const double at : xs) {
+        if (at < from || at > to) continue;
+        for (const double x : {at - near, at + near}) {  // both heads of a vertical face
+            const std::vector<Stratum> strata = strata_at(scene, x);
+            if (strata.empty()) continue;
+            levels.lowest = std::min(levels.lowest, strata.front().top);
+            levels.highest = std::max(levels.highest, strata.front().top);
+        }
+    }
+    return levels;
+}
+
+/// A range of x of which some lies over the section.
+bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
+                 const std::string& pointer, Findings& findings) {
+    const scene::Box box = extent(scene);
+    const std::string ground = "the section's ground reaches from x = " + text(box.low.x()) +
+                               " to " + metres(box.high.x());
+    if (range[1] < box.low.x() || range[0] > box.high.x()) {
+        refuse(findings, pointer,
+               "lies beside the section: x from " + text(range[0]) + " to " + metres(range[1]),
+               ground + ": give a range on it");
+        return false;
+    }
+    const double near = 1e-9 * (box.high.x() - box.low.x());
+    if (range[0] < box.low.x() - near || range[1] > box.high.x() + near)
+        warn(findings, "beyond_ground", pointer,
+             "part of [" + text(range[0]) + ", " + text(range[1]) + "] has no ground below it; " +
+                 ground);
+    return true;
+}
+
+void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Findings& findings) {
+    const bool entry = check_range(scene, search.entry, "/lem/search/entry", findings);
+    const bool exit = check_range(scene, search.exit, "/lem/search/exit", findings);
+    if (!entry || !exit) return;
+    const Levels upper = ground_over(scene, search.entry[0], search.entry[1]);
+    const Levels lower = ground_over(scene, search.exit[0], search.exit[1]);
+    if (upper.highest <= lower.lowest)
+        refuse(findings, "/lem/search/entry",
+               "lies at most at " + metres(upper.highest) + ", and exit nowhere below " +
+                   metres(lower.lowest),
+               "put entry on the upper and exit on the lower side of the slope");
+    const scene::Box box = extent(scene);
+    const Levels ground = ground_over(scene, box.low.x(), box.high.x());
+    if (search.lowest_level && *search.lowest_level >= ground.highest)
+        refuse(findings, "/lem/search/lowest_level",
+               "lies above all ground, whose highest level is " + metres(ground.highest),
+               "give a level below the ground, or leave it out");
+    if (search.minimum_depth >= ground.highest - box.low.y())
+        refuse(findings, "/lem/search/minimum_depth",
+               "is more than the section's height, " + metres(ground.highest - box.low.y()),
+               "give a depth within the section");
+}
+
+void check_circle(const scene::Scene& scene, const scene::Circle& circle, Findings& findings) {
+    const scene::Box box = extent(scene);
+    constexpr int samples = 256;
+    const double left = std::max(box.low.x(), circle.center.x() - circle.radius);
+    const double right = std::min(box.high.x(), circle.center.x() + circle.radius);
+    for (int i = 0; i < samples && left < right; ++i) {
+        const double x = left + (i + 0.5) / samples * (right - left);
+        const double across = x - circle.center.x();
+        const double base =
+            circle.center.y() - std::sqrt(circle.radius * circle.radius - across * across);
+        const std::vector<Stratum> strata = strata_at(scene, x);
+        if (!strata.empty() && base < strata.front().top) return;
+    }
+    refuse(findings, "/lem/circle",
+           "passes the ground without cutting it: its lowest point is (" + text(circle.center.x()) +
+               ", " + text(circle.center.y() - circle.radius) + ")",
+           "the section reaches from " + text(box.low) + " to " + text(box.high) +
+               ": give a circle whose lower arc lies in it");
+}
+
+void check_loads(const scene::Scene& scene, Findings& findings) {
+    const scene::Lem& lem = *scene.lem;
+    for (std::size_t i = 0; i < lem.surcharge.size(); ++i)
+        check_range(scene, {lem.surcharge[i].from, lem.surcharge[i].to},
+                    "/lem/surcharge/" + std::to_string(i), findings);
+    for (std::size_t i = 0; i < lem.line_loads.size(); ++i)
+        check_range(scene, {lem.line_loads[i].x, lem.line_loads[i].x},
+                    "/lem/line_loads/" + std::to_string(i) + "/x", findings);
+}
+
+/// Every layer that liquefies is a part of its region, and no two are the same soil.
+void check_layers(const scene::Scene& scene, Findings& findings) {
+    const auto& layers = scene.lem->liquefaction;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        if (!layers[i].levels) continue;
+        const scene::Region& region = scene.section.regions[layers[i].region];
+        if (region.polygon.empty()) continue;
+        const scene::Box box = scene::bounding_box(region.polygon);
+        const auto& [low, high] = *layers[i].levels;
+        const std::string pointer = "/lem/liquefaction/" + std::to_string(i) + "/levels";
+        if (low >= box.high.y() || high <= box.low.y()) {
+            refuse(
+                findings, pointer,
+                "lie outside region \"" + region.name + "\": " + text(low) + " to " + metres(high),
+                "the region reaches from " + text(box.low.y()) + " to " + metres(box.high.y()));
+            continue;
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (layers[j].region != layers[i].region || !layers[j].levels) continue;
+            const double shared =
+                std::min(high, (*layers[j].levels)[1]) - std::max(low, (*layers[j].levels)[0]);
+            if (shared <= 1e-9 * (box.high.y() - box.low.y())) continue;
+            refuse(findings, pointer,
+                   "overlap those of layer " + std::to_string(j) + " by " + metres(shared),
+                   "let each layer begin where the one above it ends");
+        }
+    }
+}
+
+void check_strength(const scene::Scene& scene, Findings& findings) {
+    const scene::Lem& lem = *scene.lem;
+    std::set<std::size_t> open;
+    for (const scene::UndrainedRegion& each : lem.undrained) open.insert(each.region);
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        const scene::Material* material = material_of(scene, scene.section.regions[r]);
+        if (material == nullptr || material->limit_strength || open.contains(r) ||
+            !std::holds_alternative<materials::LinearElastic>(material->law))
+            return;
+    }
+    refuse(findings, "/lem", "finds no soil that can fail: every region is linear_elastic",
+           "give one of the materials mohr_coulomb or a limit_strength");
+}
+
+}  // namespace
+
+void check_stability(const scene::Scene& scene, Findings& findings) {
+    const scene::Lem& lem = *scene.lem;
+    check_strength(scene, findings);
+    check_layers(scene, findings);
+    check_loads(scene, findings);
+    if (!check_slices(scene, findings)) return;  // no ground to ask for
+    if (lem.search) check_search(scene, *lem.search, findings);
+    if (lem.circle) check_circle(scene, *lem.circle, findings);
+}
+
+}  // namespace breach::check

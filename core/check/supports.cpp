@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/check/findings.hpp"
+#include "core/check/segment.hpp"
+
+namespace breach::check {
+
+namespace {
+
+/// Regions that touch each other, directly or through others, have the same number.
+std::vector<std::size_t> bodies_of(const scene::Scene& scene, double tolerance) {
+    const auto& regions = scene.section.regions;
+    std::vector<std::size_t> body(regions.size());
+    std::iota(body.begin(), body.end(), std::size_t{0});
+    const auto touch = [&](const scene::Region& a, const scene::Region& b) {
+        return std::ranges::any_of(a.polygon, [&](const Vec2& vertex) {
+            return scene::contains(b.polygon, vertex, tolerance);
+        });
+    };
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (regions[i].polygon.empty() || regions[j].polygon.empty()) continue;
+            if (!touch(regions[i], regions[j]) && !touch(regions[j], regions[i])) continue;
+            const std::size_t old = body[i];
+            for (std::size_t& each : body)
+                if (each == old) each = body[j];
+        }
+    }
+    return body;
+}
+
+/// Which body the segment touches; regions.size() when none.
+std::vector<bool> bodies_touched(const scene::Scene& scene, const std::vector<std::size_t>& body,
+                                 const Side& segment, double tolerance) {
+    std::vector<bool> touched(body.size(), false);
+    for (std::size_t r = 0; r < body.size(); ++r) {
+        const scene::Region& region = scene.section.regions[r];
+        if (!region.polygon.empty() && touches(region, segment, tolerance)) touched[body[r]] = true;
+    }
+    return touched;
+}
+
+void check_held(const scene::Scene& scene, double tolerance, Findings& findings) {
+    const auto& regions = scene.section.regions;
+    const std::vector<std::size_t> body = bodies_of(scene, tolerance);
+    std::vector<bool> x(regions.size(), false), y(regions.size(), false);
+    for (const scene::Support& support : scene.fem->supports) {
+        const auto touched = bodies_touched(scene, body, {support.from, support.to}, tolerance);
+        for (std::size_t b = 0; b < touched.size(); ++b) {
+            x[b] = x[b] || (touched[b] && support.fixes_x);
+            y[b] = y[b] || (touched[b] && support.fixes_y);
+        }
+    }
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (regions[r].polygon.empty() || body[r] != r || (x[r] && y[r])) continue;
+        const bool whole = std::ranges::count(body, r) == std::ptrdiff_t(regions.size());
+        refuse(findings, "/fem/supports",
+               "nothing holds " + (whole ? "the body" : "region \"" + regions[r].name + "\"") +
+                   " in " + (x[r] ? "y" : "x"),
+               whole ? "add a support that fixes this direction"
+                     : "let the region touch the others, or give it a support of its own");
+    }
+}
+
+/// Levels between which a vertical line of edges runs along x; none when it is broken.
+struct Reach {
+    double low, high;
+    bool unbroken;
+};
+
+Reach vertical_side(const scene::Scene& scene, double x, double tolerance) {
+    std::vector<std::array<double, 2>> parts;
+    Reach reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                true};
+    for (const scene::Region& region : scene.section.regions) {
+        for (const Side& side : sides_of(region.polygon)) {
+            if (std::abs(side.a.x() - x) > tolerance) continue;
+            reach = {std::min(reach.low, side.a.y()), std::max(reach.high, side.a.y()), true};
+            if (std::abs(side.b.x() - x) > tolerance) continue;
+            parts.push_back({std::min(side.a.y(), side.b.y()), std::max(side.a.y(), side.b.y())});
+        }
+    }
+    std::ranges::sort(parts);
+    double reached = reach.low;
+    for (const auto& part : parts) {
+        if (part[0] > reached + tolerance) break;
+        reached = std::max(reached, part[1]);
+    }
+    reach.unbroken = !parts.empty() && reached >= reach.high - tolerance;
+    return reach;
+}
+
+void check_column(const scene::Scene& scene, double x, const std::string& side, double tolerance,
+                  Findings& findings) {
+    const Reach reach = vertical_side(scene, x, tolerance);
+    if (!reach.unbroken) {
+        refuse(findings, "/fem/free_field",
+               "the " + side + " side of the section, at x = " + metres(x) +
+                   ", is not one vertical line",
+               "end the section there in a vertical side, or leave this column out (\"sides\")");
+        return;
+    }
+    const double base = extent(scene).low.y();
+    for (std::size_t i = 0; i < scene.fem->supports.size(); ++i) {
+        const scene::Support& support = scene.fem->supports[i];
+        const bool along = std::abs(support.from.x() - x) <= tolerance &&
+                           std::abs(support.to.x() - x) <= tolerance;
+        const double low = std::min(support.from.y(), support.to.y());
+        const double high = std::max(support.from.y(), support.to.y());
+        if (!along || high <= std::max(base, reach.low) + tolerance || low > reach.high + tolerance)
+            continue;
+        refuse(findings, "/fem/supports/" + std::to_string(i),
+               "holds the " + side + " side up to " + metres(std::min(high, reach.high)) +
+                   ", where a free-field column stands",
+               "hold only the base of a side that has a column");
+    }
+}
+
+void check_free_field(const scene::Scene& scene, double tolerance, Findings& findings) {
+    if (!scene.fem->free_field) return;
+    const scene::FreeFieldSides sides = scene.fem->free_field->sides;
+    const scene::Box box = extent(scene);
+    if (sides != scene::FreeFieldSides::right)
+        check_column(scene, box.low.x(), "left", tolerance, findings);
+    if (sides != scene::FreeFieldSides::left)
+        check_column(scene, box.high.x(), "right", tolerance, findings);
+}
+
+/// The dashpots stand on the edges of the lowest level.
+void check_base(const scene::Scene& scene, double tolerance, Findings& findings) {
+    if (!scene.fem->base) return;
+    const scene::Box box = extent(scene);
+    double level = 0.0;
+    for (const scene::Region& region : scene.section.regions)
+        for (const Side& side : sides_of(region.polygon))
+            if (std::max(side.a.y(), side.b.y()) <= box.low.y() + tolerance)
+                level += (side.b - side.a).norm();
+    const double width = box.high.x() - box.low.x();
+    if (level >= (1.0 - 1e-6) * width) return;
+    const std::string cause = "only " + metres(level) + " of the section's " + metres(width) +
+                              " lie on its lowest level, y = " + metres(box.low.y());
+    const std::string remedy = "the base is a level line: draw the foundation down to it";
+    if (level <= tolerance)
+        refuse(findings, "/fem/base", cause, remedy);
+    else
+        warn(findings, "broken_base", "/fem/base",
+             cause + ": the rest moves without rock below; " + remedy);
+}
+
+void check_crest(const scene::Scene& scene, Findings& findings) {
+    const Vec2& crest = scene.fem->crest;
+    const double away = distance_to_soil(scene, crest);
+    const double size = largest_element_size(scene);
+    const scene::Box box = extent(scene);
+    const double height = box.high.y() - box.low.y();
+    if (away > std::max(height, 2.0 * size)) {
+        refuse(
+            findings, "/fem/crest",
+            "lies " + metres(away) + " away from the section, which is " + metres(height) + " high",
+            "give a point of the section, x from " + text(box.low.x()) + " to " +
+                metres(box.high.x()));
+    } else if (away > 2.0 * size) {
+        warn(findings, "far_crest", "/fem/crest",
+             "the crest " + text(crest) + " lies " + metres(away) +
+                 " away from the soil, whose elements are " + metres(size) +
+                 ": what is recorded is another place's motion; give a point of the ground");
+    }
+}
+
+}  // namespace
+
+void check_supports(const scene::Scene& scene, Findings& findings) {
+    const double tolerance = 1e-6 * least_element_size(scene);
+    check_crest(scene, findings);
+    if (scene.fem->mesh.msh_file) return;  // its own edges count, not the drawn ones
+    bool missed = false;
+    for (std::size_t i = 0; i < scene.fem->supports.size(); ++i) {
+        const scene::Support& support = scene.fem->supports[i];
+        const Side segment{support.from, support.to};
+        if (may_hold_nodes(scene, segment, tolerance)) continue;
+        missed = true;
+        refuse(findings, "/fem/supports/" + std::to_string(i),
+               "\"" + support.name + "\" " + how_it_misses(scene, segment),
+               "let the segment run along an edge of a region, ends included");
+    }
+    if (!missed) check_held(scene, tolerance, findings);
+    check_free_field(scene, tolerance, findings);
+    check_base(scene, tolerance, findings);
+}
+
+}  // namespace breach::check

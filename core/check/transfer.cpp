@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include "core/check/findings.hpp"
+#include "core/check/section.hpp"
+#include "core/criteria/expression.hpp"
+
+namespace breach::check {
+
+namespace {
+
+void check_window(const scene::Scene& scene, Findings& findings) {
+    const scene::AdviceWindow& window = *scene.transfer->window;
+    const auto look = [&](const std::string& condition, const std::string& pointer) {
+        try {
+            const criteria::Expression parsed =
+                criteria::parse(condition, criteria::Kind::condition, pointer);
+            if (!scene.fem || scene.fem->liquefaction) return;
+            for (const char* field : {"liquefaction_depth", "r_u_max"}) {
+                if (std::ranges::find(parsed.fields, field) == parsed.fields.end()) continue;
+                refuse(findings, pointer,
+                       "asks for " + std::string(field) + ", and no soil is watched: it stays 0",
+                       "say in /fem/liquefaction which soil can liquefy");
+            }
+        } catch (const fault::BadInput& error) {
+            for (const fault::Fault& each : error.faults()) findings.faults.push_back(each);
+        }
+    };
+    look(window.lower, "/transfer/window/lower");
+    look(window.upper, "/transfer/window/upper");
+}
+
+bool is_frictional(const scene::Material& material) {
+    const auto* law = std::get_if<materials::MohrCoulomb>(&material.law);
+    return law != nullptr && law->phi > 0.0;
+}
+
+/// Points know one stress: beside an effective one the pore pressure would be lost.
+void check_stress(const scene::Scene& scene, Findings& findings) {
+    if (scene.transfer->stress != scene::TransferredStress::effective) return;
+    if (!scene.mpm || !scene.fem || !scene.fem->water) return;
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        if (soil.material >= scene.materials.size()) continue;
+        const scene::Material& material = scene.materials[soil.material];
+        if (!is_frictional(material)) continue;
+        refuse(findings, "/transfer/stress",
+               "is effective, and \"" + material.name +
+                   "\" has friction: its points would come with pore pressure, which the MPM does "
+                   "not carry",
+               "transfer total stress (\"total\"), or leave out /fem/water");
+        return;
+    }
+}
+
+}  // namespace
+
+void check_soils(const scene::Scene& scene, Findings& findings) {
+    if (!scene.transfer && !scene.mpm) return;
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        if (soils[r].material >= scene.materials.size()) continue;
+        const scene::Material& material = scene.materials[soils[r].material];
+        if (!std::holds_alternative<materials::PM4Sand>(material.law)) continue;
+        const std::string& name = scene.section.regions[r].name;
+        refuse(findings, region_pointer(r, "/material"),
+               "\"" + name + "\" is of \"" + material.name +
+                   "\", whose law is pm4sand, which material points cannot have",
+               "map it in /transfer/mapping to a material of mohr_coulomb or linear_elastic: "
+               "{\"region\": \"" +
+                   name + "\", \"to\": ...}");
+    }
+}
+
+void check_transfer(const scene::Scene& scene, Findings& findings) {
+    const scene::Transfer& transfer = *scene.transfer;
+    check_stress(scene, findings);
+    if (transfer.liquefied && scene.fem && !scene.fem->water)
+        refuse(findings, "/transfer/liquefied",
+               "asks what has liquefied, and the FEM has no pore water",
+               "add /fem/water, or leave this out");
+    if (!transfer.phreatic_line.empty()) {
+        const Depth deepest = deepest_below(scene, transfer.phreatic_line, level_at);
+        if (deepest.below <= 0.0)
+            refuse(findings, "/transfer/phreatic_line",
+                   "runs below all soil, by at least " + metres(-deepest.below) +
+                       ": nothing would be saturated",
+                   "raise the line above the section's lowest level, " +
+                       metres(extent(scene).low.y()) + ", or leave it out");
+    }
+    if (transfer.window) check_window(scene, findings);
+}
+
+}  // namespace breach::check

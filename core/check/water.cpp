@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/check/findings.hpp"
+#include "core/check/segment.hpp"
+
+namespace breach::check {
+
+namespace {
+
+using scene::GroundWater;
+
+/// How far a region must reach below the line before some of its elements are wet for certain.
+double certainly_wet(const GroundWater& water, const scene::Region& region) {
+    // "drained": one node below the line makes an element wet; "dry": its centre must be.
+    return water.above == scene::AboveWater::dry ? element_size(region)
+                                                 : 1e-6 * element_size(region);
+}
+
+void check_wet_soil(const scene::Scene& scene, const GroundWater& water, Findings& findings) {
+    std::vector<std::size_t> told;
+    for (const scene::Region& region : scene.section.regions) {
+        const scene::Material* material = material_of(scene, region);
+        if (region.polygon.empty() || material == nullptr) continue;
+        const Depth deepest = deepest_below(region.polygon, water.line, level_at);
+        if (deepest.below <= certainly_wet(water, region)) continue;
+        if (material->void_ratio && material->permeability) continue;
+        if (std::ranges::find(told, region.material) != told.end()) continue;
+        told.push_back(region.material);
+        const std::string lacks = material->void_ratio     ? "permeability"
+                                  : material->permeability ? "void_ratio"
+                                                           : "void_ratio and permeability";
+        refuse(findings, "/materials/" + material->name,
+               "lacks " + lacks + ", and \"" + region.name + "\" reaches " + metres(deepest.below) +
+                   " below the phreatic line at " + text(deepest.place),
+               "give " + lacks + ", lower the line there, or leave out /fem/water");
+    }
+}
+
+void check_boundaries(const scene::Scene& scene, const GroundWater& water, Findings& findings) {
+    if (scene.fem->mesh.msh_file) return;
+    const double tolerance = 1e-6 * least_element_size(scene);
+    for (std::size_t i = 0; i < water.boundaries.size(); ++i) {
+        const scene::PressureBoundary& boundary = water.boundaries[i];
+        const Side segment{boundary.from, boundary.to};
+        if (may_hold_nodes(scene, segment, tolerance)) continue;
+        refuse(findings, "/fem/water/boundaries/" + std::to_string(i),
+               "\"" + boundary.name + "\" " + how_it_misses(scene, segment),
+               "let the segment run along an edge of a region, ends included");
+    }
+}
+
+/// Does some soil of the region lie between these abscissae?
+bool lies_between(const scene::Region& region, const std::array<double, 2>& x) {
+    if (region.polygon.empty()) return false;
+    const scene::Box box = scene::bounding_box(region.polygon);
+    return box.high.x() >= x[0] && box.low.x() <= x[1];
+}
+
+void check_watch(const scene::Scene& scene, Findings& findings) {
+    const scene::LiquefactionWatch& watch = *scene.fem->liquefaction;
+    bool seen = false, wet = false;
+    for (const std::size_t r : watch.regions) {
+        if (r >= scene.section.regions.size()) return;  // the reader has said so
+        const scene::Region& region = scene.section.regions[r];
+        if (!lies_between(region, watch.x)) continue;
+        seen = true;
+        wet = wet || deepest_below(region.polygon, scene.fem->water->line, level_at).below > 0.0;
+    }
+    if (!seen) {
+        refuse(findings, "/fem/liquefaction/x",
+               "no soil of these regions lies between " + metres(watch.x[0]) + " and " +
+                   metres(watch.x[1]),
+               "the section reaches from " + metres(extent(scene).low.x()) + " to " +
+                   metres(extent(scene).high.x()) + ": give a range that holds these regions");
+    } else if (!wet) {
+        refuse(findings, "/fem/liquefaction/regions", "lie above the phreatic line throughout",
+               "name regions that have soil below /fem/water/line");
+    }
+}
+
+}  // namespace
+
+void check_water(const scene::Scene& scene, Findings& findings) {
+    if (!scene.fem->water || scene.fem->water->line.empty()) return;
+    const GroundWater& water = *scene.fem->water;
+    check_boundaries(scene, water, findings);
+    const Depth deepest = deepest_below(scene, water.line, level_at);
+    if (deepest.below <= 0.0) {
+        refuse(findings, "/fem/water/line",
+               "runs below all soil, by at least " + metres(-deepest.below) +
+                   " at x = " + metres(deepest.place.x()),
+               "raise the line above the section's lowest level, " + metres(extent(scene).low.y()) +
+                   ", or leave out /fem/water");
+        return;
+    }
+    check_wet_soil(scene, water, findings);
+    if (scene.fem->liquefaction) check_watch(scene, findings);
+}
+
+}  // namespace breach::check

@@ -1,0 +1,62 @@
+// What a law is to a loop over several points side by side (lanes.hpp): bare numbers and one formula
+// from the elastic trial stress to the stress. Knows neither Eigen nor containers, so that it can
+// be compiled once per instruction set.
+#pragma once
+
+#include "core/materials/lanes.hpp"
+
+namespace breach::materials {
+
+/// Moduli of isotropic elasticity [Pa].
+struct Moduli {
+    double G;
+    double K;
+    double lambda;
+};
+
+template <class Real>
+struct StressOf {
+    Real xx, yy, zz, xy;
+};
+
+/// Which strain accumulates and weakens the soil.
+enum class Softens { never, with_plastic_strain, with_total_strain };
+
+/// What a law answers to a trial stress.
+template <class Real>
+struct UpdateOf {
+    StressOf<Real> sigma;
+    Real plastic_work;  ///< sigma : d_epsilon_plastic [Pa]; 0 where elastic
+    Real d_epsilon_q;   ///< sqrt(2/3 e:e) of the plastic strain; 0 where elastic or `never`
+    Real opened;        ///< volume strain opened by the tension cut-off or at the apex [-]
+};
+
+/// The answer where nothing yields.
+template <class Real>
+[[gnu::always_inline]] inline UpdateOf<Real> elastic_update(const StressOf<Real>& trial) {
+    return {trial, Real(0.0), Real(0.0), Real(0.0)};
+}
+
+/// The simplest of them shows what each must have: its `numbers`, whether it yields and softens, and
+/// for an instruction set (`Isa::lanes` points side by side) an InLoop, which is made once per call
+/// of a loop and gives every block its update at the memory epsilon_q.
+struct LinearElasticLanes {
+    struct Numbers {};
+    static constexpr bool yields = false;
+    static constexpr Softens softens = Softens::never;
+
+    Numbers numbers{};
+
+    template <class Isa>
+    class InLoop {
+        using Real = Lanes<Isa::lanes>;
+
+      public:
+        [[gnu::always_inline]] explicit InLoop(const Numbers&) {}
+        [[gnu::always_inline]] UpdateOf<Real> update(const StressOf<Real>& trial, const Real&) {
+            return elastic_update(trial);
+        }
+    };
+};
+
+}  // namespace breach::materials

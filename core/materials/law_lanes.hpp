@@ -1,0 +1,18 @@
+// The list of the laws that particles can have, as the MPM's loops see them (lane_law.hpp). The
+// loops' room knows this list and no single law.
+#pragma once
+
+#include "core/materials/drucker_prager/lanes.hpp"
+#include "core/materials/lane_law.hpp"
+#include "core/materials/mohr_coulomb/lanes.hpp"
+
+namespace breach::materials {
+
+template <class... Each>
+struct LawList {};
+
+using LaneLaws = LawList<LinearElasticLanes, MohrCoulombLanes<Softens::never>,
+                         MohrCoulombLanes<Softens::with_plastic_strain>,
+                         MohrCoulombLanes<Softens::with_total_strain>, DruckerPragerLanes>;
+
+}  // namespace breach::materials

@@ -1,0 +1,167 @@
+#include "core/motion/plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace breach::motion {
+
+namespace {
+
+/// Possible and plausible, from below and above.
+struct Range {
+    double least, low, high, most;
+};
+// The strongest horizontal records come to 2 g (and 4 g in three directions together) and 3 m/s.
+constexpr Range acceleration{0.0, 0.005, 1.0, 3.0};  // [g]
+constexpr Range velocity{0.0, 0.002, 3.0, 10.0};     // [m/s]
+constexpr Range sampling{1e-5, 2e-4, 0.05, 0.5};     // [s]
+constexpr Range length{0.0, 1.0, 600.0, 1e5};        // [s]
+constexpr double rounding = 1e-6;                    // of values in a file
+constexpr double much_left = 0.05;                   // velocity at the end, of the peak velocity
+
+std::string text(double value, const char* unit = "") {
+    char out[64];
+    std::snprintf(out, sizeof out, "%.4g%s", value, unit);
+    return out;
+}
+
+/// Derivative at the middle of each step, the largest.
+double steepest(const Series& series) {
+    double largest = 0.0;
+    for (std::size_t i = 1; i < series.values.size(); ++i) {
+        largest = std::max(largest, std::abs(series.values[i] - series.values[i - 1]) / series.dt);
+    }
+    return largest;
+}
+
+class Finder {
+  public:
+    explicit Finder(std::string pointer) : pointer_(std::move(pointer)) {}
+
+    /// what: "a PGA of 1.96 g". slip(value) is the likely slip, with what to do; "" without one.
+    template <class Slip>
+    void judge(double value, const Range& range, const std::string& what, Slip slip) {
+        const bool possible = value >= range.least && value <= range.most * (1.0 + rounding);
+        const bool plausible = value >= range.low && value <= range.high * (1.0 + rounding);
+        if (plausible) return;
+        const std::string meant = slip(value);
+        if (!possible) {
+            doubts.faults.push_back({pointer_, "has " + what + ", which no earthquake has",
+                                     meant.empty() ? "check the file's units and columns" : meant});
+            return;
+        }
+        flag("implausible", "the motion has " + what + ", hardly plausible: " +
+                                (meant.empty() ? "check the file's units and columns" : meant));
+    }
+
+    /// One flag per code: a second finding becomes its second sentence.
+    void flag(const char* code, const std::string& message) {
+        const auto said = std::ranges::find(doubts.flags, code, &fault::Flag::code);
+        if (said != doubts.flags.end()) {
+            said->message += "; " + message;
+        } else {
+            doubts.flags.push_back({code, fault::Severity::warning, message, pointer_});
+        }
+    }
+
+    Doubts doubts;
+
+  private:
+    std::string pointer_;
+};
+
+std::string slip_of_acceleration(double g) {
+    if (g < acceleration.low) {
+        return "it looks like g given as m/s2: name the column acceleration_g, or scale the motion";
+    }
+    if (g / standard_gravity <= acceleration.high) {
+        return text(g) + " looks like m/s2 given as g: divide by 9.81 (" +
+               text(g / standard_gravity, " g") + "), or name the column acceleration_m_s2";
+    }
+    if (g / (100.0 * standard_gravity) <= acceleration.high) {
+        return text(g) + " looks like cm/s2 (gal) given as g: divide by 981 (" +
+               text(g / (100.0 * standard_gravity), " g") + ")";
+    }
+    return "";
+}
+
+std::string slip_of_velocity(double v) {
+    if (v > velocity.high && 0.01 * v <= velocity.high) {
+        return text(v) +
+               " looks like cm/s given as m/s: divide by 100, or name the column "
+               "velocity_cm_s";
+    }
+    if (v < velocity.low) {
+        return "it looks like m/s given as cm/s: name the column velocity_m_s";
+    }
+    return "";
+}
+
+std::string slip_of_time(double seconds, const Range& range) {
+    const double meant = 1e-3 * seconds;
+    if (seconds < range.high || meant < range.low || meant > range.high) return "";
+    return text(seconds) + " looks like milliseconds: divide the times by 1000 (" +
+           text(meant, " s") + ")";
+}
+
+}  // namespace
+
+Peaks peaks_of(const Recording& motion) {
+    if (motion.quantity == Quantity::velocity) {
+        return {steepest(motion.series), peak(motion.series)};
+    }
+    return {peak(motion.series), peak(integral(motion.series))};
+}
+
+std::string summary_of(const Recording& motion) {
+    const Peaks peaks = peaks_of(motion);
+    return "PGA " + text(peaks.acceleration / standard_gravity, " g") + ", PGV " +
+           text(peaks.velocity, " m/s") + ", " + text(motion.series.duration(), " s") +
+           " in steps of " + text(motion.series.dt, " s");
+}
+
+Doubts doubts_about(const Recording& motion, const std::string& pointer) {
+    Finder find(pointer);
+    const Series& series = motion.series;
+    const Peaks peaks = peaks_of(motion);
+    find.judge(series.dt, sampling, "a time step of " + text(series.dt, " s"),
+               [](double dt) { return slip_of_time(dt, sampling); });
+    find.judge(series.duration(), length, "a length of " + text(series.duration(), " s"),
+               [](double all) { return slip_of_time(all, length); });
+    if (peak(series) == 0.0) {
+        find.flag("implausible", "the motion is zero throughout: nothing is shaken");
+        return std::move(find.doubts);
+    }
+    if (motion.quantity == Quantity::velocity) {
+        find.judge(peaks.velocity, velocity, "a peak velocity of " + text(peaks.velocity, " m/s"),
+                   slip_of_velocity);
+        return std::move(find.doubts);
+    }
+    const double g = peaks.acceleration / standard_gravity;
+    find.judge(g, acceleration, "a PGA of " + text(g, " g"), slip_of_acceleration);
+    const Baseline left = baseline(series);
+    if (left.velocity_share > much_left) {
+        find.flag("drifting_motion", "the motion leaves " + text(left.last_velocity, " m/s") +
+                                         " at its end, " + text(100.0 * left.velocity_share, " %") +
+                                         " of its peak velocity, and moves everything by " +
+                                         text(left.last_displacement, " m") +
+                                         ": \"baseline\": \"corrected\" takes both off");
+    }
+    return std::move(find.doubts);
+}
+
+std::optional<fault::Flag> doubt_about_step(const Series& motion, double time_step,
+                                            const std::string& pointer) {
+    constexpr double fine = 0.01;  // [s] resolves 10 Hz, all that moves a dam
+    const double samples = time_step / motion.dt;
+    if (time_step <= fine || samples <= 2.0) return std::nullopt;
+    return fault::Flag{"coarse_step", fault::Severity::warning,
+                       "steps of " + text(time_step, " s") + " pass over " + text(samples) +
+                           " samples of the motion (" + text(motion.dt, " s") +
+                           " apart): its peaks are missed; give at most " +
+                           text(std::max(fine, 2.0 * motion.dt), " s"),
+                       pointer};
+}
+
+}  // namespace breach::motion

@@ -1,0 +1,254 @@
+#include "core/scene/plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/slips.hpp"
+
+namespace breach::scene {
+
+namespace {
+
+constexpr const char* code = "implausible";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string metres(double value) { return plain_number(value) + " m"; }
+std::string seconds(double value) { return plain_number(value) + " s"; }
+
+struct Doubter {
+    Reader& reader;
+    Scene& scene;
+    Box extent;  ///< of all regions
+
+    double height() const { return extent.high.y() - extent.low.y(); }
+    double width() const { return extent.high.x() - extent.low.x(); }
+    /// One flag per entry: what is said of it already gets a second sentence.
+    void doubt(const std::string& pointer, const std::string& message) {
+        const auto said = std::ranges::find(scene.warnings, pointer, &fault::Flag::pointer);
+        if (said != scene.warnings.end() && said->code == code) {
+            said->message += "; " + message;
+        } else {
+            scene.warnings.push_back({code, fault::Severity::warning, message, pointer});
+        }
+    }
+};
+
+Box extent_of(const std::vector<Region>& regions) {
+    Box all{{infinity, infinity}, {-infinity, -infinity}};
+    for (const Region& region : regions) {
+        if (region.polygon.empty()) continue;
+        const Box box = bounding_box(region.polygon);
+        all.low = all.low.cwiseMin(box.low);
+        all.high = all.high.cwiseMax(box.high);
+    }
+    return all;
+}
+
+/// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long at most.
+void doubt_section(Doubter& d) {
+    constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
+    const char* pointer = "/section/regions";
+    const std::string size = metres(d.height()) + " high and " + metres(d.width()) + " long";
+    const double larger = std::max(d.height() / most, d.width() / (20.0 * longest));
+    if (larger > 1.0) {
+        d.reader.add(pointer, "make a section " + size,
+                     "give vertices in m; these look like mm: divide by 1000");
+    } else if (d.height() > high || d.width() > longest) {
+        d.doubt(pointer,
+                "the section is " + size + ": vertices are in m, these look like cm, mm or feet");
+    } else if (d.height() < least) {
+        d.doubt(pointer, "the section is " + size + ": vertices are in m, these look like km");
+    }
+}
+
+double level_at(const std::vector<Vec2>& line, double x) {
+    if (x <= line.front().x()) return line.front().y();
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (x > line[i].x()) continue;
+        const double share = (x - line[i - 1].x()) / (line[i].x() - line[i - 1].x());
+        return line[i - 1].y() + share * (line[i].y() - line[i - 1].y());
+    }
+    return line.back().y();
+}
+
+/// Water above the highest ground drowns the whole section: a lake's floor may lie so, but free
+/// water lies level.
+void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& pointer) {
+    if (line.empty() || !d.reader.sound(pointer)) return;
+    const double left = d.extent.low.x(), right = d.extent.high.x();
+    auto [lowest, highest] = std::minmax({level_at(line, left), level_at(line, right)});
+    for (const Vec2& point : line) {
+        if (point.x() < left || point.x() > right) continue;
+        lowest = std::min(lowest, point.y());
+        highest = std::max(highest, point.y());
+    }
+    const double ground = d.extent.high.y();
+    const double above = highest - ground;
+    if (above <= 1e-6 * d.height()) return;
+    const std::string what =
+        "stands " + metres(above) + " above the section's highest ground (" + metres(ground) + ")";
+    const bool slopes = highest - lowest > 0.01 * d.height();
+    if (above > d.height() && slopes) {
+        d.reader.add(pointer, what + " and slopes there, as no free water does",
+                     "give levels in m and in the section's own datum");
+    } else {
+        d.doubt(pointer, "the water " + what +
+                             ": the whole section is drowned; levels are in m and in the section's "
+                             "own datum");
+    }
+}
+
+/// The step that was meant, when it looks like milliseconds.
+std::string meant_step(double step, double duration) {
+    const double meant = 1e-3 * step;
+    if (meant > 0.05 || meant > 0.1 * duration) return "give a step well below it";
+    return plain_number(step) + " looks like ms: write " + seconds(meant);
+}
+
+/// T = 4 H / V_s, H the section's height, V_s of its softest soil; 0 without soil.
+double natural_period(const Doubter& d) {
+    double slowest = infinity;
+    for (const Region& region : d.scene.section.regions) {
+        if (region.material >= d.scene.materials.size()) continue;
+        const Material& soil = d.scene.materials[region.material];
+        const double G = materials::elasticity(soil.law).shear_modulus();
+        slowest = std::min(slowest, std::sqrt(G / soil.density));
+    }
+    return d.height() > 0.0 && std::isfinite(slowest) ? 4.0 * d.height() / slowest : 0.0;
+}
+
+void doubt_steps(Doubter& d) {
+    const Fem& fem = *d.scene.fem;
+    constexpr double hopeless = 0.5;  // [s]: the motion's shortest periods that matter are 0.1 s
+    const double period = natural_period(d);
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const Stage& stage = fem.stages[i];
+        if (stage.kind != StageKind::dynamic) continue;
+        const std::string pointer = "/fem/stages/" + std::to_string(i) + "/time_step";
+        if (stage.time_step > stage.duration * (1.0 + 1e-9)) {
+            d.reader.add(pointer,
+                         "is " + seconds(stage.time_step) + ", longer than the stage's " +
+                             seconds(stage.duration),
+                         meant_step(stage.time_step, stage.duration));
+        } else if (fem.motion && stage.time_step > hopeless) {
+            d.reader.add(
+                pointer,
+                "is " + seconds(stage.time_step) + ", longer than the periods of an earthquake",
+                meant_step(stage.time_step, stage.duration));
+        } else if (stage.time_step > 0.25 * period && period > 0.0) {
+            d.doubt(pointer, "four steps of " + seconds(stage.time_step) +
+                                 " are longer than the section's natural period of about " +
+                                 seconds(period));
+        }
+    }
+}
+
+/// Elements or cells that no machine holds, or that are larger than what they divide.
+void doubt_size(Doubter& d, double size, double area, const std::string& pointer,
+                const char* what) {
+    constexpr double many = 3e6, most = 3e8;
+    const double count = area / (size * size);
+    const std::string cause = "make " + plain_number(std::round(count)) + " " + what;
+    if (count > most) {
+        d.reader.add(pointer, cause, "is " + metres(size) + " meant? sizes are in m");
+    } else if (count > many) {
+        d.doubt(pointer, metres(size) + " " + cause + ": sizes are in m");
+    } else if (size > std::max(d.height(), d.width())) {
+        d.reader.add(pointer, "is " + metres(size) + ", more than the whole section",
+                     "sizes are in m: " + metres(1e-3 * size) + " when mm are meant");
+    }
+}
+
+void doubt_sizes(Doubter& d) {
+    if (d.scene.fem && !d.scene.fem->mesh.msh_file) {
+        for (std::size_t i = 0; i < d.scene.section.regions.size(); ++i) {
+            const Region& region = d.scene.section.regions[i];
+            if (region.polygon.empty() || region.element_size <= 0.0) continue;
+            const std::string own = "/section/regions/" + std::to_string(i) + "/mesh/element_size";
+            const bool has_own = d.reader.document().contains(nlohmann::json::json_pointer(own));
+            doubt_size(d, region.element_size, area(region.polygon),
+                       has_own ? own : "/section/element_size", "elements");
+        }
+    }
+    if (!d.scene.mpm) return;
+    const Mpm& mpm = *d.scene.mpm;
+    doubt_size(d, mpm.cell_size,
+               (mpm.domain_x[1] - mpm.domain_x[0]) * (mpm.domain_y[1] - mpm.domain_y[0]),
+               "/mpm/cell_size", "cells");
+    if (mpm.time_step && *mpm.time_step > mpm.duration) {
+        d.reader.add("/mpm/time_step",
+                     "is " + seconds(*mpm.time_step) + ", longer than the duration of " +
+                         seconds(mpm.duration),
+                     meant_step(*mpm.time_step, mpm.duration));
+    }
+}
+
+/// Area of the polygon with x above the given one [m2].
+double area_beyond(const Polygon& polygon, double x) {
+    const Box box = bounding_box(polygon);
+    if (x <= box.low.x()) return area(polygon);
+    if (x >= box.high.x()) return 0.0;
+    const double below = box.low.y() - 1.0, above = box.high.y() + 1.0;
+    const Polygon beyond{
+        {x, below}, {box.high.x() + 1.0, below}, {box.high.x() + 1.0, above}, {x, above}};
+    return overlap_area(polygon, beyond);
+}
+
+/// Runout is counted downstream (+x) from the toe: soil that lies beyond it from the beginning has
+/// run out before anything has moved.
+void doubt_toe(Doubter& d) {
+    constexpr double some = 0.02,
+                     most = 0.5;  // of the soil that counts; the runout is of 1 % of it
+    const Runout& runout = d.scene.mpm->runout;
+    double all = 0.0, beyond = 0.0;
+    Box soil{{infinity, infinity}, {-infinity, -infinity}};
+    for (const Region& region : d.scene.section.regions) {
+        const auto& named = runout.regions;
+        const bool counts = named.empty() || std::ranges::find(named, region.name) != named.end();
+        if (!counts || region.polygon.empty()) continue;
+        const Box box = bounding_box(region.polygon);
+        soil.low = soil.low.cwiseMin(box.low);
+        soil.high = soil.high.cwiseMax(box.high);
+        all += area(region.polygon);
+        beyond += area_beyond(region.polygon, runout.toe.x());
+    }
+    if (!(all > 0.0)) return;
+    const char* pointer = "/mpm/runout/toe";
+    const std::string share =
+        plain_number(std::round(100.0 * beyond / all)) +
+        " % of the soil that counts lie beyond the toe (x = " + metres(runout.toe.x()) +
+        ") before anything has moved";
+    const double length = soil.high.x() - soil.low.x();
+    if (beyond > most * all) {
+        d.reader.add(pointer, "lies upstream: " + share,
+                     "x points downstream: give the foot of the downstream face, near x = " +
+                         plain_number(soil.high.x()) +
+                         "; a slope that faces -x has to be drawn mirrored");
+    } else if (beyond > some * all) {
+        d.doubt(pointer,
+                share + ": they are part of every runout; x points downstream, and " +
+                    (runout.regions.empty() ? "/mpm/runout/regions should name the soil that moves"
+                                            : "the soil ends at x = " + metres(soil.high.x())));
+    } else if (runout.toe.x() > soil.high.x() + std::max(length, d.height())) {
+        d.doubt(pointer, "the toe (x = " + metres(runout.toe.x()) +
+                             ") lies far beyond the soil, which ends at x = " +
+                             metres(soil.high.x()) + ": runout is counted from the toe");
+    }
+}
+
+}  // namespace
+
+void doubt_together(Reader& reader, Scene& scene) {
+    Doubter d{reader, scene, extent_of(scene.section.regions)};
+    if (scene.fem) doubt_steps(d);
+    if (!(d.height() > 0.0)) return;  // no region is sound
+    doubt_section(d);
+    if (scene.lem && scene.lem->water) doubt_water(d, scene.lem->water->line, "/lem/water/line");
+    if (scene.fem && scene.fem->water) doubt_water(d, scene.fem->water->line, "/fem/water/line");
+    if (scene.transfer) doubt_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");
+    doubt_sizes(d);
+    if (scene.mpm) doubt_toe(d);
+}
+
+}  // namespace breach::scene

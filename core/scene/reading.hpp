@@ -1,0 +1,25 @@
+// A scene as far as it can be read: for whoever goes on checking where the reader stopped, so that
+// one list holds everything that is wrong.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+namespace breach::scene {
+
+/// With faults, `scene` holds what was sound: a part with a fault of its own is absent, a polygon
+/// that is none is empty, a region whose material does not exist names materials.size().
+struct Reading {
+    Scene scene;
+    std::vector<fault::Fault> faults;
+};
+
+/// As parse_scene, but faults come back beside what could be read. Throws BadInput only where the
+/// text is no JSON object.
+Reading read_text(std::string_view text, const std::string& name,
+                  const std::filesystem::path& folder = ".",
+                  const std::vector<std::string>& overrides = {});
+
+/// The text of a scene file. Throws IoError if it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
+}  // namespace breach::scene

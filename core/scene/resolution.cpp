@@ -1,0 +1,356 @@
+#include "core/scene/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <tuple>
+#include <variant>
+
+namespace breach::scene {
+
+namespace {
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text.precision(3);
+    text << value;
+    return text.str();
+}
+
+/// A number below a limit must not be rounded up to it.
+std::string rounded_down(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return text_of(std::floor(value / unit) * unit);
+}
+
+// ---------------------------------------------------------------- thickness
+
+struct Segment {
+    Vec2 from;
+    Vec2 to;
+};
+
+struct Disc {
+    Vec2 center;
+    double radius;
+};
+
+/// Polygons that touch, as one shape: what two of them share is inside.
+struct Shape {
+    std::vector<Polygon> parts;
+    std::vector<Segment> border;
+};
+
+bool lies_on(const Vec2& point, const Polygon& polygon, double tolerance) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        if (distance_to_segment(point, polygon[i], polygon[(i + 1) % polygon.size()]) < tolerance)
+            return true;
+    }
+    return false;
+}
+
+/// An edge cut where a vertex of another polygon lies on it.
+std::vector<Segment> pieces_of(const Segment& edge, const std::vector<Polygon>& others,
+                               double tolerance) {
+    std::vector<Vec2> cuts{edge.from, edge.to};
+    for (const Polygon& other : others) {
+        for (const Vec2& vertex : other) {
+            if (distance_to_segment(vertex, edge.from, edge.to) < tolerance) cuts.push_back(vertex);
+        }
+    }
+    std::ranges::sort(cuts, {}, [&](const Vec2& cut) { return (cut - edge.from).norm(); });
+    std::vector<Segment> pieces;
+    for (std::size_t i = 1; i < cuts.size(); ++i) {
+        if ((cuts[i] - cuts[i - 1]).norm() > tolerance) pieces.push_back({cuts[i - 1], cuts[i]});
+    }
+    return pieces;
+}
+
+/// The pieces of a polygon's edges that lie on another's border, or those that do not.
+enum class Sides { shared, own };
+std::vector<Segment> sides_of(const Polygon& polygon, const std::vector<Polygon>& others,
+                              Sides wanted) {
+    const Box box = bounding_box(polygon);
+    const double tolerance = 1e-6 * (box.high - box.low).norm();
+    std::vector<Segment> found;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Segment edge{polygon[i], polygon[(i + 1) % polygon.size()]};
+        for (const Segment& piece : pieces_of(edge, others, tolerance)) {
+            const Vec2 middle = 0.5 * (piece.from + piece.to);
+            const bool shared = std::ranges::any_of(
+                others, [&](const Polygon& other) { return lies_on(middle, other, tolerance); });
+            if (shared == (wanted == Sides::shared)) found.push_back(piece);
+        }
+    }
+    return found;
+}
+
+Shape shape_of(const std::vector<Polygon>& parts) {
+    Shape shape{parts, {}};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        std::vector<Polygon> others = parts;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        std::ranges::move(sides_of(parts[i], others, Sides::own), std::back_inserter(shape.border));
+    }
+    return shape;
+}
+
+double distance_to_border(const Shape& shape, const Vec2& point) {
+    double least = std::numeric_limits<double>::max();
+    for (const Segment& side : shape.border)
+        least = std::min(least, distance_to_segment(point, side.from, side.to));
+    return least;
+}
+
+double perimeter(const Polygon& polygon) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+    return sum;
+}
+
+bool holds(const Shape& shape, const Vec2& point) {
+    return std::ranges::any_of(shape.parts,
+                               [&](const Polygon& part) { return contains(part, point); });
+}
+
+constexpr double places_wanted = 250.0;
+
+double spacing_of(const Polygon& polygon) { return std::sqrt(area(polygon) / places_wanted); }
+
+/// Places inside on a lattice, a few hundred.
+std::vector<Vec2> places_inside(const Polygon& polygon) {
+    const Box box = bounding_box(polygon);
+    const Vec2 extent = box.high - box.low;
+    const auto lines = [&](double length) {
+        const double wanted = std::ceil(length / spacing_of(polygon));
+        return static_cast<int>(std::clamp(wanted, 4.0, places_wanted));
+    };
+    const int columns = lines(extent.x());
+    const int rows = lines(extent.y());
+    std::vector<Vec2> places;
+    for (int i = 0; i < columns; ++i) {
+        for (int j = 0; j < rows; ++j) {
+            const Vec2 share{(i + 0.5) / columns, (j + 0.5) / rows};
+            const Vec2 place = box.low + extent.cwiseProduct(share);
+            if (contains(polygon, place)) places.push_back(place);
+        }
+    }
+    return places;
+}
+
+/// Middle of the shortest way across the shape through a place: near its medial axis, where the
+/// largest discs have their centres.
+Vec2 middle_of_shortest_chord(const Shape& shape, const Vec2& place) {
+    constexpr int directions = 16;
+    double shortest = std::numeric_limits<double>::max();
+    Vec2 middle = place;
+    for (int k = 0; k < directions; ++k) {
+        const double angle = std::numbers::pi * k / directions;
+        const Vec2 along{std::cos(angle), std::sin(angle)};
+        const Vec2 normal{-along.y(), along.x()};
+        double ahead = std::numeric_limits<double>::max();
+        double behind = ahead;
+        for (const Segment& side : shape.border) {
+            const Vec2 a = side.from - place;
+            const Vec2 b = side.to - place;
+            const double from = normal.dot(a);
+            const double to = normal.dot(b);
+            if ((from > 0.0) == (to > 0.0)) continue;
+            const double s = along.dot(a) + along.dot(b - a) * from / (from - to);
+            if (s >= 0.0) ahead = std::min(ahead, s);
+            if (s <= 0.0) behind = std::min(behind, -s);
+        }
+        if (ahead + behind >= shortest) continue;
+        shortest = ahead + behind;
+        middle = place + 0.5 * (ahead - behind) * along;
+    }
+    return middle;
+}
+
+/// The largest disc near a place inside: uphill, in steps that are halved down to a share of it.
+Disc largest_disc_near(const Shape& shape, const Vec2& place) {
+    Disc disc{place, distance_to_border(shape, place)};
+    for (double step = 0.5 * disc.radius; step > 0.03 * disc.radius; step *= 0.5) {
+        for (bool climbs = true; climbs;) {
+            climbs = false;
+            for (const Vec2& way : {Vec2{step, 0}, Vec2{-step, 0}, Vec2{0, step}, Vec2{0, -step}}) {
+                const Vec2 center = disc.center + way;
+                if (!holds(shape, center)) continue;
+                const double radius = distance_to_border(shape, center);
+                if (radius < 1.02 * disc.radius) continue;
+                disc = {center, radius};
+                climbs = true;
+            }
+        }
+    }
+    return disc;
+}
+
+// ---------------------------------------------------------------- what has to be resolved
+
+bool is_mobile(const Region& region, const Mpm& mpm) {
+    const auto& names = mpm.runout.regions;
+    return names.empty() || std::ranges::find(names, region.name) != names.end();
+}
+
+bool as_strong(const Material& a, const Material& b) {
+    if (&a == &b) return true;
+    const auto* one = std::get_if<materials::MohrCoulomb>(&a.law);
+    const auto* other = std::get_if<materials::MohrCoulomb>(&b.law);
+    if (!one || !other || one->c != other->c || one->phi != other->phi) return false;
+    if (!one->softening || !other->softening) return !one->softening && !other->softening;
+    const auto numbers = [](const materials::Softening& s) {
+        return std::tuple{s.epsilon_q_start, s.epsilon_q_end, s.c_residual, s.tan_phi_residual,
+                          s.driver};
+    };
+    return numbers(*one->softening) == numbers(*other->softening);
+}
+
+bool touch(const Polygon& a, const Polygon& b) { return !sides_of(a, {b}, Sides::shared).empty(); }
+
+/// Mobile regions as strong as this one that it touches, directly or through others: wet and dry
+/// soil of a dam. Their borders stop no band of shear.
+std::vector<Polygon> attached_to(const Region& region, const Scene& scene) {
+    std::vector<const Region*> mass{&region};
+    for (std::size_t done = 0; done < mass.size(); ++done) {
+        for (const Region& other : scene.section.regions) {
+            if (other.polygon.empty() || !is_mobile(other, *scene.mpm)) continue;
+            if (std::ranges::find(mass, &other) != mass.end()) continue;
+            if (!as_strong(scene.materials.at(region.material), scene.materials.at(other.material)))
+                continue;
+            if (touch(mass[done]->polygon, other.polygon)) mass.push_back(&other);
+        }
+    }
+    std::vector<Polygon> attached;
+    for (std::size_t i = 1; i < mass.size(); ++i) attached.push_back(mass[i]->polygon);
+    return attached;
+}
+
+/// Elements across a block: as many as its divisions say; sizes are always met by two or more.
+double elements_across(const Region& region, double thickness) {
+    const auto [along, up] = region.divisions;
+    if (region.mesh == RegionMesh::block && along > 0) return std::min(along, up);
+    if (region.mesh == RegionMesh::block) return std::max(2.0, thickness / region.element_size);
+    return thickness / region.element_size;
+}
+
+void judge_cells(const Scene& scene, Resolved& resolved) {
+    const std::vector<Across> all = cells_across(scene);
+    const auto coarsest = std::ranges::min_element(all, {}, &Across::number);
+    if (coarsest == all.end() || coarsest->number >= cells_wanted) return;
+    const double h = scene.mpm->cell_size;
+    const std::string found = text_of(coarsest->number) + " cells of " + text_of(h) + " m across " +
+                              coarsest->what + ", " + text_of(coarsest->length) + " m";
+    const std::string fine = rounded_down(coarsest->length / cells_wanted) + " m";
+    const bool refused = coarsest->number < least_cells;
+    if (refused && !scene.mpm->allow_coarse_cells) {
+        resolved.faults.push_back(
+            {"/mpm/cell_size", "gives " + found + ": it could not shear within itself",
+             "take cells of at most " + rounded_down(coarsest->length / least_cells) + " m (" +
+                 fine + " for " + text_of(cells_wanted) +
+                 " across it), or for a quick look set /mpm/allow_coarse_cells to true: the result "
+                 "is then questionable"});
+        return;
+    }
+    resolved.flags.push_back(
+        {"coarse_cells", refused ? fault::Severity::questionable : fault::Severity::warning,
+         "only " + found + " (" + text_of(cells_wanted) +
+             " are wanted): coarse cells shorten the runout; compare with cells of " + fine +
+             " before relying on it",
+         "/mpm/cell_size"});
+}
+
+}  // namespace
+
+double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached) {
+    std::vector<Polygon> parts = attached;
+    parts.push_back(polygon);
+    const Shape shape = shape_of(parts);
+    const std::vector<Vec2> places = places_inside(polygon);
+    std::vector<Disc> discs;
+    for (const Vec2& place : places) {
+        discs.push_back(largest_disc_near(shape, middle_of_shortest_chord(shape, place)));
+    }
+    std::vector<double> thickness;
+    for (const Vec2& place : places) {
+        double radius = distance_to_border(shape, place);
+        for (const Disc& disc : discs) {
+            if (disc.radius > radius && (disc.center - place).norm() <= disc.radius)
+                radius = disc.radius;
+        }
+        thickness.push_back(2.0 * radius);
+    }
+    // A hair's breadth, which no place of the lattice has met.
+    if (thickness.empty()) return 2.0 * area(polygon) / perimeter(polygon);
+    const auto middle = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 2);
+    std::ranges::nth_element(thickness, middle);
+    return *middle;
+}
+
+double mobile_height(const Scene& scene, const Mpm& mpm) {
+    double low = std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::lowest();
+    for (const Region& region : scene.section.regions) {
+        if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
+        const Box box = bounding_box(region.polygon);
+        low = std::min(low, box.low.y());
+        high = std::max(high, box.high.y());
+    }
+    return std::max(high - low, 0.0);
+}
+
+std::vector<Across> cells_across(const Scene& scene) {
+    const Mpm& mpm = mpm_of(scene);
+    std::vector<Across> all;
+    const auto add = [&](std::string what, double length) {
+        all.push_back({std::move(what), "/mpm/cell_size", length, length / mpm.cell_size});
+    };
+    double top = std::numeric_limits<double>::lowest();
+    for (const Region& region : scene.section.regions) {
+        if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
+        add("the thickness of region \"" + region.name + "\"",
+            thickness_of(region.polygon, attached_to(region, scene)));
+        top = std::max(top, bounding_box(region.polygon).high.y());
+    }
+    if (top > mpm.runout.toe.y()) add("the height of the slope", top - mpm.runout.toe.y());
+    return all;
+}
+
+std::vector<Across> elements_across(const Scene& scene) {
+    std::vector<Across> all;
+    if (!scene.fem || scene.fem->mesh.msh_file) return all;
+    for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
+        const Region& region = scene.section.regions[i];
+        const bool sized = region.element_size > 0.0 || region.divisions[0] > 0;
+        if (region.polygon.empty() || !sized) continue;
+        const double thickness = thickness_of(region.polygon);
+        all.push_back({"region \"" + region.name + "\"",
+                       "/section/regions/" + std::to_string(i) + "/mesh", thickness,
+                       elements_across(region, thickness)});
+    }
+    return all;
+}
+
+Resolved resolution_of(const Scene& scene) {
+    Resolved resolved;
+    const auto known = [&](const Region& r) { return r.material < scene.materials.size(); };
+    if (!std::ranges::all_of(scene.section.regions, known)) return resolved;
+    if (scene.mpm) judge_cells(scene, resolved);
+    for (const Across& each : elements_across(scene)) {
+        if (each.number >= elements_wanted) continue;
+        resolved.flags.push_back(
+            {"coarse_elements", fault::Severity::warning,
+             each.what + ", " + text_of(each.length) + " m thick, is " + text_of(each.number) +
+                 " elements thick: it can hardly bend, and no band of failure can form within it; "
+                 "take elements of at most " +
+                 rounded_down(each.length / elements_wanted) + " m",
+             each.pointer});
+    }
+    return resolved;
+}
+
+}  // namespace breach::scene

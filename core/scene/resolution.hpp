@@ -1,0 +1,55 @@
+// How finely a scene cuts up what it has to resolve: cells of the MPM across the mobile soil,
+// elements of the FEM across a region. Known from the scene alone, so it is said before anything
+// runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
+
+namespace breach::scene {
+
+/// Cells across the thinnest mobile region and across the slope's height: wanted, and least.
+/// Runouts shrink with coarse cells, which is the unsafe side: one and the same dam of 30 m ran
+/// 30 m beyond its toe on cells of 4 m and stayed behind it on cells of 10 m. Below two cells soil
+/// cannot shear within itself at all: all its points share the same nodes.
+constexpr double cells_wanted = 8.0;
+constexpr double least_cells = 2.0;
+/// Elements across a region: one cannot bend, and a band through it has no soil beside it.
+constexpr double elements_wanted = 2.0;
+
+/// How thick a polygon is [m], together with those that it touches and that count as one with it.
+/// The local thickness at a place is the diameter of the largest disc inside the whole that covers
+/// the place (Hildebrand & Rueegsegger 1997); half of the polygon's area lies where the whole is
+/// thicker than the value returned, half where it is thinner. A long band's own thickness, a
+/// square's edge; thin wedges and necks that hold less than half of the area do not count. Within a
+/// few per cent.
+double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached = {});
+
+/// From the lowest to the highest vertex of the regions that count for the runout [m]; 0: none.
+double mobile_height(const Scene& scene, const Mpm& mpm);
+
+/// Something that has to be resolved, and by how much it is.
+struct Across {
+    std::string what;  ///< "region \"dam\""
+    std::string pointer;
+    double length;  ///< [m]
+    double number;  ///< of cells or elements across it [-]
+};
+
+/// Every mobile region, with mobile regions of the same strength that touch it, and the slope from the toe to the highest mobile soil.
+std::vector<Across> cells_across(const Scene& scene);
+/// Every region of the section that the FEM meshes.
+std::vector<Across> elements_across(const Scene& scene);
+
+struct Resolved {
+    std::vector<fault::Fault> faults;
+    std::vector<fault::Flag> flags;
+};
+
+/// What is too coarse: parts that the scene lacks, and regions without a sound polygon, are left out;
+/// nothing is said while a region's material is unknown.
+Resolved resolution_of(const Scene& scene);
+
+}  // namespace breach::scene

@@ -1,0 +1,56 @@
+#include "core/telemetry/columns.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace breach::telemetry {
+
+namespace {
+
+constexpr std::array fem_table{
+    Column{"step", "1", "steps so far, those of the static stages too"},
+    Column{"time", "s", "since the first dynamic stage began"},
+    Column{"dt", "s", "length of the step"},
+    Column{"iterations", "1", "Newton iterations of the step"},
+    Column{"residual", "1", "out of balance after the step, over the reference force"},
+    Column{"crest_displacement", "m", "displacement of the crest's node"},
+    Column{"crest_dx", "m", "its horizontal part"},
+    Column{"crest_dy", "m", "its vertical part"},
+    Column{"kinetic_energy", "J", "of the body without free-field columns"},
+    Column{"external_work", "J", "of gravity and other constant loads"},
+    Column{"internal_work", "J", "of the stresses"},
+    Column{"jacobian_ratio_avg", "1", "the same as jacobian_centre_avg"},
+    Column{"jacobian_ratio_min", "1", "the same as jacobian_least_min"},
+    Column{"jacobian_centre_avg", "1", "area ratio of the strained elements"},
+    Column{"jacobian_least_avg", "1", "worst corner ratio of the strained elements, averaged"},
+    Column{"jacobian_least_min", "1", "worst corner ratio of all elements"},
+    Column{"epsilon_q_avg", "1", "deviatoric strain of the strained elements, averaged"},
+    Column{"epsilon_q_max", "1", "largest deviatoric strain of an element"},
+    Column{"strained_share", "1", "volume of strained elements over all volume"},
+    Column{"softened_share", "1", "volume that has lost strength over volume that can"},
+    Column{"excess_pressure_avg", "Pa", "excess pore pressure, averaged by mass"},
+    Column{"r_u_max", "1", "largest excess pore pressure ratio of the watched nodes"},
+    Column{"liquefaction_depth", "m", "of the deepest liquefied watched node"},
+    Column{"failure_surfaces", "1", "bands of large strain from ground to ground"},
+};
+
+constexpr std::array run_table{
+    Column{"critical_depth", "m",
+           "depth of liquefaction that brings the run's factor of safety to 1 (lem_tool)"},
+};
+
+}  // namespace
+
+std::span<const Column> fem_columns() { return fem_table; }
+std::span<const Column> run_columns() { return run_table; }
+
+const Column* column_named(std::string_view name) {
+    for (const std::span<const Column> table : {fem_columns(), run_columns()}) {
+        const auto found =
+            std::ranges::find_if(table, [&](const Column& column) { return column.name == name; });
+        if (found != table.end()) return &*found;
+    }
+    return nullptr;
+}
+
+}  // namespace breach::telemetry

@@ -1,0 +1,25 @@
+// The columns of the FEM's telemetry: one table from which the FEM writes its lines, triggers check
+// their conditions, reports take their labels and GET /v1/telemetry/fields answers.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace breach::telemetry {
+
+struct Column {
+    const char* name;     ///< key of the line, name in a condition
+    const char* unit;     ///< "1": a ratio or a count
+    const char* meaning;  ///< for people, one line
+};
+
+/// What fem_solver writes, in the order of history.h5.
+std::span<const Column> fem_columns();
+
+/// What a condition may use beside them: numbers of the same run that other phases give.
+std::span<const Column> run_columns();
+
+/// Of either table; nullptr: no such column.
+const Column* column_named(std::string_view name);
+
+}  // namespace breach::telemetry

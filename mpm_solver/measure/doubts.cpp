@@ -1,0 +1,66 @@
+#include "mpm_solver/measure/doubts.hpp"
+
+#include <cmath>
+#include <sstream>
+
+namespace breach::mpm {
+
+namespace {
+
+using fault::Flag;
+using fault::Severity;
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text.precision(3);
+    text << value;
+    return text.str();
+}
+
+Flag still_moving(const Ending& ending) {
+    const char* bound = ending.until_rest ? "/mpm/longest_duration" : "/mpm/duration";
+    const std::string remedy = ending.until_rest
+                                   ? "raise /mpm/longest_duration"
+                                   : "raise /mpm/duration or set it to until_rest (--until-rest)";
+    return {"still_moving", Severity::questionable,
+            "still moving at " + text_of(ending.time) + " s with " +
+                text_of(100.0 * ending.kinetic_share) + " % of the released energy (" +
+                *ending.moving + "): the runout is a lower bound; " + remedy,
+            bound};
+}
+
+}  // namespace
+
+std::vector<Flag> doubts_of(const Ending& ending) {
+    std::vector<Flag> doubts;
+    if (ending.moving) doubts.push_back(still_moving(ending));
+    if (!(std::abs(ending.numerical_share) <= largest_numerical_share)) {
+        doubts.push_back(
+            {"numerical_share", Severity::questionable,
+             "the scheme " + std::string(ending.numerical_share > 0.0 ? "took " : "made ") +
+                 text_of(100.0 * std::abs(ending.numerical_share)) +
+                 " % of the released energy (at most 20 % can be trusted): the runout is the "
+                 "scheme's as much as the soil's; try smaller cells, more points per cell, a "
+                 "smaller /mpm/cfl, and the materials' viscosity",
+             "/mpm"});
+    }
+    if (!(ending.volume_ratio >= least_volume_ratio && ending.volume_ratio <= most_volume_ratio)) {
+        doubts.push_back({"volume_ratio", Severity::questionable,
+                          "the mobile soil has " + text_of(ending.volume_ratio) +
+                              " of its initial volume (0.8 to 1.3 can be trusted): depth and "
+                              "length of the deposit are wrong; look for spray in the last frame, "
+                              "try /mpm/gap_closure, smaller cells or a smaller /mpm/cfl",
+                          "/mpm"});
+    }
+    if (!(ending.overlap <= largest_overlap)) {
+        doubts.push_back({"overlap", Severity::questionable,
+                          text_of(100.0 * ending.overlap) +
+                              " % of the soil lies on other soil (at most 5 % can be trusted): the "
+                              "deposit lacks as much; set /mpm/overlap_correction/rate to 5 with "
+                              "nine points per cell",
+                          "/mpm/overlap_correction/rate"});
+    }
+    return doubts;
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,40 @@
+// What speaks against a result at its end, as flags: each limit stands here once, with its reason.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/flag.hpp"
+
+namespace breach::mpm {
+
+/// Energy that the scheme made or took, over the energy released. Runs with the usual settings lie
+/// within a few per cent; the overlap correction with 4 points per cell, which docs/mpm_convergence.md
+/// advises against, reaches 22 %. Beyond a fifth the scheme decides how far the soil runs.
+constexpr double largest_numerical_share = 0.20;
+
+/// Volume of the mobile soil over what it was at the start. Soil that keeps its volume in plastic
+/// flow can open in tension, so more is allowed above 1 than below: a deposit that has lost a fifth
+/// of its soil, or is a third air, has neither the right depth nor the right length.
+constexpr double least_volume_ratio = 0.8;
+constexpr double most_volume_ratio = 1.3;
+
+/// Volume-weighted share of soil that lies on soil. A lattice has less than 0.01; what overlaps is
+/// missing from the deposit.
+constexpr double largest_overlap = 0.05;
+
+/// How a run ended, as far as doubts go.
+struct Ending {
+    double time;                        ///< [s]
+    std::optional<std::string> moving;  ///< why the soil is not at rest; empty: it is
+    double kinetic_share;               ///< of the energy scale, see energy_scale [-]
+    double numerical_share;             ///< of the same [-]
+    double volume_ratio;
+    double overlap;
+    bool until_rest;  ///< the run was to go on until rest, and met its bound
+};
+
+std::vector<fault::Flag> doubts_of(const Ending& ending);
+
+}  // namespace breach::mpm

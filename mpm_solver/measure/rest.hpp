@@ -1,0 +1,46 @@
+// Whether the mobile soil is at rest, and if not, why. A front that stands still is no rest: it also
+// stands still while a failing mass gathers speed behind it, and while soil flows where no
+// percentile of x looks.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mpm_solver/measure/energy.hpp"
+#include "mpm_solver/measure/history.hpp"
+
+namespace breach::mpm {
+
+/// Soil in cells that touch each other (sides or corners), all of it faster than some speed.
+struct MovingBody {
+    double mass = 0.0;   ///< [kg]
+    double speed = 0.0;  ///< mass-weighted mean [m/s]
+    double x = 0.0;      ///< of its centre of mass [m]
+};
+
+/// The heaviest one of the soils that count; mass 0 when nothing is that fast.
+MovingBody heaviest_moving_body(const Body& body, const std::vector<std::uint8_t>& counts,
+                                double speed);
+
+/// What kinetic energy at the end is measured by [J]: the energy released, and where little or
+/// nothing was (a stable slope), what makes rest.kinetic_share of it the mobile soil's energy at
+/// rest.speed: a fall of 2.5 cm with the usual 0.005 and 0.05 m/s.
+double energy_scale(const scene::Rest& rest, double released, double mobile_mass);
+
+/// Over the last rest.window: kinetic energy of the mobile soil below rest.kinetic_share of the
+/// energy released and below rest.peak_share of its largest so far, both percentiles of the runout
+/// within rest.change; now: no connected body of more than rest.body_share of the mobile mass faster
+/// than rest.speed; and the run older than rest.earliest. Empty: at rest; otherwise the first of
+/// these that does not hold, in words that go on after "the soil moves: ".
+///
+/// The peak matters where little kinetic energy is a lot. Of what they release a collapsing column has
+/// 22 % in motion at its peak, a softening slope 9 %, the dam of Mochikoshi 4 %: a twentieth of the
+/// peak is then 1.1 % to 0.2 % of the release, and speeds are 22 % of the highest. A viscous flow
+/// may never have 0.5 % in motion, and a mass that starts to slide is at its peak.
+/// Soil that is slower than rest.speed on average may ring on at its peak, as elastic soil does that
+/// never slid, so long as it does not gather speed: what begins to slide has grown within the window.
+std::optional<std::string> why_moving(const History& history, const Energy& start, const Body& body,
+                                      const std::vector<std::uint8_t>& counts,
+                                      const scene::Rest& rest);
+
+}  // namespace breach::mpm

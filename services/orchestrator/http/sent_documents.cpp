@@ -1,0 +1,76 @@
+#include "services/orchestrator/http/sent_documents.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/scene/file_paths.hpp"
+
+namespace breach::orchestrator {
+
+using fault::BadInput;
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+/// By its format; without one, by parts that the other kind cannot have.
+bool is_a(const std::string& kind, const json& document, const char* part) {
+    if (!document.is_object()) return false;
+    const json format = document.value("format", json());
+    if (!format.is_string()) return document.contains(part);
+    return format.get_ref<const std::string&>().starts_with("breachline-" + kind + "/");
+}
+
+std::string this_machine() {
+    std::array<char, 256> name{};
+    if (gethostname(name.data(), name.size() - 1) != 0) return "the service's machine";
+    return "the service's machine (" + std::string(name.data()) + ")";
+}
+
+bool is_about_a_missing_file(const Fault& fault) {
+    const auto names_it = [&](const std::string& entry) {
+        return fault.pointer.ends_with(entry) || fault.cause.starts_with(entry);
+    };
+    return std::ranges::any_of(scene::file_entries, names_it) &&
+           fault.cause.find("does not exist") != std::string::npos;
+}
+
+/// `read`, with the remedy for a missing file that fits a sender who may sit elsewhere.
+template <class Read>
+auto read_here(Read read) {
+    try {
+        return read();
+    } catch (const BadInput& error) {
+        std::vector<Fault> faults = error.faults();
+        for (Fault& each : faults)
+            if (is_about_a_missing_file(each))
+                each.remedy = "files are looked for on " + this_machine() +
+                              ": copy it there and give its absolute path there";
+        throw BadInput(error.file(), std::move(faults));
+    }
+}
+
+}  // namespace
+
+Study sent_study(const std::string& body) {
+    if (is_a("scene", json::parse(body, nullptr, false), "section")) {
+        throw BadInput(
+            "study",
+            {{"", "this is a scene, not a study: it says what stands there, not when to transfer",
+              R"(wrap it: {"format": "breachline-study/1", "name": "...", "scene": {...}, )"
+              R"("transfer_times": [...]}; or: breach submit --scene FILE --times 0.5,1)"}});
+    }
+    return read_here([&] { return read_study(body); });
+}
+
+json sent_scene(const std::string& body) {
+    if (is_a("study", json::parse(body, nullptr, false), "scene")) {
+        throw BadInput("scene", {{"", "this is a study, not a scene",
+                                  "give the scene that it holds or names in \"scene\""}});
+    }
+    return read_here([&] { return read_whole_scene(body); });
+}
+
+}  // namespace breach::orchestrator

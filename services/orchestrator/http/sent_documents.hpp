@@ -1,0 +1,19 @@
+// Studies and scenes that come over the network, read with what only the door knows: the sender
+// may have taken the one for the other, and files are on this machine, not on the sender's.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "services/orchestrator/study/study.hpp"
+
+namespace breach::orchestrator {
+
+/// Throws BadInput: one fault when it is a scene, else those of read_study.
+Study sent_study(const std::string& body);
+
+/// The scene, completed. Throws BadInput: one fault when it is a study, else those of
+/// read_whole_scene.
+nlohmann::json sent_scene(const std::string& body);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,93 @@
+#include "services/orchestrator/records/result_columns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <set>
+
+#include "services/orchestrator/records/lifecycle.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+using enum ColumnKind;
+
+namespace {
+
+constexpr std::array columns{
+    ResultColumn{"transfer_time", "", number, "s", "t_T", "transfer time"},
+    ResultColumn{"state", "", word, "", "state",
+                 "that of the row; questionable: there is a result, but not one to rely on"},
+    ResultColumn{"runout", "/runout", number, "m", "runout",
+                 "99 % of the mobile soil lies at most so far beyond the toe; negative: before it"},
+    ResultColumn{"runout_beyond_toe", "/runout_beyond_toe", number, "m", "beyond toe",
+                 "the same of the soil beyond the toe; 0: there is none"},
+    ResultColumn{"runout_largest", "/runout_largest", number, "m", "largest",
+                 "of the farthest point"},
+    ResultColumn{"volume_ratio", "/volume_ratio", number, "1", "volume ratio",
+                 "indicator of error: volume at the end of that at the transfer"},
+    ResultColumn{"numerical_share", "/energy/numerical/share", number, "1", "numerical share",
+                 "indicator of error: energy made or lost by the numerics, of that released"},
+    ResultColumn{"overlap", "/overlap", number, "1", "",
+                 "indicator of error: area of soil that lies in other soil, of all"},
+    ResultColumn{"cpu_seconds", "/cpu_seconds", number, "s", "CPU", "of the MPM"},
+    ResultColumn{"reason", "", word, "", "", "why there is no result"},
+    ResultColumn{"transfer_task", "", word, "", "", "the task that made the points"},
+    ResultColumn{"mpm_task", "", word, "", "", "the task that made the result"},
+    ResultColumn{"variant", "", word, "", "variant", "of the study; empty: it has none"},
+    ResultColumn{"reused", "", yes_no, "", "", "taken from an earlier, equal task"},
+    ResultColumn{"trigger", "", word, "", "", "what made the transfer; at_time: the study's list"},
+    ResultColumn{"at_rest", "/at_rest", yes_no, "", "rest",
+                 "the soil came to rest; if not, the runout is a lower bound"},
+    ResultColumn{"ended", "/ended", word, "", "", "what ended the MPM: at_rest or duration"},
+    ResultColumn{"kinetic_share", "/kinetic_share", number, "1", "kinetic share",
+                 "kinetic energy at the end, of the energy released"},
+    ResultColumn{"end_time", "/end_time", number, "s", "", "end of the MPM, by its own clock"},
+    ResultColumn{"questionable", "", yes_no, "", "",
+                 "the result is not one to rely on; null: it does not say (not yet, or made by an "
+                 "earlier version)"},
+    ResultColumn{"flags", "", ColumnKind::flags, "", "",
+                 "what to know before believing it: of the MPM, the transfer and the FEM"},
+};
+
+}  // namespace
+
+std::span<const ResultColumn> result_columns() { return columns; }
+
+const char* name_of(ColumnKind kind) {
+    switch (kind) {
+        case number:
+            return "number";
+        case yes_no:
+            return "yes_no";
+        case word:
+            return "word";
+        case ColumnKind::flags:
+            return "flags";
+    }
+    return "";
+}
+
+const json& value_of(const ResultRow& row, std::string_view name) {
+    const auto found = std::ranges::find(columns, name, &ResultColumn::name);
+    assert(found != columns.end() && row.size() == columns.size());
+    return row[static_cast<std::size_t>(found - columns.begin())];
+}
+
+std::string codes_of(const json& flags) {
+    std::string codes;
+    std::set<std::string> said;
+    for (const json& each : flags) {
+        const std::string code = each.at("code");
+        if (said.insert(code).second) codes += (codes.empty() ? "" : ";") + code;
+    }
+    return codes;
+}
+
+bool is_row_state(std::string_view word) {
+    return word == "questionable" || word == "not_reached" ||
+           std::ranges::any_of(all_task_states(),
+                               [&](TaskState each) { return name_of(each) == word; });
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,49 @@
+// The table of a sweep's results, each column once. The SQL view, the JSON answers, CSV, HDF5, the
+// table of `breach` and the API's description are made from this list: one more number of the
+// MPM's result.json is one more line in result_columns.cpp.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace breach::orchestrator {
+
+/// What the values of a column are; each can be null, which means not known (yet).
+enum class ColumnKind {
+    number,
+    yes_no,
+    word,
+    flags,  ///< a list of {code, severity, message, pointer, phase}; in CSV its codes, joined by ;
+};
+
+struct ResultColumn {
+    const char* name;  ///< the same in JSON, CSV, HDF5 and SQL
+    const char*
+        pointer;  ///< JSON pointer in the MPM's result.json; empty: store/views.cpp knows it
+    ColumnKind kind;
+    const char* unit;   ///< "m", "s", "1"; empty: it has none
+    const char* title;  ///< heading of a table for people; empty: it is not for such tables
+    const char* meaning;
+};
+
+/// In the order of the CSV.
+std::span<const ResultColumn> result_columns();
+const char* name_of(ColumnKind kind);
+
+/// One value for each of result_columns(), in their order.
+using ResultRow = std::vector<nlohmann::json>;
+
+/// The value of the column with this name.
+const nlohmann::json& value_of(const ResultRow& row, std::string_view name);
+
+/// "still_moving;implausible": the codes of a list of flags, each once.
+std::string codes_of(const nlohmann::json& flags);
+
+/// The states that a row can be shown in: those of tasks, "questionable", and "not_reached": its
+/// FEM had regularly ended before.
+bool is_row_state(std::string_view word);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,155 @@
+#include "services/orchestrator/store/views.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+#include "services/orchestrator/records/result_columns.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+// A run with an open trigger is not over: it may still get tasks. One of which no transfer time was
+// reached by its FEM has no runout, though nothing failed.
+const char* const run_summaries = R"sql(
+SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, reached AS tasks_done,
+    ended AS tasks_ended, failed AS tasks_failed,
+    (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
+        AS questionable,
+    CASE WHEN is_open THEN CASE WHEN started IS NULL THEN 'queued' ELSE 'running' END
+         WHEN cancelled > 0 THEN 'cancelled'
+         WHEN failed > 0 AND runouts > 0 THEN 'partial'
+         WHEN failed > 0 THEN 'failed'
+         WHEN reached < ended AND runouts = 0 THEN 'partial'
+         WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
+             THEN 'questionable'
+         ELSE 'succeeded' END AS state,
+    CASE WHEN NOT is_open THEN last_finished END AS finished
+FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
+        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open
+      FROM runs JOIN run_counts ON run_counts.run = runs.id))sql";
+
+struct Expression {
+    std::string name;
+    std::string sql;
+};
+
+// The flags of a row are those of the MPM and of the two tasks before it: what is doubtful in the
+// FEM is doubtful in the runout.
+const std::string tasks_of_row = "(mpm.id, transfer.id, transfer.parent)";
+const std::string is_questionable = "EXISTS (SELECT 1 FROM flags WHERE flags.task IN " +
+                                    tasks_of_row + " AND flags.severity = 'questionable')";
+/// A result of an earlier version has no list of flags, not even an empty one.
+const std::string is_judged =
+    "(json_type(mpm.result, '$.flags') = 'array'"
+    " OR EXISTS (SELECT 1 FROM flags WHERE flags.task = mpm.id))";
+
+/// The columns that result.json does not have.
+const std::vector<Expression> own_columns{
+    {"transfer_time", "mpm.transfer_time"},
+    {"state",
+     "CASE WHEN transfer.not_reached THEN 'not_reached'"
+     "\n        WHEN transfer.state IN ('failed', 'skipped') THEN transfer.state"
+     "\n        WHEN mpm.result IS NOT NULL AND " +
+         is_questionable +
+         " THEN 'questionable'"
+         "\n        WHEN mpm.state = 'cached' THEN 'succeeded' ELSE mpm.state END"},
+    {"reason", "coalesce(transfer.fault_summary, mpm.fault_summary, '')"},
+    {"transfer_task", "transfer.id"},
+    {"mpm_task", "mpm.id"},
+    {"variant", "mpm.variant"},
+    {"reused", "mpm.state = 'cached'"},
+    {"trigger",
+     "coalesce((SELECT group_concat(triggers.name, ' ') FROM triggers"
+     "\n        JOIN firings ON firings.trigger = triggers.id"
+     "\n        WHERE triggers.fem_task = transfer.parent AND firings.snapshot = transfer.input),"
+     " 'at_time')"},
+    {"questionable", "CASE WHEN mpm.result IS NULL THEN NULL WHEN " + is_questionable +
+                         " THEN 1 WHEN " + is_judged + " THEN 0 END"},
+    {"flags", "CASE WHEN " + is_judged +
+                  " THEN coalesce((SELECT group_concat(code, ';') FROM"
+                  "\n        (SELECT code FROM flags WHERE task IN " +
+                  tasks_of_row + " GROUP BY code ORDER BY min(severity), code)), '') END"},
+};
+/// What the view has besides the columns of the table.
+const std::vector<Expression> other_columns{
+    {"run", "mpm.run"},
+    {"variant_place", "coalesce(variants.place, 0)"},
+    {"flag_list",
+     "CASE WHEN " + is_judged +
+         " THEN (SELECT json_group_array(json_object('code', code, 'severity', severity,"
+         "\n        'message', message, 'pointer', pointer, 'phase', phase)) FROM"
+         "\n        (SELECT code, severity, message, pointer, phase, min(task) FROM flags"
+         " WHERE task IN " +
+         tasks_of_row +
+         "\n        GROUP BY code, severity, pointer ORDER BY severity, code, pointer)) END"},
+};
+
+/// "/energy/numerical/share" -> "$.energy.numerical.share"
+std::string json_path(std::string pointer) {
+    std::ranges::replace(pointer, '/', '.');
+    return "$" + pointer;
+}
+
+std::string sql_of(const ResultColumn& column) {
+    if (*column.pointer != '\0')
+        return "json_extract(mpm.result, '" + json_path(column.pointer) + "')";
+    const auto own = std::ranges::find(own_columns, column.name, &Expression::name);
+    assert(own != own_columns.end());
+    return own->sql;
+}
+
+/// One row per variant and transfer time: the runout, or why there is none.
+std::string sweep_results() {
+    std::string columns;
+    for (const Expression& each : other_columns)
+        columns.append(columns.empty() ? "\nSELECT " : ",\n    ")
+            .append(each.sql)
+            .append(" AS ")
+            .append(each.name);
+    for (const ResultColumn& each : result_columns())
+        columns.append(",\n    ").append(sql_of(each)).append(" AS ").append(each.name);
+    return columns +
+           "\nFROM tasks AS mpm JOIN tasks AS transfer ON transfer.id = mpm.parent"
+           "\n    LEFT JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant"
+           "\nWHERE mpm.phase = 'mpm_solver' AND transfer.phase = 'transfer_tool'";
+}
+
+/// By name, with the statement that makes it.
+std::vector<Expression> views() {
+    return {{"run_summaries", std::string("CREATE VIEW run_summaries AS") + run_summaries},
+            {"sweep_results", "CREATE VIEW sweep_results AS" + sweep_results()}};
+}
+
+bool is_there(Connection& database, const Expression& view) {
+    bool same = false;
+    database.query("SELECT sql FROM sqlite_master WHERE type='view' AND name=?", {view.name},
+                   [&](const Row& row) { same = row.text(0) == view.sql; });
+    return same;
+}
+
+}  // namespace
+
+bool views_are_current(Connection& database) {
+    return std::ranges::all_of(views(),
+                               [&](const Expression& each) { return is_there(database, each); });
+}
+
+void make_views(Connection& database) {
+    for (const Expression& each : views()) {
+        if (is_there(database, each)) continue;
+        database.script("DROP VIEW IF EXISTS " + each.name);
+        database.script(each.sql);
+    }
+}
+
+std::string selected_result_columns() {
+    std::string names;
+    for (const ResultColumn& each : result_columns())
+        names.append(names.empty() ? "" : ", ")
+            .append(each.kind == ColumnKind::flags ? "flag_list" : each.name);
+    return names;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,301 @@
+#include "services/report/read/verdict.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "services/report/chart/axis.hpp"
+
+namespace breach::report {
+
+using fault::Flag;
+using fault::Severity;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* moving = "still_moving";
+
+/// "still moving"
+std::string worded(std::string code) {
+    std::ranges::replace(code, '_', ' ');
+    return code;
+}
+
+bool is_doubt(const Flag& flag) { return flag.severity == Severity::questionable; }
+
+/// Codes in words, each once: "still moving, numerical share".
+std::string listed(const std::vector<Flag>& flags, Severity severity) {
+    std::vector<std::string> codes;
+    for (const Flag& each : flags) {
+        if (each.severity != severity) continue;
+        if (std::ranges::find(codes, each.code) == codes.end()) codes.push_back(each.code);
+    }
+    std::string text;
+    for (const std::string& each : codes) text += (text.empty() ? "" : ", ") + worded(each);
+    return text;
+}
+
+bool is_entangled(const PhaseFolder& phase) {
+    return phase.result.is_object() && phase.result.value("ended", "") == "entangled";
+}
+
+/// ", x = 34.1 m" for a number that is there.
+std::string with(const json& facts, const char* key, const std::string& name,
+                 const std::string& unit, double in_si = 1.0) {
+    if (!facts.contains(key) || !facts.at(key).is_number()) return "";
+    return ", " + name + rounded(facts.at(key).get<double>() / in_si, 4) + unit;
+}
+
+/// "entangled at 6.7 s in element 212 (region tailings, x = 34.1 m, y = 12 m)".
+std::string entangled_where(const PhaseFolder& fem) {
+    const json facts = fem.result.value("entanglement", json::object());
+    const json time = facts.value("time", fem.result.value("end_time", json()));
+    std::string text = "entangled";
+    if (time.is_number()) text += " at " + short_number(time) + " s";
+    if (facts.contains("element")) text += " in element " + facts.at("element").dump();
+    std::string place;
+    if (facts.value("region", json()).is_string()) {
+        place = ", region " + facts.at("region").get<std::string>();
+    }
+    place += with(facts, "x", "x = ", " m") + with(facts, "y", "y = ", " m");
+    return place.empty() ? text : text + " (" + place.substr(2) + ")";
+}
+
+std::string kind_of(const PhaseFolder& fem) {
+    const json facts = fem.result.value("entanglement", json::object());
+    const std::string kind = facts.value("kind", "");
+    if (kind == "band") return "in the failure's band";
+    if (kind == "corner") return "at one bad corner, not in a failure's band";
+    return "";
+}
+
+/// One kind of flag with all who raised it.
+struct Finding {
+    std::string phase;
+    Flag flag;  ///< the first of them
+    std::vector<std::string> labels;
+};
+
+std::vector<Finding> findings_of(const Run& run) {
+    std::vector<Finding> found;
+    for (const PhaseFolder& phase : run.phases) {
+        for (const Flag& flag : flags_of(phase).value_or(std::vector<Flag>{})) {
+            const auto same = std::ranges::find_if(found, [&](const Finding& f) {
+                return f.phase == phase.phase && f.flag.code == flag.code &&
+                       f.flag.severity == flag.severity;
+            });
+            if (same == found.end()) {
+                found.push_back({phase.phase, flag, {phase.label}});
+            } else if (same->labels.back() != phase.label) {
+                same->labels.push_back(phase.label);
+            }
+        }
+    }
+    std::ranges::stable_sort(found, [](const Finding& a, const Finding& b) {
+        return is_doubt(a.flag) && !is_doubt(b.flag);
+    });
+    return found;
+}
+
+std::size_t count_of(const Run& run, const std::string& phase) {
+    return phases_named(run, phase).size();
+}
+
+/// "12 of 51 runouts", "the FEM".
+std::string whose(const Run& run, const std::string& phase, std::size_t count) {
+    struct Name {
+        const char *phase, *one, *many;
+    };
+    constexpr std::array names = {Name{"lem_tool", "the limit equilibrium", "stability analyses"},
+                                  Name{"fem_solver", "the FEM", "FEM analyses"},
+                                  Name{"transfer_tool", "the transfer", "transfers"},
+                                  Name{"mpm_solver", "the runout", "runouts"}};
+    const auto name = std::ranges::find_if(names, [&](const Name& n) { return phase == n.phase; });
+    const std::size_t all = count_of(run, phase);
+    if (all == 1) return name == names.end() ? phase : name->one;
+    return std::to_string(count) + " of " + std::to_string(all) + " " +
+           (name == names.end() ? phase : name->many);
+}
+
+std::string capital(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] += 'A' - 'a';
+    return text;
+}
+
+std::string sentence_of(const Run& run, const Finding& finding) {
+    std::string text = capital(worded(finding.flag.code)) + ", " +
+                       whose(run, finding.phase, finding.labels.size()) + ": " +
+                       finding.flag.message;
+    if (finding.labels.size() > 1) text += " (" + finding.labels.front() + ", the first of them)";
+    return text + (text.ends_with('.') ? "" : ".");
+}
+
+/// What phases without a result, and with one of an earlier version, leave open.
+void add_what_is_not_known(const Run& run, Verdict& verdict) {
+    for (const char* kind : {"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"}) {
+        std::size_t without = 0;
+        std::string why;
+        for (const PhaseFolder* each : phases_named(run, kind)) {
+            if (each->result.is_object()) continue;
+            if (without++ == 0) why = each->fault;
+        }
+        if (without == 0) continue;
+        verdict.doubts.push_back(capital(whose(run, kind, without)) + " left no result: " + why +
+                                 (why.ends_with('.') ? "" : ".") +
+                                 " Its version, settings and numbers are not known.");
+    }
+    std::size_t silent = 0, bounds = 0, results = 0;
+    for (const PhaseFolder& each : run.phases) {
+        if (!each.result.is_object()) continue;
+        ++results;
+        if (flags_of(each)) continue;
+        ++silent;
+        if (each.phase == "mpm_solver" && still_moves(each)) ++bounds;
+    }
+    if (silent == 0) return;
+    std::string text = std::to_string(silent) + " of " + std::to_string(results) +
+                       " results carry no flags (an earlier version made them): what may be wrong "
+                       "with them is not known.";
+    if (bounds > 0) {
+        text += " The soil of " + std::to_string(bounds) +
+                " runouts among them still moved at the end: their distances are lower bounds.";
+    }
+    verdict.doubts.push_back(text);
+}
+
+}  // namespace
+
+std::optional<std::vector<Flag>> flags_of(const PhaseFolder& phase) {
+    if (!phase.result.is_object() || !phase.result.contains("flags")) return {};
+    std::vector<Flag> flags;
+    for (const json& each : phase.result.at("flags")) {
+        const bool doubt = each.at("severity") == name_of(Severity::questionable);
+        flags.push_back({each.at("code"), doubt ? Severity::questionable : Severity::warning,
+                         each.at("message"), each.value("pointer", "")});
+    }
+    return flags;
+}
+
+bool still_moves(const PhaseFolder& mpm) {
+    if (!mpm.result.is_object()) return false;
+    if (mpm.result.value("at_rest", json()) == json(false)) return true;
+    const auto flags = flags_of(mpm);
+    return flags && std::ranges::find(*flags, moving, &Flag::code) != flags->end();
+}
+
+Certainty certainty_of(const PhaseFolder& mpm) {
+    if (still_moves(mpm)) return Certainty::at_least;
+    const auto flags = flags_of(mpm);
+    if (!flags) return Certainty::unknown;
+    return fault::is_questionable(*flags) ? Certainty::doubtful : Certainty::certain;
+}
+
+std::string bounded(const PhaseFolder& mpm, const std::string& distance) {
+    return distance != "-" && still_moves(mpm) ? at_least + distance : distance;
+}
+
+std::string entanglement_of(const PhaseFolder& fem) {
+    if (!is_entangled(fem)) return "";
+    const json facts = fem.result.value("entanglement", json::object());
+    std::string text = "The mesh " + entangled_where(fem);
+    if (const std::string kind = kind_of(fem); !kind.empty()) text += ", " + kind;
+    std::string state = with(facts, "mean_epsilon_q", "mean epsilon_q ", " %", 0.01) +
+                        with(facts, "failure_surfaces", "failure surfaces ", "");
+    if (!state.empty()) text += "; then: " + state.substr(2);
+    return text + ". So ends the FEM of a section that fails; it is no fault.";
+}
+
+std::string how_it_ended(const PhaseFolder& phase) {
+    if (!phase.fault.empty()) return phase.fault;
+    const auto flags = flags_of(phase);
+    std::string text;
+    if (is_entangled(phase)) {
+        text = entangled_where(phase);
+        if (const std::string kind = kind_of(phase); !kind.empty()) text += ", " + kind;
+    }
+    const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+    if (!flags) {
+        if (phase.phase == "mpm_solver" && still_moves(phase)) add("still moving");
+        add("carries no flags: not known");
+        return text;
+    }
+    if (fault::is_questionable(*flags)) {
+        add("questionable: " + listed(*flags, Severity::questionable));
+    } else if (text.empty()) {
+        text = "well";
+    }
+    std::vector<Flag> others = *flags;  // the end itself has been told
+    std::erase_if(others, [](const Flag& flag) { return flag.code == "entangled"; });
+    if (const std::string warnings = listed(others, Severity::warning); !warnings.empty()) {
+        add("warnings: " + warnings);
+    }
+    return text;
+}
+
+std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts) {
+    std::vector<Flag> doubts;
+    std::size_t questionable = 0, unknown = 0, moved = 0;
+    for (const PhaseFolder* each : runouts) {
+        if (!each->fault.empty()) return each->fault;
+        const auto flags = flags_of(*each);
+        if (!flags) {
+            ++unknown;
+            if (still_moves(*each)) ++moved;
+        } else if (fault::is_questionable(*flags)) {
+            ++questionable;
+            doubts.insert(doubts.end(), flags->begin(), flags->end());
+        }
+    }
+    const std::string all = " of " + std::to_string(runouts.size());
+    std::string text;
+    const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+    if (questionable > 0) {
+        add(std::to_string(questionable) + all +
+            " questionable: " + listed(doubts, Severity::questionable));
+    }
+    if (moved > 0) add(std::to_string(moved) + all + " still moving");
+    if (unknown > 0) add(std::to_string(unknown) + all + " without flags: not known");
+    return text.empty() ? "well" : text;
+}
+
+Verdict verdict_of(const Run& run) {
+    Verdict verdict;
+    std::set<std::string> told;  // entanglements, which are told as an end
+    for (const PhaseFolder* fem : phases_named(run, "fem_solver")) {
+        if (const std::string end = entanglement_of(*fem); !end.empty()) {
+            const std::string of = fem->variant.empty() ? "" : capital(fem->variant) + ": ";
+            verdict.notes.push_back(of + end);
+            told.insert("entangled");
+        }
+    }
+    for (const Finding& each : findings_of(run)) {
+        if (told.contains(each.flag.code)) continue;
+        (is_doubt(each.flag) ? verdict.doubts : verdict.notes).push_back(sentence_of(run, each));
+    }
+    add_what_is_not_known(run, verdict);
+    if (verdict.doubts.empty() && verdict.notes.empty()) {
+        verdict.notes.emplace_back("No phase of this run raised a flag.");
+    }
+    return verdict;
+}
+
+Table flag_table(const Run& run) {
+    Table table{"flags",
+                "Flags",
+                {"run", "t_T [s]", "variant", "flag", "severity", "what", "entry of the scene"},
+                {},
+                "questionable: a number of that result is a bound, is wrong or cannot be trusted. "
+                "warning: it stands, with less certainty than it looks."};
+    for (const PhaseFolder& phase : run.phases) {
+        for (const Flag& flag : flags_of(phase).value_or(std::vector<Flag>{})) {
+            table.rows.push_back(
+                {phase.label, phase.transfer_time ? short_number(*phase.transfer_time) : "-",
+                 phase.variant.empty() ? "all" : phase.variant, worded(flag.code),
+                 name_of(flag.severity), flag.message, flag.pointer.empty() ? "-" : flag.pointer});
+        }
+    }
+    return table;
+}
+
+}  // namespace breach::report

@@ -1,0 +1,46 @@
+// What is to be known of a run's results before they are believed: the flags of its phases, which
+// soil still moved, and how each phase ended, in words.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/flag.hpp"
+#include "services/report/chart/chart.hpp"
+#include "services/report/chart/document.hpp"
+#include "services/report/read/run_folder.hpp"
+
+namespace breach::report {
+
+/// Nothing for a phase without a result, or with one that carries none to go by (an earlier
+/// version's): what may be wrong with it is not known.
+std::optional<std::vector<fault::Flag>> flags_of(const PhaseFolder& phase);
+
+/// Whether the soil of a runout still moved at its end, so that its distances are lower bounds.
+bool still_moves(const PhaseFolder& mpm);
+
+/// What the distances of a runout are worth.
+Certainty certainty_of(const PhaseFolder& mpm);
+
+/// Before a distance that is a lower bound: ">= ".
+inline constexpr const char* at_least = "\u2265 ";
+/// A distance of this runout as text, marked when it is a lower bound; "-" stays "-".
+std::string bounded(const PhaseFolder& mpm, const std::string& distance);
+
+/// "well", "well, with warnings: implausible", "questionable: still moving", "entangled at 6.7 s in
+/// element 212 ...", or why there is no result.
+std::string how_it_ended(const PhaseFolder& phase);
+/// The same of several runouts: "well", "3 of 8 questionable: still moving".
+std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts);
+
+/// How the mesh of a FEM ended, in a sentence; empty when it did not entangle.
+std::string entanglement_of(const PhaseFolder& fem);
+
+/// For the head of the report: in sentences, what everybody must know first.
+Verdict verdict_of(const Run& run);
+
+/// Every flag of every phase, one per row; no rows when there are none.
+Table flag_table(const Run& run);
+
+}  // namespace breach::report

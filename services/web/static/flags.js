@@ -1,0 +1,62 @@
+// What the flags of a result mean to a person: may its number be believed, is it a bound, or is nothing known of it.
+import { element } from "./dom.js";
+import { number } from "./format.js";
+
+const has = (flags, code) => (flags ?? []).some((flag) => flag.code === code);
+const is_doubt = (flag) => flag.severity === "questionable";
+const worded = (code) => code.replaceAll("_", " ");
+
+/// sound | questionable | unknown. Unknown is what carries no flags at all: an earlier version's result.
+export function trust_of({ questionable }) {
+    if (questionable === true) return "questionable";
+    return questionable === false ? "sound" : "unknown";
+}
+
+/// How a runout's marker looks, as class names: bound (it would run on), doubtful (questionable for another reason),
+/// unknown; "" is sound.
+export function look_of(row) {
+    const trust = trust_of(row);
+    if (trust !== "questionable") return trust === "sound" ? "" : trust;
+    const doubts = (row.flags ?? []).filter(is_doubt);
+    const moving = has(doubts, "still_moving");
+    const other = doubts.some(({ code }) => code !== "still_moving");
+    return [moving ? "bound" : "", other || !moving ? "doubtful" : ""].filter(Boolean).join(" ");
+}
+
+/// What the looks mean, for legends.
+export const looks = {
+    bound: "still moving: the runout is a lower bound",
+    doubtful: "questionable",
+    unknown: "without flags: not known",
+};
+
+/// "still moving; coarse cells (warning)"; "none", or "not known".
+export function flag_codes(flags) {
+    if (!flags) return "not known";
+    return flags.map((flag) => worded(flag.code) + (is_doubt(flag) ? "" : " (warning)")).join("; ") || "none";
+}
+
+/// Every flag with its message, one line each.
+export function flag_note({ flags }) {
+    if (!flags) return "This result carries no flags (an earlier version made it): what may be wrong with it is not known.";
+    return flags.map((flag) => `${worded(flag.code)}: ${flag.message}`).join("\n");
+}
+
+/// Whether the soil had come to rest; how much of the released energy was still in its motion.
+export function rest_text({ at_rest, kinetic_share }) {
+    if (at_rest === true) return "at rest";
+    if (at_rest !== false) return "not known";
+    return Number.isFinite(kinetic_share) ? `moving, ${number(100 * kinetic_share, 2)} % in motion` : "moving";
+}
+
+/// Flags as a list with messages and places, questionable ones first.
+export function flag_items(flags) {
+    const order = [...flags].sort((a, b) => is_doubt(b) - is_doubt(a));
+    return order.map((flag) => element("li", {}, element("span", { class: `state ${is_doubt(flag) ? "warn" : "calm"}` },
+        `${is_doubt(flag) ? "⚠ " : ""}${worded(flag.code)}`), ` ${flag.message} `, flag.pointer ? element("code", {}, flag.pointer) : null));
+}
+
+/// "7 × still moving · 8 × implausible", the most frequent first.
+export function counts_text(counts) {
+    return Object.entries(counts ?? {}).sort((a, b) => b[1] - a[1]).map(([code, count]) => `${count} × ${worded(code)}`).join(" · ");
+}

@@ -1,0 +1,149 @@
+"""What people get wrong: scenes, studies and motions, as a table. A case changes one thing of a shipped scene and says what must
+come of it: `refused` before anything has run, `warned` in the plan, or a result that is flagged.
+
+`text` must be found in the message: the thing that is wrong, and for slips of units the unit that was probably meant."""
+import copy
+import math
+from dataclasses import dataclass, field
+
+
+def at(document, pointer):
+    """(parent, key) of a JSON pointer."""
+    *path, last = pointer.strip("/").split("/")
+    for step in path:
+        document = document[int(step)] if isinstance(document, list) else document[step]
+    return document, int(last) if isinstance(document, list) else last
+
+
+def put(document, pointer, value):
+    parent, key = at(document, pointer)
+    if isinstance(parent, list) and key == len(parent):
+        parent.append(value)
+    else:
+        parent[key] = value
+
+
+def drop(document, pointer):
+    parent, key = at(document, pointer)
+    del parent[key]
+
+
+@dataclass
+class Case:
+    name: str
+    base: str  # a shipped scene
+    outcome: str  # refused | warned | flagged
+    text: str  # regular expression
+    sets: dict = field(default_factory=dict)
+    drops: list = field(default_factory=list)
+    motion: str = None  # text of the motion file
+    run: str = None  # flagged: the phase that must be run to know
+    code: str = None  # flagged: the flag's code
+
+    def scene(self, bases):
+        document = copy.deepcopy(bases[self.base])
+        for pointer in self.drops:
+            drop(document, pointer)
+        for pointer, value in self.sets.items():
+            put(document, pointer, value)
+        return document
+
+
+def record(dt=0.01, n=1200, amplitude=2.0, head="time_s,acceleration_m_per_s2\n", row="{t},{a}\n", period=0.7):
+    rows = []
+    for i in range(n):
+        t = i * dt
+        rows.append(row.format(t=round(t, 6), a=round(amplitude * math.sin(2 * math.pi * t / period), 6)))
+    return head + "".join(rows)
+
+
+M = "mochikoshi"
+slope_polygon = [[0, 0], [30, 0], [20, 10], [0, 10], [0, 0]]
+upper_dam = [[109, 29.4], [124.3, 21], [151.9, 12.4], [168.9, 12.4], [115, 30], [110, 30], [109, 29.4]]
+
+
+def moved(polygon, dx=0.0, dy=0.0):
+    return [[x + dx, y + dy] for x, y in polygon]
+
+
+cases = [
+    # ------------------------------------------------ units that slipped
+    Case("density in kN/m3", "slope", "refused", r"kN/m3", {"/materials/slope_soil/density": 19}),
+    Case("density in g/cm3", "slope", "refused", r"(g/cm3|t/m3)", {"/materials/slope_soil/density": 1.9}),
+    Case("density of steel", "slope", "warned", r"density", {"/materials/slope_soil/density": 7800}),
+    Case("cohesion in Pa", "slope", "warned|refused", r"c_kPa.*Pa|Pa.*c_kPa", {"/materials/slope_soil/law/c_kPa": 12000}),
+    Case("E in kPa", "slope", "warned|refused", r"E_MPa.*kPa|kPa.*E_MPa", {"/materials/slope_soil/law/E_MPa": 20000}),
+    Case("E in GPa", "slope", "warned", r"E_MPa", {"/materials/slope_soil/law/E_MPa": 0.02}),
+    Case("friction angle in radians", "slope", "warned", r"phi_deg.*rad", {"/materials/slope_soil/law/phi_deg": 0.35}),
+    Case("friction angle of 85 degrees", "slope", "warned|refused", r"phi_deg", {"/materials/slope_soil/law/phi_deg": 85}),
+    Case("gravity of the moon, or in km/s2", "slope", "warned|refused", r"gravity", {"/gravity": 0.00981}),
+    Case("gravity negative", "slope", "refused", r"gravity", {"/gravity": -9.81}),
+    Case("strain in per cent", "slope", "warned|refused", r"epsilon_q", {"/materials/slope_soil/law/softening/epsilon_q_start": 1,
+                                                                       "/materials/slope_soil/law/softening/epsilon_q_end": 100}),
+    Case("permeability in cm/day", M, "warned|refused", r"permeability", {"/materials/tailings/permeability": [60, 60]}),
+    Case("relative density in per cent", M, "refused", r"D_R", {"/materials/tailings/law/D_R": 35}),
+    Case("void ratio in per cent", M, "refused|warned", r"void_ratio", {"/materials/tailings/void_ratio": 99}),
+    Case("rock's V_s in km/s", M, "warned|refused", r"V_s", {"/fem/base/V_s": 0.76}),
+    Case("water's bulk modulus in kPa", M, "warned|refused", r"bulk_modulus", {"/fem/water/bulk_modulus_MPa": 2.2e6}),
+    Case("time step of 5 s", M, "refused|warned", r"time_step", {"/fem/stages/1/time_step": 5}),
+    Case("duration in ms", M, "refused|warned", r"duration", {"/fem/stages/1/duration": 12000}),
+    Case("viscosity of honey in mPa s", M, "warned", r"viscosity", {"/materials/liquefied_1/viscosity": 1e9}),
+    Case("r_u threshold in per cent", M, "refused|warned", r"r_u", {"/transfer/liquefied/r_u": 70}),
+    Case("floor friction as an angle", M, "refused|warned", r"coefficient", {"/mpm/floor/friction/0/coefficient": 35}),
+    Case("residual strength in Pa", M, "warned|refused", r"residual_strength_kPa", {"/lem/liquefaction/0/residual_strength_kPa": 3000}),
+    Case("section in mm", "slope", "warned|refused", r"(polygon|cell_size|element|section)", {
+        "/section/regions/1/polygon": [[x * 1000, y * 1000] for x, y in slope_polygon],
+        "/section/regions/0/polygon": [[x * 1000, y * 1000] for x, y in [[0, -5], [30, -5], [60, -5], [60, 0], [30, 0], [0, 0], [0, -5]]]}),
+    # ------------------------------------------------ geometry
+    Case("a gap of 0.3 m between regions", M, "refused", r"gap", {"/section/regions/3/polygon": moved(upper_dam, dx=0.3)}),
+    Case("a gap of 1 cm between regions", M, "refused", r"(gap|overlap)", {"/section/regions/3/polygon": moved(upper_dam, dx=0.01)}),
+    Case("regions that overlap", "slope", "refused", r"overlap",
+         {"/section/regions/1/polygon": moved(slope_polygon, dy=-0.5)}),
+    Case("a polygon that crosses itself", "slope", "refused", r"(cross|intersect)",
+         {"/section/regions/1/polygon": [[0, 0], [30, 0], [0, 10], [20, 10], [0, 0]]}),
+    Case("a polygon that is not closed", "slope", "refused", r"clos", {"/section/regions/1/polygon": slope_polygon[:-1]}),
+    Case("a region of no area", "slope", "refused", r"area",
+         {"/section/regions/1/polygon": [[0, 0], [10, 0], [20, 0], [0, 0]]}),
+    Case("a toe upstream of the crest", M, "warned|refused", r"toe", {"/mpm/runout/toe": [-20, 0]}),
+    Case("a crest 500 m away", M, "refused|warned", r"crest", {"/fem/crest": [615, 30]}),
+    Case("supports that touch nothing", M, "refused", r"(support|/fem/supports)", {"/fem/supports/0/from": [-40, -8], "/fem/supports/0/to": [280, -8]}),
+    Case("terrain through the dam", M, "refused", r"terrain", {"/mpm/terrain": [[-40.5, 10], [659.5, 10]]}, drops=["/mpm/floor/friction"]),
+    Case("floor above the section's foot", M, "refused", r"floor", {"/mpm/floor/level": 5}),
+    Case("the grid ends inside the dam", M, "refused", r"domain_x", {"/mpm/domain_x": [-40.5, 200]}),
+    Case("the grid is lower than the crest", M, "refused", r"domain_y", {"/mpm/domain_y": [-5, 20]}),
+    Case("a gauge outside the grid", M, "refused", r"gauge", {"/mpm/gauges/0/x": 5000}),
+    Case("cells wider than the dam", "slope", "refused", r"cell", {"/mpm/cell_size": 10}),
+    Case("cells of which three span the slope", "slope", "warned", r"cell", {"/mpm/cell_size": 2.5}),
+    # ------------------------------------------------ water
+    Case("water 50 m above the ground", M, "warned|refused", r"(water|phreatic|line)", {"/fem/water/line": [[-40, 79.4], [280, 79.4]]}),
+    Case("water below all soil", M, "refused|warned", r"(water|line)", {"/fem/water/line": [[-40, -30], [280, -30]]}),
+    Case("no void ratio where water needs it", M, "refused", r"void_ratio", drops=["/materials/tailings/void_ratio"]),
+    Case("no permeability where water needs it", M, "refused", r"permeability", drops=["/materials/tailings/permeability"]),
+    Case("a pressure boundary inside the soil", M, "refused", r"(boundar|segment)",
+         {"/fem/water/boundaries": [{"name": "lost", "from": [50, 10], "to": [60, 10]}]}),
+    # ------------------------------------------------ references
+    Case("a material that is not there", "slope", "refused", r"clay", {"/section/regions/1/material": "clay"}),
+    Case("soil that the MPM cannot have", M, "refused", r"(mapping|pm4sand)", drops=["/transfer/mapping/1"]),
+    Case("a mapping to a material that is not there", M, "refused", r"honey", {"/transfer/mapping/1/to": "honey"}),
+    Case("LEM exits with no ground below them", "slope", "refused", r"exit", {"/lem/search/exit": [200, 300]}),
+    Case("a snapshot after the end", "slope", "refused|warned", r"snapshot", {"/fem/snapshot_times": [50]}),
+    Case("an entry that nobody reads", "slope", "refused", r"cell_sise", {"/mpm/cell_sise": 1}),
+    Case("a mesh file that is not there", "slope", "refused", r"nowhere\.msh", {"/fem/msh_file": "nowhere.msh"}),
+    # ------------------------------------------------ motions
+    Case("a motion file that is not there", M, "refused", r"nowhere", {"/fem/motion/file": "nowhere.csv"}),
+    Case("m/s2 given as g", M, "refused|warned", r"(m/s2|9\.81|PGA)", {"/fem/motion": {"file": "MOTION"}},
+         motion=record(amplitude=1.96, head="time_s,acceleration_g\n")),
+    Case("a motion without its header", M, "refused", r"(header|column|first line|unit)", {"/fem/motion": {"file": "MOTION"}}, motion=record(head="")),
+    Case("a motion with the time in ms", M, "refused|warned", r"(time|step|duration)", {"/fem/motion": {"file": "MOTION"}},
+         motion=record(dt=10.0, n=1200, head="time_s,acceleration_g\n", amplitude=0.2, period=700)),
+    Case("a motion that is not a motion", M, "refused", r"MOTION|motion", {"/fem/motion": {"file": "MOTION"}}, motion="Dear colleague,\nthe record follows.\n"),
+    Case("a motion of zeros", M, "refused|warned", r"(zero|PGA|acceleration)", {"/fem/motion": {"file": "MOTION"}},
+         motion=record(amplitude=0.0, head="time_s,acceleration_g\n")),
+    Case("a motion that goes back in time", M, "refused", r"(time|ascend|step)", {"/fem/motion": {"file": "MOTION"}},
+         motion="time_s,acceleration_g\n0,0.1\n0.01,0.2\n0.005,0.1\n0.02,0.0\n"),
+    Case("an empty motion", M, "refused", r"(empty|sample|line|column|header)", {"/fem/motion": {"file": "MOTION"}}, motion=""),
+    Case("shaking scaled to 30 g", M, "refused|warned", r"scale_to_pga_g", {"/fem/motion/scale_to_pga_g": 30}),
+    # ------------------------------------------------ what only a result can tell
+    Case("a runout cut off on its way", "column", "flagged", r"lower bound", {"/mpm/duration": 1.0, "/section/regions/0/mesh/divisions": [5, 10]},
+         run="mpm_solver", code="still_moving"),
+]

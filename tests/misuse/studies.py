@@ -1,0 +1,31 @@
+"""Wrong studies, as (name, study, regular expression of what the refusal must say)."""
+import copy
+
+
+def studies(bases):
+    def study(base="slope", **entries):
+        whole = {"format": "breachline-study/1", "name": "wrong", "title": "A wrong study", "scene": copy.deepcopy(bases[base]),
+                 "transfer_times": [0.5]}
+        whole.update(entries)
+        return {key: value for key, value in whole.items() if value is not None}
+
+    broken = copy.deepcopy(bases["slope"])
+    broken["materials"]["slope_soil"]["density"] = -5
+    return [
+        ("a scene sent as a study", copy.deepcopy(bases["slope"]), r"scene, not a study|is a scene"),
+        ("a study without a scene", study(scene=None), r"scene"),
+        ("a transfer after the FEM's end", study(transfer_times=[50]), r"transfer_times|end"),
+        ("a transfer time in ms", study(transfer_times=[500]), r"transfer_times|end"),
+        ("a step of zero", study(transfer_times={"from": 0.1, "to": 0.7, "step": 0}), r"step"),
+        ("an override of nothing", study(overrides=["/mpm/no_such=3"]), r"no_such"),
+        ("an override that is no pointer", study(overrides=["cell_size=3"]), r"cell_size"),
+        ("two variants of one name", study(variants=[{"name": "a", "overrides": ["/mpm/cfl=0.5"]},
+                                                     {"name": "a", "overrides": ["/mpm/cfl=0.3"]}]), r"\ba\b|twice|unique"),
+        ("a later variant's material", study(variants=[{"name": "a", "overrides": ["/mpm/cfl=0.5"]},
+                                                       {"name": "b", "overrides": ["/section/regions/1/material=\"clay\""]}]), r"clay"),
+        ("a later variant's motion", study("mochikoshi", transfer_times=[4], variants=[
+            {"name": "a", "overrides": ["/mpm/cfl=0.3"]},
+            {"name": "b", "overrides": ["/fem/motion/file=\"/nowhere/record.csv\""]}]), r"record\.csv"),
+        ("a trigger of a field that is not there", study(triggers=[{"kind": "criterion", "name": "t", "when": "pore_joy > 1"}]), r"pore_joy"),
+        ("faults of study and scene at once", study(scene=broken, transfer_times=[-1]), r"density[\s\S]*transfer_times|transfer_times[\s\S]*density"),
+    ]

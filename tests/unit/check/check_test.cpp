@@ -1,0 +1,105 @@
+// What the phases ask of laws, materials and files; and that one list holds it all.
+#include <cstdio>
+#include <filesystem>
+
+#include "wrong.hpp"
+
+namespace breach::check {
+namespace {
+
+TEST(Check, SandWithoutAMappingCannotBecomePoints) {
+    const Checked checked = changed(
+        "mochikoshi", {R"(/transfer/mapping=[{"region":"foundation","to":"foundation_elastic"},)"
+                       R"({"region":"tailings","to":"tailings_not_liquefied"}])"});
+    ASSERT_EQ(checked.faults.size(), 2u) << told(checked.faults);
+    EXPECT_TRUE(has_fault(checked, "/section/regions/2/material", "pm4sand")) << "lower dam";
+    EXPECT_TRUE(has_fault(checked, "/section/regions/3/material", "pm4sand")) << "upper dam";
+    EXPECT_NE(checked.faults[0].remedy.find("{\"region\": \"lower_dam\", \"to\": ...}"),
+              std::string::npos);
+}
+
+TEST(Check, WetSoilNeedsVoidRatioAndPermeability) {
+    const std::string without = R"(={"density":1865.4,"limit_strength":{"c_kPa":0,"phi_deg":30},)"
+                                R"("law":{"type":"pm4sand","D_R":0.35,"G_0":476,"h_po":2.7}})";
+    expect_only(changed("mochikoshi", {"/materials/tailings" + without}), "/materials/tailings",
+                "lacks void_ratio and permeability");
+    // The same material above the line needs neither.
+    const Checked dry =
+        changed("mochikoshi", {"/materials/embankment" + without,
+                               "/fem/water/line=[[-40,29.4],[100,20],[133,0],[220,0],[280,0]]"});
+    EXPECT_TRUE(dry.faults.empty()) << told(dry.faults);
+}
+
+TEST(Check, EffectiveStressOfWetFrictionalSoilCannotGoToTheMpm) {
+    expect_only(changed("mochikoshi", {"/transfer/stress=effective"}), "/transfer/stress",
+                "pore pressure");
+}
+
+TEST(Check, SandAsksForSmallStrainsAndForElasticStagesFirst) {
+    const Checked checked = changed(
+        "mochikoshi",
+        {"/fem/kinematics=updated_lagrangian",
+         R"(/fem/stages/2={"type":"dynamic","name":"after","laws":"elastic","duration":1,"time_step":0.002})"});
+    ASSERT_EQ(checked.faults.size(), 2u) << told(checked.faults);
+    EXPECT_TRUE(has_fault(checked, "/fem/kinematics", "PM4Sand"));
+    EXPECT_TRUE(has_fault(checked, "/fem/stages/2/laws", "after PM4Sand has begun"));
+}
+
+TEST(Check, WindowsAreReadAndAskForWhatIsRecorded) {
+    expect_only(changed("mochikoshi", {"/transfer/window/lower=failure_surfaces >"}),
+                "/transfer/window/lower", "");
+    const Checked unwatched =
+        changed("mochikoshi", {"/transfer/window/lower=liquefaction_depth > 3"});
+    EXPECT_TRUE(unwatched.faults.empty()) << told(unwatched.faults);
+}
+
+TEST(Check, AMeshFileThatIsMissingOrNoMeshIsRefused) {
+    expect_only(changed("slope", {"/fem/msh_file=nowhere.msh"}), "/fem/msh_file", "does not exist");
+    expect_only(changed("slope", {"/fem/msh_file=slope.json"}), "/fem/msh_file",
+                "does not begin with $MeshFormat");
+}
+
+TEST(Check, AMeshFileNeedsASurfaceForEveryRegion) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "one_surface.msh";
+    std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n"
+                           "2 1 \"slope\"\n$EndPhysicalNames\n";
+    const Checked checked = changed("slope", {"/fem/msh_file=" + file.string()});
+    ASSERT_FALSE(checked.faults.empty());
+    for (const fault::Fault& each : checked.faults)
+        EXPECT_NE(each.cause.find("has no physical surface"), std::string::npos) << each.cause;
+    std::filesystem::remove(file);
+}
+
+TEST(Check, OneListHoldsTheReadersFaultsAndThoseOfEveryPhase) {
+    const Checked checked =
+        changed("mochikoshi",
+                {"/materials/liquefied_1/density=-5",  // schema
+                 "/fem/snapshot_times=[99]",           // reader
+                 "/fem/supports/0/from=[-40,-6]", "/fem/supports/0/to=[280,-6]",
+                 "/fem/motion/file=../motions/none.csv",
+                 "/transfer/phreatic_line=[[-40,-6],[280,-6]]", "/mpm/terrain=[[-41,-2],[660,-2]]",
+                 "/mpm/runout/toe=[720,0]", "/lem/search/exit=[300,340]"});
+    EXPECT_TRUE(has_fault(checked, "/materials/liquefied_1/density"));
+    EXPECT_TRUE(has_fault(checked, "/fem/snapshot_times"));
+    EXPECT_TRUE(has_fault(checked, "/fem/supports/0"));
+    EXPECT_TRUE(has_fault(checked, "/fem/motion/file"));
+    EXPECT_TRUE(has_fault(checked, "/transfer/phreatic_line"));
+    EXPECT_TRUE(has_fault(checked, "/mpm/terrain"));
+    EXPECT_TRUE(has_fault(checked, "/mpm/runout/toe"));
+    EXPECT_TRUE(has_fault(checked, "/lem/search/exit"));
+}
+
+TEST(Check, APartWithAFaultOfItsOwnDoesNotHideTheOthers) {
+    const Checked checked = changed(
+        "mochikoshi", {"/fem/newmark_beta=-1", "/section/regions/3/polygon=[[0,0],[1,1],[0,0]]",
+                       "/section/regions/2/material=nothing", "/mpm/runout/toe=[720,0]",
+                       "/lem/search/exit=[300,340]"});
+    EXPECT_TRUE(has_fault(checked, "/fem/newmark_beta"));
+    EXPECT_TRUE(has_fault(checked, "/section/regions/2/material"));
+    EXPECT_TRUE(has_fault(checked, "/section/regions/3/polygon"));
+    EXPECT_TRUE(has_fault(checked, "/mpm/runout/toe"));
+    EXPECT_TRUE(has_fault(checked, "/lem/search/exit"));
+}
+
+}  // namespace
+}  // namespace breach::check

@@ -1,0 +1,173 @@
+// What is drawn wrongly: gaps, supports, water, terrain, slip surfaces.
+#include "wrong.hpp"
+
+namespace breach::check {
+namespace {
+
+const std::string upper_dam = "/section/regions/3/polygon";
+
+TEST(Drawn, AGapOfACentimetreBetweenRegionsIsFoundWithItsPlaceAndWidth) {
+    // The upper dam's lowest vertices moved by 1 cm: it no longer touches the lower dam.
+    const Checked checked = changed(
+        "mochikoshi", {upper_dam + "=[[109,29.4],[124.3,21],[151.9,12.41],[168.9,12.41],[115,30],"
+                                   "[110,30],[109,29.4]]"});
+    ASSERT_FALSE(checked.faults.empty());
+    EXPECT_TRUE(has_fault(checked, upper_dam, "gap of 0.01 m to region \"lower_dam\""))
+        << told(checked.faults);
+}
+
+TEST(Drawn, AGapOfThirtyCentimetresIsFoundAsWell) {
+    const Checked checked =
+        changed("slope", {"/section/regions/1/polygon=[[0,0.3],[30,0.3],[20,10],[0,10],[0,0.3]]"});
+    EXPECT_TRUE(has_fault(checked, "/section/regions/1/polygon", "gap of 0.3 m to region \"base\""))
+        << told(checked.faults);
+}
+
+TEST(Drawn, AWedgeBetweenRegionsThatMeetInOnePointIsAGap) {
+    const Checked checked =
+        changed("mochikoshi",
+                {"/section/regions/1/polygon=[[-40,0],[133,0],[151.9,12.4],[124.1,20.8],[109,29.4],"
+                 "[-40,29.4],[-40,0]]"});
+    EXPECT_TRUE(has_fault(checked, upper_dam, "gap of")) << told(checked.faults);
+}
+
+TEST(Drawn, ARegionThatOverlapsAnotherIsNamedWithTheArea) {
+    const Checked checked = changed(
+        "mochikoshi", {upper_dam + "=[[109,29.4],[124.3,21],[151.9,12.39],[168.9,12.39],[115,30],"
+                                   "[110,30],[109,29.4]]"});
+    EXPECT_TRUE(has_fault(checked, upper_dam, "overlaps region \"lower_dam\""))
+        << told(checked.faults);
+}
+
+TEST(Drawn, AThinLayerBetweenTwoRegionsIsNoGap) {
+    // 0.3 m of the foundation as a region of its own, thinner than the elements.
+    const Checked checked = changed(
+        "mochikoshi",
+        {"/section/regions/0/polygon=[[-40,-5],[280,-5],[280,-0.3],[-40,-0.3],[-40,-5]]",
+         "/section/regions/0/mesh={\"type\":\"unstructured\"}",
+         R"(/section/regions/4={"name":"blanket","material":"foundation","mesh":{"type":"unstructured"},)"
+         R"("polygon":[[-40,-0.3],[280,-0.3],[280,0],[220,0],[133,0],[-40,0],[-40,-0.3]]})",
+         R"(/transfer/mapping/4={"region":"blanket","to":"foundation_elastic"})"});
+    EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
+}
+
+TEST(Drawn, AVertexThatIsAlmostAnotherIsASliver) {
+    const Checked checked = changed(
+        "mochikoshi", {upper_dam + "=[[109,29.4],[124.3,21],[151.9,12.4],[168.9,12.4],[115,30],"
+                                   "[110.01,30],[110,30],[109,29.4]]"});
+    EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
+    EXPECT_TRUE(has_warning(checked, "sliver", upper_dam));
+}
+
+TEST(Drawn, ASupportBesideTheSectionIsRefusedWithItsDistance) {
+    expect_only(changed("mochikoshi",
+                        {"/fem/supports/0/from=[-40,-5.01]", "/fem/supports/0/to=[280,-5.01]"}),
+                "/fem/supports/0", "0.01 m away from the section");
+}
+
+TEST(Drawn, ASupportThroughUnstructuredSoilHoldsNoNodeForCertain) {
+    expect_only(
+        changed("mochikoshi", {"/fem/supports/0/from=[110,15]", "/fem/supports/0/to=[120,15]"}),
+        "/fem/supports/0", "crosses the soil");
+}
+
+TEST(Drawn, ABodyThatIsHeldInOneDirectionOnlyIsRefused) {
+    expect_only(changed("mochikoshi", {"/fem/supports/0/fixes=x"}), "/fem/supports",
+                "nothing holds the body in y");
+}
+
+TEST(Drawn, ARegionFarFromTheOthersNeedsASupportOfItsOwn) {
+    const Checked checked = changed(
+        "mochikoshi", {R"(/section/regions/4={"name":"island","material":"foundation",)"
+                       R"("mesh":{"type":"unstructured"},)"
+                       R"("polygon":[[240,10],[260,10],[260,20],[240,20],[240,10]]})",
+                       R"(/transfer/mapping/4={"region":"island","to":"foundation_elastic"})"});
+    EXPECT_TRUE(has_fault(checked, "/fem/supports", "region \"island\"")) << told(checked.faults);
+    // and the slices of the stability analysis find the air below it
+    EXPECT_TRUE(has_fault(checked, "/section/regions", "air below ground")) << told(checked.faults);
+}
+
+TEST(Drawn, AFreeFieldColumnNeedsAVerticalSideWithoutSupports) {
+    expect_only(
+        changed("mochikoshi",
+                {R"(/fem/supports/1={"name":"left","from":[-40,-5],"to":[-40,29.4],"fixes":"x"})"}),
+        "/fem/supports/1", "where a free-field column stands");
+    const Checked slanted = changed(
+        "mochikoshi",
+        {"/section/regions/0/polygon=[[-40,-5],[280,-5],[281,-2],[280,0],[220,0],[133,0],[-40,0],"
+         "[-40,-5]]",
+         "/section/regions/0/mesh={\"type\":\"unstructured\"}"});
+    EXPECT_TRUE(has_fault(slanted, "/fem/free_field", "not one vertical line"))
+        << told(slanted.faults);
+}
+
+TEST(Drawn, ACrestFarFromTheSectionIsTold) {
+    expect_only(changed("mochikoshi", {"/fem/crest=[615,30]"}), "/fem/crest",
+                "away from the section");
+    const Checked near = changed("mochikoshi", {"/fem/crest=[115,34]"});
+    EXPECT_TRUE(near.faults.empty()) << told(near.faults);
+    EXPECT_TRUE(has_warning(near, "far_crest", "/fem/crest"));
+    EXPECT_TRUE(changed("mochikoshi", {}).scene.warnings.empty());
+}
+
+TEST(Drawn, WaterBelowAllSoilIsRefused) {
+    expect_only(changed("mochikoshi", {"/fem/water/line=[[-40,-6],[280,-7]]"}), "/fem/water/line",
+                "runs below all soil, by at least 1 m");
+    expect_only(changed("mochikoshi", {"/transfer/phreatic_line=[[-40,-6],[280,-7]]"}),
+                "/transfer/phreatic_line", "nothing would be saturated");
+}
+
+TEST(Drawn, ABoundaryOfPressureThatMissesTheSectionIsRefused) {
+    expect_only(changed("mochikoshi", {R"(/fem/water/boundaries=[{"name":"pond","from":[-40,30],)"
+                                       R"("to":[100,30],"level":31}])"}),
+                "/fem/water/boundaries/0", "0.6 m away from the section");
+}
+
+TEST(Drawn, LiquefactionWatchedWhereThereIsNoSuchSoilIsRefused) {
+    expect_only(changed("mochikoshi", {"/fem/liquefaction/x=[200,220]"}), "/fem/liquefaction/x",
+                "no soil of these regions");
+}
+
+TEST(Drawn, TerrainThroughTheDamIsRefusedWithItsDepth) {
+    expect_only(changed("mochikoshi", {"/mpm/terrain=[[-41,-2],[660,-2]]"}), "/mpm/terrain",
+                "reaches 3 m below it");
+}
+
+TEST(Drawn, AToeOutsideTheGridIsRefused) {
+    expect_only(changed("mochikoshi", {"/mpm/runout/toe=[720,0]"}), "/mpm/runout/toe",
+                "outside the grid");
+}
+
+TEST(Drawn, AGridTooSmallForTheSectionIsRefused) {
+    const Checked checked = changed("mochikoshi", {"/mpm/domain_x=[-40.5,199.5]"});
+    EXPECT_TRUE(has_fault(checked, "/section/regions/0/polygon", "outside the MPM grid"));
+    EXPECT_TRUE(has_fault(checked, "/mpm/runout/toe", "outside the grid"));
+    EXPECT_TRUE(has_fault(checked, "/mpm/gauges/0/x", "outside the grid"));
+}
+
+TEST(Drawn, SlipSurfacesThatEndWhereThereIsNoGroundAreRefused) {
+    expect_only(changed("mochikoshi", {"/lem/search/exit=[300,340]"}), "/lem/search/exit",
+                "lies beside the section");
+    expect_only(changed("mochikoshi", {"/lem/search/exit=[60,80]", "/lem/search/entry=[221,250]"}),
+                "/lem/search/entry", "lies at most at 0 m, and exit nowhere below 29.4 m");
+}
+
+TEST(Drawn, SlipSurfacesBelowTheModelOrThroughTheAirAreRefused) {
+    expect_only(changed("mochikoshi", {"/lem/search/lowest_level=31"}), "/lem/search/lowest_level",
+                "above all ground");
+    expect_only(changed("mochikoshi", {R"(/lem/circle={"center":[150,100],"radius":20})"}),
+                "/lem/circle", "without cutting it");
+    expect_only(
+        changed("mochikoshi", {R"(/lem/surcharge=[{"from":290,"to":300,"pressure_kPa":10}])"}),
+        "/lem/surcharge/0", "beside the section");
+}
+
+TEST(Drawn, LayersThatLieOutsideTheirRegionOrInEachOtherAreRefused) {
+    expect_only(changed("mochikoshi", {"/lem/liquefaction/0/levels=[30,32]"}),
+                "/lem/liquefaction/0/levels", "lie outside region \"tailings\"");
+    expect_only(changed("mochikoshi", {"/lem/liquefaction/1/levels=[17.64,24]"}),
+                "/lem/liquefaction/1/levels", "overlap those of layer 0");
+}
+
+}  // namespace
+}  // namespace breach::check

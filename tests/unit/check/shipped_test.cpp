@@ -1,0 +1,17 @@
+// What is shipped passes, and quickly enough to be asked at every submission.
+#include "wrong.hpp"
+
+namespace breach::check {
+namespace {
+
+TEST(Shipped, ScenesHaveNoFaults) {
+    for (const char* scene : {"column", "slope", "mochikoshi", "mochikoshi_runout"}) {
+        const Checked checked = changed(scene, {});
+        EXPECT_TRUE(checked.faults.empty()) << scene << ":\n" << told(checked.faults);
+        for (const fault::Flag& each : checked.scene.warnings)
+            ADD_FAILURE() << scene << " warns: " << each.pointer << ": " << each.message;
+    }
+}
+
+}  // namespace
+}  // namespace breach::check

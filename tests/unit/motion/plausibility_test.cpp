@@ -1,0 +1,103 @@
+// Motions in the wrong unit: refused or flagged, and the slip is named.
+#include "core/motion/plausibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace breach::motion {
+namespace {
+
+/// Ten seconds of 2 Hz that begin and end at rest.
+Recording shaking(double peak, Quantity quantity = Quantity::acceleration, double dt = 0.01) {
+    Recording motion{quantity, {dt, {}}, "test"};
+    for (int i = 0; i <= 1000; ++i) {
+        const double t = 0.01 * i, envelope = std::sin(0.1 * std::numbers::pi * t);
+        motion.series.values.push_back(peak * envelope *
+                                       std::cos(4.0 * std::numbers::pi * (t - 5.0)));
+    }
+    return motion;
+}
+
+std::string refusal(const Recording& motion) {
+    const Doubts doubts = doubts_about(motion, "/here");
+    EXPECT_EQ(doubts.faults.size(), 1U);
+    if (doubts.faults.empty()) return "";
+    EXPECT_EQ(doubts.faults[0].pointer, "/here");
+    return doubts.faults[0].cause + ": " + doubts.faults[0].remedy;
+}
+
+std::string doubt(const Recording& motion) {
+    const Doubts doubts = doubts_about(motion, "/here");
+    EXPECT_TRUE(doubts.faults.empty());
+    EXPECT_EQ(doubts.flags.size(), 1U);
+    return doubts.flags.empty() ? "" : doubts.flags[0].code + ": " + doubts.flags[0].message;
+}
+
+void expect_says(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(MotionPlausibility, AnOrdinaryMotionPassesWithoutAWord) {
+    for (const double g : {0.05, 0.3, 1.0}) {
+        const Doubts doubts = doubts_about(shaking(g * standard_gravity), "/here");
+        EXPECT_TRUE(doubts.faults.empty());
+        for (const auto& flag : doubts.flags) ADD_FAILURE() << flag.message;
+    }
+    EXPECT_TRUE(doubts_about(shaking(0.3, Quantity::velocity), "/here").flags.empty());
+}
+
+TEST(MotionPlausibility, MetresPerSecondSquaredGivenAsGAreNamed) {
+    expect_says(doubt(shaking(1.962 * standard_gravity)),
+                "a PGA of 1.962 g, hardly plausible: 1.962 looks like m/s2 given as g: divide by "
+                "9.81 (0.2001 g)");
+    expect_says(refusal(shaking(4.905 * standard_gravity)), "divide by 9.81 (0.5002 g)");
+    expect_says(refusal(shaking(196.2 * standard_gravity)), "cm/s2 (gal) given as g");
+}
+
+TEST(MotionPlausibility, GGivenAsMetresPerSecondSquaredIsNamed) {
+    expect_says(doubt(shaking(0.03)), "g given as m/s2");
+}
+
+TEST(MotionPlausibility, VelocitiesInCentimetresAreNamed) {
+    expect_says(refusal(shaking(30.0, Quantity::velocity)), "cm/s given as m/s: divide by 100");
+    expect_says(doubt(shaking(5.0, Quantity::velocity)), "cm/s given as m/s");
+    expect_says(doubt(shaking(0.001, Quantity::velocity)), "m/s given as cm/s");
+}
+
+TEST(MotionPlausibility, TimesInMillisecondsAreNamed) {
+    const std::string text = refusal(shaking(3.0, Quantity::acceleration, 10.0));
+    expect_says(text, "a time step of 10 s");
+    expect_says(text, "10 looks like milliseconds: divide the times by 1000 (0.01 s)");
+}
+
+TEST(MotionPlausibility, AMotionOfZerosIsFlagged) {
+    expect_says(doubt(shaking(0.0)), "zero throughout");
+}
+
+TEST(MotionPlausibility, AVelocityLeftAtTheEndIsFlagged) {
+    Recording motion = shaking(3.0);
+    for (double& a : motion.series.values) a += 0.1;
+    expect_says(doubt(motion), "drifting_motion: the motion leaves 0.988 m/s at its end");
+}
+
+TEST(MotionPlausibility, StepsThatPassOverSamplesAreFlagged) {
+    const Series series = shaking(3.0).series;
+    EXPECT_FALSE(doubt_about_step(series, 0.02, "/step"));
+    const auto flag = doubt_about_step(series, 5.0, "/step");
+    ASSERT_TRUE(flag);
+    EXPECT_EQ(flag->code, "coarse_step");
+    EXPECT_EQ(flag->pointer, "/step");
+    expect_says(flag->message, "pass over 500 samples");
+    EXPECT_FALSE(doubt_about_step({0.001, {0.0, 1.0}}, 0.01, "/step")) << "resolves 10 Hz";
+}
+
+TEST(MotionPlausibility, SaysHowStrongTheMotionIs) {
+    const std::string text = summary_of(shaking(0.3 * standard_gravity));
+    expect_says(text, "PGA 0.3 g");
+    expect_says(text, "10 s in steps of 0.01 s");
+}
+
+}  // namespace
+}  // namespace breach::motion

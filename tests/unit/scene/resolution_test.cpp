@@ -1,0 +1,196 @@
+// Cells and elements across what they have to resolve, and the times that follow from the soil's height.
+#include "core/scene/resolution.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/scene/scene.hpp"
+
+namespace breach {
+namespace {
+
+using nlohmann::json;
+using scene::Polygon;
+
+double thickness(const Polygon& polygon) { return scene::thickness_of(polygon); }
+
+Polygon turned(const Polygon& polygon, double angle) {
+    Polygon result;
+    for (const auto& p : polygon)
+        result.emplace_back(std::cos(angle) * p.x() - std::sin(angle) * p.y(),
+                            std::sin(angle) * p.x() + std::cos(angle) * p.y());
+    return result;
+}
+
+TEST(Thickness, OfABandIsItsOwnHoweverLongAndHoweverItLies) {
+    for (const double length : {10.0, 100.0, 1000.0}) {
+        const Polygon band{{0, 0}, {length, 0}, {length, 5}, {0, 5}};
+        for (const double angle : {0.0, 0.3, 1.2})
+            EXPECT_NEAR(thickness(turned(band, angle)), 5.0, 0.1) << length << " " << angle;
+    }
+    EXPECT_NEAR(thickness({{0, 0}, {1000, 0}, {1000, 0.1}, {0, 0.1}}), 0.1, 0.002);
+}
+
+TEST(Thickness, OfASquareIsItsEdgeAndOfASlopeItsHeight) {
+    EXPECT_NEAR(thickness({{0, 0}, {10, 0}, {10, 10}, {0, 10}}), 10.0, 0.3);
+    EXPECT_NEAR(thickness({{0, 0}, {30, 0}, {20, 10}, {0, 10}}), 10.0, 0.3);
+}
+
+TEST(Thickness, OfABentBandIsNotTheWidthOfItsHull) {
+    const Polygon bent{{0, 0}, {50, 0}, {50, 50}, {47, 50}, {47, 3}, {0, 3}};
+    EXPECT_NEAR(thickness(bent), 3.0, 0.1);
+}
+
+TEST(Thickness, OfALumpWithATailIsTheLumpsWhenMostOfTheSoilIsThere) {
+    const Polygon lump{{0, 0}, {40, 0}, {40, 1}, {10, 1}, {10, 10}, {0, 10}};
+    EXPECT_NEAR(thickness(lump), 10.0, 0.5);
+}
+
+TEST(Thickness, OfALayerOfALargerMassIsTheMasss) {
+    // The lower layer is longer: the edges share a part.
+    const Polygon lower{{-10, 0}, {40, 0}, {40, 3}, {30, 3}, {0, 3}, {-10, 3}};
+    const Polygon upper{{0, 3}, {30, 3}, {30, 10}, {0, 10}};
+    EXPECT_NEAR(scene::thickness_of(lower, {upper}), 10.0, 0.3);
+    EXPECT_NEAR(scene::thickness_of(upper, {lower}), 10.0, 0.3);
+    EXPECT_NEAR(scene::thickness_of(lower), 3.0, 0.1);
+}
+
+json dyke() {
+    return json::parse(R"({
+        "format": "breachline-scene/1", "name": "dyke",
+        "materials": {
+            "mud": {"density": 1800,
+                "law": {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3, "c_kPa": 1, "phi_deg": 10}},
+            "clay": {"density": 1800,
+                "law": {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3, "c_kPa": 1, "phi_deg": 30}}},
+        "section": {"element_size": 1, "regions": [
+            {"name": "pond", "material": "mud", "polygon": [[0,0],[40,0],[40,20],[0,20],[0,0]],
+             "mesh": {"type": "unstructured"}},
+            {"name": "dyke", "material": "clay", "polygon": [[40,0],[46,0],[46,20],[40,20],[40,0]],
+             "mesh": {"type": "unstructured"}}]},
+        "fem": {"supports": [{"name": "base", "from": [0,0], "to": [46,0], "fixes": "xy"}],
+            "stages": [{"type": "dynamic", "name": "fall", "duration": 1, "time_step": 0.01}], "crest": [46, 20]},
+        "mpm": {"cell_size": 0.5, "domain_x": [0, 120], "domain_y": [0, 40], "floor": {"level": 0},
+            "duration": 10, "runout": {"toe": [46, 0]}}})");
+}
+
+scene::Scene read(const json& document) { return scene::parse_scene(document.dump(), "test"); }
+
+std::vector<std::string> codes(const json& document) {
+    std::vector<std::string> found;
+    for (const fault::Flag& each : read(document).warnings)
+        found.push_back(each.code + " " + name_of(each.severity) + " " + each.pointer);
+    return found;
+}
+
+using Codes = std::vector<std::string>;
+
+TEST(Cells, AcrossTheThinnestMobileRegionAreWarnedAboutBelowEight) {
+    json document = dyke();
+    EXPECT_EQ(codes(document), Codes{});
+    document["mpm"]["cell_size"] = 1;  // six across the dyke
+    EXPECT_EQ(codes(document), Codes{"coarse_cells warning /mpm/cell_size"});
+    document["mpm"]["runout"]["regions"] = {"pond"};  // twenty
+    EXPECT_EQ(codes(document), Codes{});
+    document["mpm"]["runout"]["toe"] = {46, 15};  // and five over a step of 5 m
+    EXPECT_EQ(codes(document), Codes{"coarse_cells warning /mpm/cell_size"});
+    EXPECT_NE(read(document).warnings[0].message.find("the height of the slope, 5 m"),
+              std::string::npos)
+        << read(document).warnings[0].message;
+}
+
+TEST(Cells, FewerThanTwoAreRefusedWithTheSizeThatWouldDoUnlessTheSceneSaysSo) {
+    json document = dyke();
+    document["mpm"]["cell_size"] = 5;
+    try {
+        read(document);
+        FAIL() << "1.2 cells across the dyke";
+    } catch (const fault::BadInput& error) {
+        ASSERT_EQ(error.faults().size(), 1U);
+        EXPECT_EQ(error.faults()[0].pointer, "/mpm/cell_size");
+        EXPECT_NE(error.faults()[0].cause.find("region \"dyke\""), std::string::npos)
+            << error.faults()[0].cause;
+        EXPECT_NE(error.faults()[0].remedy.find("allow_coarse_cells"), std::string::npos);
+        // The size that the remedy names is taken.
+        const std::string& remedy = error.faults()[0].remedy;
+        const double enough = std::stod(remedy.substr(remedy.find("at most ") + 8));
+        EXPECT_NEAR(enough, 3.0, 0.15);
+        const scene::Scene coarse = [&] {
+            json smaller = dyke();
+            smaller["mpm"]["cell_size"] = enough;
+            smaller["mpm"]["domain_x"] = {0, 40 * enough};
+            smaller["mpm"]["domain_y"] = {0, 10 * enough};
+            return read(smaller);
+        }();
+        EXPECT_FALSE(fault::is_questionable(coarse.warnings));
+    }
+    document["mpm"]["allow_coarse_cells"] = true;
+    EXPECT_EQ(codes(document), Codes{"coarse_cells questionable /mpm/cell_size"});
+}
+
+TEST(Cells, AreCountedAcrossRegionsOfOneStrengthThatTouch) {
+    json document = dyke();
+    document["mpm"]["cell_size"] = 2;  // three across the dyke
+    const auto lengths = [&] {
+        std::map<std::string, double> found;
+        for (const scene::Across& each : scene::cells_across(read(document)))
+            found[each.what] = each.length;
+        return found;
+    };
+    EXPECT_NEAR(lengths().at("the thickness of region \"dyke\""), 6.0, 0.2);
+    EXPECT_NEAR(lengths().at("the thickness of region \"pond\""), 20.0, 0.5);
+    document["materials"]["clay"]["law"]["phi_deg"] = 10;  // stiffness makes no difference
+    document["materials"]["clay"]["law"]["E_MPa"] = 50;
+    EXPECT_NEAR(lengths().at("the thickness of region \"dyke\""), 20.0, 0.5);
+}
+
+TEST(Elements, OneAcrossARegionIsWarnedAbout) {
+    json document = dyke();
+    document["section"]["element_size"] = 4;
+    EXPECT_EQ(codes(document), Codes{"coarse_elements warning /section/regions/1/mesh"});
+    document["section"]["regions"][1]["mesh"] = {{"type", "block"}, {"divisions", {1, 20}}};
+    EXPECT_EQ(codes(document), Codes{"coarse_elements warning /section/regions/1/mesh"});
+    document["section"]["regions"][1]["mesh"] = {{"type", "block"}, {"divisions", {2, 20}}};
+    EXPECT_EQ(codes(document), Codes{});
+    document["section"]["regions"][1]["mesh"] = {{"type", "unstructured"}, {"element_size", 2}};
+    EXPECT_EQ(codes(document), Codes{});
+}
+
+TEST(Rest, TimesFollowFromTheHeightOfTheMobileSoil) {
+    json document = dyke();
+    const double T = std::sqrt(20.0 / 9.81);
+    scene::Mpm mpm = *read(document).mpm;
+    EXPECT_DOUBLE_EQ(mpm.rest.window, 3.0 * T);
+    EXPECT_DOUBLE_EQ(mpm.rest.earliest, 5.0 * T);
+    EXPECT_DOUBLE_EQ(mpm.rest.change, 0.05);
+    EXPECT_DOUBLE_EQ(mpm.rest.speed, 0.05);
+    EXPECT_EQ(json::parse(read(document).completed)["mpm"]["rest_window"], "automatic");
+    document["section"]["regions"][0]["polygon"] =
+        json::parse("[[0,0],[40,0],[40,0.8],[0,0.8],[0,0]]");
+    document["mpm"]["cell_size"] = 0.1;
+    document["mpm"]["runout"]["regions"] = {"pond"};
+    mpm = *read(document).mpm;
+    EXPECT_DOUBLE_EQ(mpm.rest.window, 3.0 * std::sqrt(0.8 / 9.81));
+    EXPECT_DOUBLE_EQ(mpm.rest.speed, 0.01 * std::sqrt(9.81 * 0.8)) << "a heap in the laboratory";
+    document["mpm"]["rest_window"] = 2;
+    EXPECT_EQ(read(document).mpm->rest.window, 2.0);
+}
+
+TEST(Duration, IsANumberOrUntilRestWithABound) {
+    json document = dyke();
+    EXPECT_FALSE(read(document).mpm->until_rest);
+    document["mpm"]["duration"] = "until_rest";
+    scene::Mpm mpm = *read(document).mpm;
+    EXPECT_TRUE(mpm.until_rest);
+    EXPECT_DOUBLE_EQ(mpm.duration, 100.0 * std::sqrt(std::hypot(120.0, 40.0) / 9.81));
+    document["mpm"]["longest_duration"] = 300;
+    EXPECT_EQ(read(document).mpm->duration, 300.0);
+    document["mpm"]["duration"] = "until_then";
+    EXPECT_THROW(read(document), fault::BadInput);
+}
+
+}  // namespace
+}  // namespace breach
