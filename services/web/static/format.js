@@ -50,7 +50,7 @@ export function elapsed(from, to) {
 
 export const percent = (fraction) => `${Math.floor(100 * Math.min(1, Math.max(0, fraction ?? 0)))} %`;
 
-const ended = new Set(["succeeded", "questionable", "cached", "partial", "failed", "cancelled", "skipped", "lost"]);
+const ended = new Set(["succeeded", "questionable", "cached", "partial", "failed", "cancelled", "skipped", "not_reached", "lost"]);
 export const is_active = (state) => !ended.has(state);
 
 /// One colour family and one sign per state: never told by colour alone.
@@ -72,6 +72,7 @@ export function state_look(state) {
         case "cancelled":
         case "cancelling":
         case "skipped":
+        case "not_reached":
         case "expired":
         case "disarmed":
             return { family: "off", sign: "⊘" };

@@ -68,7 +68,7 @@ export class RunHead {
         by_id("cancel").hidden = !active;
         by_id("pause").hidden = !active || run.paused;
         by_id("resume").hidden = !active || !run.paused;
-        by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task.state));
+        by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task.state) && !task.not_reached);
         set_text(by_id("cancel-what"), run.title || run.name);
     }
 
