@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mpm_solver/body/choose.hpp"
-
 namespace breach::mpm {
 
 namespace {

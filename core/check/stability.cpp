@@ -181,7 +181,7 @@ void check_strength(const scene::Scene& scene, Findings& findings) {
             materials::limit_strength(material->law))
             return;
     }
-    refuse(findings, "/lem", "finds no soil that can fail: every region is linear_elastic",
+    refuse(findings, "/lem", "finds no soil that can fail: no region has a strength",
            "give one of the materials mohr_coulomb or a limit_strength");
 }
 

@@ -12,7 +12,7 @@ namespace {
 bool has_sand(const scene::Scene& scene) {
     return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
         const scene::Material* material = material_of(scene, region);
-        return material != nullptr && std::holds_alternative<materials::PM4Sand>(material->law);
+        return material != nullptr && materials::sand_in(material->law);
     });
 }
 

@@ -31,10 +31,20 @@ struct UpdateOf {
     Real opened;        ///< volume strain opened by the tension cut-off or at the apex [-]
 };
 
+/// Number by number: as a whole, GCC 12 copies such a struct through memory in halves of a register.
+template <class Real>
+[[gnu::always_inline]] inline UpdateOf<Real> copy_of(const UpdateOf<Real>& update) {
+    const StressOf<Real>& sigma = update.sigma;
+    return {{sigma.xx, sigma.yy, sigma.zz, sigma.xy},
+            update.plastic_work,
+            update.d_epsilon_q,
+            update.opened};
+}
+
 /// The answer where nothing yields.
 template <class Real>
 [[gnu::always_inline]] inline UpdateOf<Real> elastic_update(const StressOf<Real>& trial) {
-    return {trial, Real(0.0), Real(0.0), Real(0.0)};
+    return {{trial.xx, trial.yy, trial.zz, trial.xy}, Real(0.0), Real(0.0), Real(0.0)};
 }
 
 /// The simplest of them shows what each must have: its `numbers`, whether it yields and softens, and

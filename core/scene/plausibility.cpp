@@ -45,7 +45,7 @@ Box extent_of(const std::vector<Region>& regions) {
     return all;
 }
 
-/// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long at most.
+/// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long.
 void doubt_section(Doubter& d) {
     constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
     const char* pointer = "/section/regions";
@@ -96,6 +96,42 @@ void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& p
         d.doubt(pointer, "the water " + what +
                              ": the whole section is drowned; levels are in m and in the section's "
                              "own datum");
+    }
+}
+
+/// One water table, drawn in three places for three phases.
+void doubt_tables(Doubter& d) {
+    struct Table {
+        const char* pointer;
+        const std::vector<Vec2>* line;
+    };
+    std::vector<Table> tables;
+    if (d.scene.fem && d.scene.fem->water)
+        tables.push_back({"/fem/water/line", &d.scene.fem->water->line});
+    if (d.scene.lem && d.scene.lem->water)
+        tables.push_back({"/lem/water/line", &d.scene.lem->water->line});
+    if (d.scene.transfer && !d.scene.transfer->phreatic_line.empty())
+        tables.push_back({"/transfer/phreatic_line", &d.scene.transfer->phreatic_line});
+    for (const Table& table : tables) {
+        if (!d.reader.sound(table.pointer)) return;
+    }
+    constexpr double much = 0.05;  // of the section's height
+    for (std::size_t i = 1; i < tables.size(); ++i) {
+        double apart = 0.0, place = d.extent.low.x();
+        const auto compare = [&](double x) {
+            if (x < d.extent.low.x() || x > d.extent.high.x()) return;
+            const double here =
+                std::abs(level_at(*tables[i].line, x) - level_at(*tables[0].line, x));
+            if (here > apart) place = x;
+            apart = std::max(apart, here);
+        };
+        for (const double x : {d.extent.low.x(), d.extent.high.x()}) compare(x);
+        for (const Vec2& point : *tables[0].line) compare(point.x());
+        for (const Vec2& point : *tables[i].line) compare(point.x());
+        if (apart <= much * d.height()) continue;
+        d.doubt(tables[i].pointer, "this water table lies " + metres(apart) + " from that of " +
+                                       tables[0].pointer + " at x = " + metres(place) +
+                                       ": is one of them out of date?");
     }
 }
 
@@ -241,14 +277,26 @@ void doubt_toe(Doubter& d) {
 
 void doubt_together(Reader& reader, Scene& scene) {
     Doubter d{reader, scene, extent_of(scene.section.regions)};
+    if (reader.sound("/gravity") && reader.document().at("gravity") == 0.0) {
+        d.doubt("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
+    }
     if (scene.fem) doubt_steps(d);
-    if (!(d.height() > 0.0)) return;  // no region is sound
-    doubt_section(d);
-    if (scene.lem && scene.lem->water) doubt_water(d, scene.lem->water->line, "/lem/water/line");
-    if (scene.fem && scene.fem->water) doubt_water(d, scene.fem->water->line, "/fem/water/line");
-    if (scene.transfer) doubt_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");
-    doubt_sizes(d);
-    if (scene.mpm) doubt_toe(d);
+    if (d.height() > 0.0) {  // a region is sound
+        doubt_section(d);
+        if (scene.lem && scene.lem->water) {
+            doubt_water(d, scene.lem->water->line, "/lem/water/line");
+        }
+        if (scene.fem && scene.fem->water) {
+            doubt_water(d, scene.fem->water->line, "/fem/water/line");
+        }
+        if (scene.transfer) {
+            doubt_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");
+        }
+        doubt_tables(d);
+        doubt_sizes(d);
+        if (scene.mpm) doubt_toe(d);
+    }
+    for (const fault::Flag& doubt : scene.warnings) reader.explain(doubt);
 }
 
 }  // namespace breach::scene

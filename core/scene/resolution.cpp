@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 #include <variant>
 
@@ -199,15 +200,19 @@ bool is_mobile(const Region& region, const Mpm& mpm) {
 
 bool as_strong(const Material& a, const Material& b) {
     if (&a == &b) return true;
-    const auto* one = std::get_if<materials::MohrCoulomb>(&a.law);
-    const auto* other = std::get_if<materials::MohrCoulomb>(&b.law);
-    if (!one || !other || one->c != other->c || one->phi != other->phi) return false;
-    if (!one->softening || !other->softening) return !one->softening && !other->softening;
+    const std::string_view type = materials::traits(a.law).type;
+    if (type != materials::traits(b.law).type || !materials::traits(a.law).c_and_phi) return false;
+    const auto one = materials::limit_strength(a.law);
+    const auto other = materials::limit_strength(b.law);
+    if (one->c != other->c || one->tan_phi != other->tan_phi) return false;
+    const materials::Softening* here = materials::softening(a.law);
+    const materials::Softening* there = materials::softening(b.law);
+    if (!here || !there) return here == there;
     const auto numbers = [](const materials::Softening& s) {
         return std::tuple{s.epsilon_q_start, s.epsilon_q_end, s.c_residual, s.tan_phi_residual,
                           s.driver};
     };
-    return numbers(*one->softening) == numbers(*other->softening);
+    return numbers(*here) == numbers(*there);
 }
 
 bool touch(const Polygon& a, const Polygon& b) { return !sides_of(a, {b}, Sides::shared).empty(); }

@@ -1,6 +1,7 @@
 // Inside core/scene only: is a number plausible, and which slip of the unit would explain it? Both
-// answers stand in the schema, as annotations: an entry's "x-plausible" [from, to], in its own unit,
-// and the slips of that unit in the root's "x-slips" (an entry's own "x-slips" count instead).
+// answers stand in the schema, as annotations: an entry's "x-plausible" [from, to], in its own
+// unit, and the slips of that unit in the root's "x-slips" (an entry's own "x-slips" count
+// instead).
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <numbers>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
@@ -32,6 +33,9 @@ TestLaw law_of(const json& law) {
     if (type == "pm4sand") return sand_of(law);
     const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
     if (type == "linear_elastic") return PlainLaw{materials::LinearElastic{elasticity}};
+    if (type != "mohr_coulomb") {
+        throw std::logic_error("the schema knows a law \"" + type + "\" that nothing reads");
+    }
     return PlainLaw{
         materials::MohrCoulomb{.elasticity = elasticity,
                                .c = 1e3 * law.at("c_kPa").get<double>(),

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "mpm_solver/body/choose.hpp"
-
 namespace breach::mpm {
 
 namespace {
@@ -58,7 +56,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     refuse_points_outside(body.grid, body.points, file);
     body.averages.resize(body.zones.size());
     for (std::size_t z = 0; z < body.zones.size(); ++z) {
-        const Choice choice = choice_of(mpm, body.zones[z]);
+        const Choice choice = choice_of(mpm, body.zones[z].law, body.zones[z].viscosity);
         body.loops.push_back(choose_loops(choice, computing.instructions));
         if (choice.averages == Averages::per_cell) body.averages[z].resize(body.grid.nodes());
     }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
 #include "mpm_solver/body/points.hpp"
 #include "mpm_solver/body/strips.hpp"
@@ -26,12 +27,6 @@ struct Tally {
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::size_t lost = none;  ///< a point that left the grid or is nowhere (NaN)
 };
-
-/// Which build of the inner loops runs: every one gives the same answers up to round-off.
-enum class InstructionSet { plain, avx2, avx512 };
-
-/// The widest that this CPU has.
-InstructionSet best_instruction_set();
 
 /// How a body is computed; the answers do not depend on the threads.
 struct Computing {

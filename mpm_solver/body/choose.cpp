@@ -26,9 +26,10 @@ KernelKind kernel_of(scene::Kernel kernel) {
             return KernelKind::gimp;
         case scene::Kernel::b_spline:
             return KernelKind::b_spline;
-        default:
-            return KernelKind::linear;
+        case scene::Kernel::linear:
+            break;
     }
+    return KernelKind::linear;
 }
 
 Order order_of(const scene::Mpm& mpm) {
@@ -37,19 +38,20 @@ Order order_of(const scene::Mpm& mpm) {
             return Order::musl;
         case scene::UpdateOrder::usf:
             return Order::usf;
-        default:
-            return Order::usl;
+        case scene::UpdateOrder::usl:
+            break;
     }
+    return Order::usl;
 }
 
-Choice choice_of(const scene::Mpm& mpm, const Zone& zone) {
+Choice choice_of(const scene::Mpm& mpm, const materials::Law& law, double viscosity) {
     return {.kernel = kernel_of(mpm.kernel),
             .order = order_of(mpm),
-            .law = zone.lanes.index(),
-            .averages = averages_of(mpm, zone.law),
+            .law = materials::for_particles(law).value().index(),
+            .averages = averages_of(mpm, law),
             .overlap = mpm.overlap_correction.rate > 0.0 ? Overlap::corrected : Overlap::left_alone,
-            .viscosity = zone.viscosity > 0.0 ? Viscosity::newtonian : Viscosity::none,
-            .volume_rule = zone.volume_rule};
+            .viscosity = viscosity > 0.0 ? Viscosity::newtonian : Viscosity::none,
+            .volume_rule = volume_rule_of(mpm, law)};
 }
 
 InstructionSet best_instruction_set() {
@@ -69,9 +71,10 @@ Loops choose_loops(const Choice& choice, InstructionSet instructions) {
             return avx512_loops(choice);
         case InstructionSet::avx2:
             return avx2_loops(choice);
-        default:
-            return plain_loops(choice);
+        case InstructionSet::plain:
+            break;
     }
+    return plain_loops(choice);
 }
 
 }  // namespace breach::mpm

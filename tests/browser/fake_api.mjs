@@ -31,7 +31,7 @@ export const still_moving = flag("still_moving", "questionable", "12 % of the re
                                  "let it run on", "/mpm/duration");
 export const numerical_share = flag("numerical_share", "questionable", "the scheme took 31 % of the released energy, 20 % is the limit");
 export const implausible = flag("implausible", "warning", "19 looks like kN/m3: 1,937 kg/m3", "/materials/sand/density");
-export const entangled = flag("entangled", "warning", "the mesh entangled at 1.9 s in element 212, in the failure's band");
+const entangled_at = (time) => flag("entangled", "warning", `the mesh entangled at ${time} s in element 212, in the failure's band`);
 /// What the runouts of a run with flags carry, by transfer time; all others are sound. null: an earlier version's.
 export const some_flagged = { 0.5: [still_moving], 0.75: [numerical_share], 1: [still_moving, numerical_share], 1.5: [implausible], 1.75: null };
 
@@ -58,9 +58,11 @@ class FakeRun {
             const taken = ((i + 1) / times.length) * fem_end;
             const begin = Math.max(taken, fem_end + Math.floor(i / 2) * mpm_time);
             const broken = breaks.includes(transfer_time);
-            this.tasks.push({ phase: "transfer_tool", transfer_time, from: taken, to: taken + 0.02 * pace, fails: broken });
+            const not_reached = entangles !== null && transfer_time > entangles;
+            this.tasks.push({ phase: "transfer_tool", transfer_time, from: taken, to: taken + 0.02 * pace, fails: broken,
+                              skipped: not_reached, not_reached });
             for (const variant of variants) {
-                this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: begin, to: begin + mpm_time, skipped: broken });
+                this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: begin, to: begin + mpm_time, skipped: broken || not_reached, not_reached });
             }
         });
         this.tasks.forEach((task, i) => Object.assign(task, { id: `${id}-task-${i}`, variant: task.variant ?? "" }));
@@ -89,7 +91,7 @@ class FakeRun {
         const ended = !["blocked", "running"].includes(state);
         return {
             id: task.id, run: this.id, phase: task.phase, label: `${task.phase}_${task.transfer_time ?? ""}${task.variant}`,
-            transfer_time: task.transfer_time ?? null, variant: task.variant, same_as: null,
+            transfer_time: task.transfer_time ?? null, variant: task.variant, same_as: null, not_reached: Boolean(task.not_reached),
             state, progress: this.progress_of(task), message: state === "running" ? "step 120, dt 1.2 ms" : "",
             result: state === "succeeded" && task.phase === "mpm_solver" ? this.runout(task) : null,
             fault: state === "failed" ? { exit_code: 70, summary: "mass differs by 3e-9, 1e-12 is allowed" } : null,
@@ -106,7 +108,7 @@ class FakeRun {
     verdict_of({ phase, transfer_time, variant }, ended_well) {
         if (!ended_well) return { ended: null, end_time: null, questionable: null, flags: null };
         if (phase === "fem_solver") {
-            const flags = this.entangles ? [entangled] : [];
+            const flags = this.entangles ? [entangled_at(this.entangles)] : [];
             return { ended: flags.length ? "entangled" : "complete", end_time: this.entangles ?? 2, questionable: false, flags };
         }
         if (phase !== "mpm_solver") return { ended: null, end_time: null, questionable: false, flags: [] };
@@ -175,12 +177,13 @@ class FakeRun {
             const own = failed ? "failed" : this.state_of(mpm);
             const numbers = own === "succeeded" ? this.runout(mpm) : {};
             const { ended, end_time, questionable, flags } = this.verdict_of(mpm, own === "succeeded");
-            const state = questionable ? "questionable" : own;
+            const state = questionable ? "questionable" : own === "skipped" && mpm.not_reached ? "not_reached" : own;
             const moving = ended && ended === "duration";
             return { transfer_time, variant, state, transfer_task: transfer.id, mpm_task: mpm.id, reused: false,
                      ended, end_time, questionable, flags: flags?.map((each) => ({ ...each, phase: "mpm_solver" })) ?? null,
                      at_rest: ended && !moving, kinetic_share: ended && (moving ? 0.12 : 0.001),
-                     trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed" : "",
+                     trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed"
+                         : mpm.not_reached ? `its FEM ended regularly at ${this.entangles} s, before this time` : "",
                      ...Object.fromEntries(Object.keys(this.runout(mpm)).map((key) => [key, numbers[key] ?? null])) };
         });
     }

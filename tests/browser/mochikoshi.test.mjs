@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import path from "node:path";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { canvas_facts, screenshot, until } from "./browser.mjs";
 import { live_page, program } from "./service.mjs";
 
@@ -17,8 +17,7 @@ let data;
 let page;
 let run;
 
-const live = live_page("data-");
-before(() => ({ service, page, folder: data } = live));
+const live = live_page("data-", { ready: (opened) => ({ service, page, folder: data } = opened) });
 
 const breach = (...words) => execFileSync(program("breach"), ["--server", service.url, ...words], { encoding: "utf8" });
 const answer_of = async (address) => (await fetch(service.url + address)).json();
@@ -33,8 +32,9 @@ test("one request starts everything", async () => {
 });
 
 test("the page sees it to its end", async () => {
-    await until("the end of the run", async () => /succeeded|failed|partial/.test(await page.textContent("#run-state")), patience);
-    assert.match(await page.textContent("#run-state"), /succeeded/);
+    await until("the end of the run", async () => /succeeded|questionable|failed|partial/.test(await page.textContent("#run-state")), patience);
+    // On 5 m cells some of it may be questionable, which it then says.
+    assert.match(await page.textContent("#run-state"), /succeeded|questionable/);
     await until("one marker per transfer time", async () =>
         (await page.locator("#runout-plot svg.plot > .marker.series-0").count()) >= study.transfer_times.length);
     await screenshot(page, "mochikoshi");
@@ -65,7 +65,7 @@ test("every transfer keeps mass and momentum, every runout has a length and an e
     for (const row of rows) {
         console.log(`t_T = ${row.transfer_time} s: runout ${row.runout?.toFixed(2)} m, numerical share ` +
                     `${row.numerical_share?.toFixed(3)}, ${row.cpu_seconds} s CPU`);
-        assert.equal(row.state, "succeeded");
+        assert.ok(["succeeded", "questionable"].includes(row.state), row.state);
         assert.ok(Number.isFinite(row.runout) && Number.isFinite(row.numerical_share));
         assert.ok(Math.abs(row.volume_ratio - 1) < 0.1, `volume ratio ${row.volume_ratio}`);
     }

@@ -365,13 +365,14 @@ test("every variant has its own curve, rows, chips and particles", async () => {
 
 test("a runout that still moves, is questionable or carries no flags does not look sound, in the curve and in the table", async () => {
     const run = api.add_run({ ...study, name: "flagged", title: "Some of it cannot be believed" },
-                            { began: Date.now() - 60000, flagged: some_flagged, entangles: 1.9, breaks: [] });
+                            { began: Date.now() - 60000, flagged: some_flagged, entangles: 2.1, breaks: [] });
     await open_run(run.id);
     await until("eight markers", async () => (await markers()) === 8);
     const classes = await page.locator("#runout-plot svg.plot > .marker").evaluateAll((all) => all.map((one) => one.getAttribute("class")));
     assert.deepEqual(classes.map((each) => each.replace("marker series-0", "").trim()),
                      ["", "bound", "doubtful", "bound doubtful", "", "", "unknown", ""]);
-    const paint = await page.locator("#runout-plot svg.plot > .marker").evaluateAll((all) => all.map((one) => {
+    // In one go: the plot is drawn anew when the page looks again.
+    const paint = await page.evaluate(() => [...document.querySelectorAll("#runout-plot svg.plot > .marker")].map((one) => {
         const { fill, strokeDasharray, fillOpacity } = getComputedStyle(one);
         return { hollow: fill === getComputedStyle(one.closest(".card")).backgroundColor, dashed: strokeDasharray !== "none", pale: Number(fillOpacity) < 0.5 };
     }));
@@ -420,15 +421,26 @@ test("a runout that still moves, is questionable or carries no flags does not lo
     assert.match(await text_of("#run-list a[aria-current]"), /⚠ questionable.*2 of 8 runouts still moving: lower bounds/s);
     assert.ok(await page.isHidden("#retry"), "nothing of it has failed");
     const fem = '#task-rows tr:has-text("fem_solver")';
-    assert.match(await text_of(fem), /■ ended: entangled at 1.9 s/);
+    assert.match(await text_of(fem), /■ ended: entangled at 2.1 s/);
     assert.equal(await page.locator(`${fem} .state.calm`).count(), 1);
     await page.click(`${fem} button`);
-    await until("its flag", async () => /entangled the mesh entangled at 1.9 s in element 212/.test(await text_of("#task-flags")));
+    await until("its flag", async () => /entangled the mesh entangled at 2.1 s in element 212/.test(await text_of("#task-flags")));
     assert.ok(await page.isHidden("#task-fault"));
     await page.click('#runout-rows tr[data-key="0.5/"] [data-column="runout"]');
     await page.waitForSelector("#provenance[open] .step");
     assert.match(await text_of("#provenance .step .flags"), /still moving 12 % of the released energy.*\/mpm\/duration/);
     await page.keyboard.press("Escape");
+});
+
+test("a transfer time beyond the mesh's regular end is not reached, which is nothing to retry", async () => {
+    await open_run(api.add_run({ ...study, name: "short" }, { began: Date.now() - 60000, entangles: 1.6, breaks: [] }).id);
+    await until("six markers", async () => (await markers()) === 6);
+    assert.match(await text_of("#run-state"), /succeeded/);
+    assert.ok(await page.isHidden("#retry"));
+    assert.match(await text_of('#runout-rows tr[data-key="1.75/"]'), /⊘ not reached/);
+    assert.deepEqual(await page.locator("#runout-plot svg.plot > .mark title").allTextContents(),
+                     Array(2).fill("not reached: its FEM ended regularly at 1.6 s, before this time"));
+    assert.equal(await page.locator('#task-rows tr:has-text("not reached")').count(), 4);
 });
 
 test("the table of runouts fits at 1400 px; what is folded away comes when asked for", async () => {
@@ -469,7 +481,8 @@ test("where a task left no result, the origin of its number says why and what is
 test("variants at one transfer time stand side by side, each with its name", async () => {
     await open_run(api.add_run(twelve_variants, { began: Date.now() - 60000 }).id);
     await until("twelve markers", async () => (await page.locator("#runout-plot svg.plot > .marker").count()) === 12);
-    const places = await page.locator("#runout-plot svg.plot > .marker").evaluateAll((all) => all.map((one) => one.getBoundingClientRect().x));
+    const places = await page.evaluate(() => [...document.querySelectorAll("#runout-plot svg.plot > .marker")]
+        .map((one) => one.getBoundingClientRect().x));
     assert.equal(new Set(places.map(Math.round)).size, 12);
     assert.deepEqual(places, [...places].sort((a, b) => a - b));
     assert.deepEqual((await page.locator("#runout-plot .tick-x").allTextContents()), twelve_variants.variants.map(({ name }) => name));
@@ -484,7 +497,7 @@ test("variants at one transfer time stand side by side, each with its name", asy
 test("twelve variants have curves that can be told apart, by colour and by shape", async () => {
     await open_run(api.add_run(twelve_curves, { began: Date.now() - 60000 }).id);
     await until("all markers", async () => (await page.locator("#runout-plot svg.plot > .marker").count()) === 84);
-    const looks = await page.locator("#runout-plot svg.plot > .marker").evaluateAll((all) => all.map((one) =>
+    const looks = await page.evaluate(() => [...document.querySelectorAll("#runout-plot svg.plot > .marker")].map((one) =>
         ({ colour: getComputedStyle(one).fill, shape: one.getAttribute("d") })));
     assert.equal(new Set(looks.map(({ colour }) => colour)).size, 12);
     assert.equal(new Set(looks.map(({ shape }) => shape)).size, 12);
@@ -533,7 +546,7 @@ test("the legend of materials is its own after that of regions, where a name is 
         { ...study.scene.section.regions[0], material: "column" }, { ...study.scene.section.regions[1], material: "base" }] } } },
         { began: Date.now() - 60000 }).id);
     await until("soil", async () => (await canvas_facts(page)).share > 0.05);
-    const legend = () => page.locator("#view-regions li").evaluateAll((all) => all.map((one) =>
+    const legend = () => page.evaluate(() => [...document.querySelectorAll("#view-regions li")].map((one) =>
         [one.textContent.trim(), getComputedStyle(one.querySelector(".chip")).backgroundColor]));
     await page.selectOption("#view-field", "region");
     const regions = await legend();

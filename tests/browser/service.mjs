@@ -32,14 +32,16 @@ export async function start_service(folder, ...options) {
 }
 
 /// For all tests of a file: a service with a folder of its own below the build's and a page, opened before the first test and
-/// cleared away after the last. `options(folder)`: further options of the service. {folder, service, browser, page}, filled by then.
-export function live_page(prefix, options = () => []) {
+/// cleared away after the last. `options(folder)`: further options of the service; `ready(live)`: called when all of it is there (a
+/// second `before` of the file may run before the first has ended). {folder, service, browser, page}, filled by then.
+export function live_page(prefix, { options = () => [], ready = () => {} } = {}) {
     const live = {};
     before(async () => {
         live.folder = mkdtempSync(path.join(build_folder, prefix));
         live.service = await start_service(path.join(live.folder, "data"), ...options(live.folder));
         live.browser = await open_browser();
         live.page = live.browser.page;
+        ready(live);
     });
     after(async () => {
         await live.browser?.close();

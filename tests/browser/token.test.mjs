@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { screenshot, until } from "./browser.mjs";
 import { live_page, program } from "./service.mjs";
@@ -15,14 +15,16 @@ let token_file;
 let service;
 let page;
 
-const live = live_page("token-", (folder) => {
-    token_file = path.join(folder, "token");
-    writeFileSync(token_file, `${token}\n`);
-    return ["--token-file", token_file];
-});
-before(() => {
-    ({ service, page } = live);
-    execFileSync(program("breach"), ["--server", service.url, "--token-file", token_file, "submit", study]);
+const live = live_page("token-", {
+    options: (folder) => {
+        token_file = path.join(folder, "token");
+        writeFileSync(token_file, `${token}\n`);
+        return ["--token-file", token_file];
+    },
+    ready: (opened) => {
+        ({ service, page } = opened);
+        execFileSync(program("breach"), ["--server", service.url, "--token-file", token_file, "submit", study]);
+    },
 });
 
 const runs = () => page.locator("#run-list li").count();

@@ -145,6 +145,14 @@ void walk(const Order& order, int steps, Step step) {
     }
 }
 
+/// The FEM does not end while a file `gate` lies in the sandbox (above the folder of the programs).
+void wait_at_the_gate(const Order& order) {
+    while (fs::exists(order.bin / "../gate")) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (stop != 0) std::exit(128 + static_cast<int>(stop));
+    }
+}
+
 std::string spelt(double time) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6f", time);
@@ -184,6 +192,7 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
                     damaged ? "" : spelt(time));
         }
     });
+    wait_at_the_gate(order);
     end_well(order, {{"phase", "fem_solver"}, {"ended", "complete"}, {"end_time", end}});
 }
 

@@ -27,6 +27,9 @@ class SlurmFaults : public ::testing::Test {
         std::ofstream(slurm() / trouble) << "\n";
     }
     void end(const std::string& trouble) { fs::remove(slurm() / trouble); }
+    /// No FEM ends before it is opened.
+    void close_gate() const { std::ofstream(sandbox_.root() / "gate") << "\n"; }
+    void open_gate() const { fs::remove(sandbox_.root() / "gate"); }
 
     std::unique_ptr<Service> service(std::vector<std::string> more = {}) const {
         std::vector<std::string> arguments{"--executor",    "slurm", "--slurm-poll",          "0.2",
@@ -209,8 +212,9 @@ TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
     // What the controller forgets is lost in the queue, but goes on where it runs; its numbers are
     // given to other jobs.
     // Slots for all, so that the first run's transfers cannot keep the second run out.
+    close_gate();
     const auto service = this->service({"--slots", "16"});
-    const std::string run = service->submit(study("fem_steps=60 mpm_steps=5", four_times));
+    const std::string run = service->submit(study("mpm_steps=5", four_times));
     ASSERT_TRUE(phase_runs("fem_solver"));
     begin("drained");
     const std::string waiting = service->submit(study("", {0.75}));
@@ -222,7 +226,10 @@ TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
         });
     })) << "a job is in the queue and cannot start";
     begin("forget");
+    EXPECT_TRUE(eventually([&] { return !fs::exists(slurm() / "forget"); })) << "it has forgotten";
+    EXPECT_FALSE(phases_alive(sandbox_, "fem_solver").empty());
     end("drained");
+    open_gate();
     expect_whole(*service, run);
     expect_whole(*service, waiting);
     EXPECT_EQ(attempts_of(*service, run, "fem"), 1u);  // it ran on, unlisted
@@ -257,29 +264,33 @@ TEST_F(SlurmFaults, DrainedNodeIsWaitedForAndItsJobsCanBeCancelled) {
 }
 
 TEST_F(SlurmFaults, KilledServiceFindsItsJobsAgain) {
+    close_gate();
     std::string run;
     {
         const auto first = service();
-        run = first->submit(study("fem_steps=60", four_times));
+        run = first->submit(study("", four_times));
         ASSERT_TRUE(phase_runs("fem_solver"));
         first->kill_at_once();
     }
     const auto second = service();
+    open_gate();
     expect_whole(*second, run);
     EXPECT_EQ(attempts_of(*second, run, "fem"), 1u);
 }
 
 TEST_F(SlurmFaults, StoppedServiceLeavesItsJobsRunning) {
+    close_gate();
     std::string run;
     {
         const auto first = service();
-        run = first->submit(study("fem_steps=100", four_times));
+        run = first->submit(study("", four_times));
         ASSERT_TRUE(phase_runs("fem_solver"));
         first->terminate();
         EXPECT_EQ(first->exit_code(), 0);
         EXPECT_FALSE(phases_alive(sandbox_, "fem_solver").empty());
     }
     const auto second = service();
+    open_gate();
     expect_whole(*second, run);
     EXPECT_EQ(attempts_of(*second, run, "fem"), 1u);
 }

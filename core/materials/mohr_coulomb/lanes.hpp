@@ -394,9 +394,9 @@ struct MohrCoulombLanes {
                 cone_ = mohr_coulomb_lanes::cone_at<softens>(numbers_, epsilon_q);
             }
             if (!lanes::any(lies_outside(cone_, trial))) return elastic_update(trial);
-            UpdateOf<Real> update = elastic_update(trial);
-            return_block<Isa, softens>(numbers_, cone_, update);
-            return update;
+            UpdateOf<Real> back = elastic_update(trial);
+            return_block<Isa, softens>(numbers_, cone_, back);
+            return copy_of(back);
         }
 
       private:

@@ -112,7 +112,8 @@ void LocalExecutor::reap() {
     std::erase_if(supervisors_, [this](const Supervisor& each) {
         if (waitpid(each.pid, nullptr, WNOHANG) == 0) return false;
         // A supervisor that was killed leaves nobody to end what its phase had started.
-        if (!std::filesystem::exists(each.folder.exit_record()))
+        std::error_code error;
+        if (!std::filesystem::exists(each.folder.exit_record(), error))
             clear_away(each.folder, each.attempt);
         return true;
     });

@@ -62,12 +62,14 @@ std::string entangled_where(const PhaseFolder& fem) {
     return place.empty() ? text : text + " (" + place.substr(2) + ")";
 }
 
+bool is_corner(const PhaseFolder& fem) {
+    return fem.result.value("entanglement", json::object()).value("kind", "") == "corner";
+}
+
 std::string kind_of(const PhaseFolder& fem) {
+    if (is_corner(fem)) return "at one bad corner, not in a failure's band";
     const json facts = fem.result.value("entanglement", json::object());
-    const std::string kind = facts.value("kind", "");
-    if (kind == "band") return "in the failure's band";
-    if (kind == "corner") return "at one bad corner, not in a failure's band";
-    return "";
+    return facts.value("kind", "") == "band" ? "in the failure's band" : "";
 }
 
 /// One kind of flag with all who raised it.
@@ -203,7 +205,11 @@ std::string entanglement_of(const PhaseFolder& fem) {
     std::string state = with(facts, "mean_epsilon_q", "mean epsilon_q ", " %", 0.01) +
                         with(facts, "failure_surfaces", "failure surfaces ", "");
     if (!state.empty()) text += "; then: " + state.substr(2);
-    return text + ". So ends the FEM of a section that fails; it is no fault.";
+    text += ". ";
+    return text + (is_corner(fem)
+                       ? "That is the mesh's doing and not the section's failure: refine "
+                         "it there."
+                       : "So ends the FEM of a section that fails; it is no fault.");
 }
 
 std::string how_it_ended(const PhaseFolder& phase) {
@@ -226,7 +232,7 @@ std::string how_it_ended(const PhaseFolder& phase) {
         text = "well";
     }
     std::vector<Flag> others = *flags;  // the end itself has been told
-    std::erase_if(others, [](const Flag& flag) { return flag.code == "entangled"; });
+    std::erase_if(others, [](const Flag& flag) { return flag.code.starts_with("entangled"); });
     if (const std::string warnings = listed(others, Severity::warning); !warnings.empty()) {
         add("warnings: " + warnings);
     }
@@ -265,8 +271,8 @@ Verdict verdict_of(const Run& run) {
     for (const PhaseFolder* fem : phases_named(run, "fem_solver")) {
         if (const std::string end = entanglement_of(*fem); !end.empty()) {
             const std::string of = fem->variant.empty() ? "" : capital(fem->variant) + ": ";
-            verdict.notes.push_back(of + end);
-            told.insert("entangled");
+            (is_corner(*fem) ? verdict.doubts : verdict.notes).push_back(of + end);
+            told.insert({"entangled", "entangled_corner"});
         }
     }
     for (const Finding& each : findings_of(run)) {

@@ -50,7 +50,7 @@ export function elapsed(from, to) {
 
 export const percent = (fraction) => `${Math.floor(100 * Math.min(1, Math.max(0, fraction ?? 0)))} %`;
 
-const ended = new Set(["succeeded", "questionable", "cached", "partial", "failed", "cancelled", "skipped", "lost"]);
+const ended = new Set(["succeeded", "questionable", "cached", "partial", "failed", "cancelled", "skipped", "not_reached", "lost"]);
 export const is_active = (state) => !ended.has(state);
 
 /// One colour family and one sign per state: never told by colour alone.
@@ -72,6 +72,7 @@ export function state_look(state) {
         case "cancelled":
         case "cancelling":
         case "skipped":
+        case "not_reached":
         case "expired":
         case "disarmed":
             return { family: "off", sign: "⊘" };
@@ -85,8 +86,10 @@ export function state_look(state) {
     }
 }
 
-/// What a task's state is called: one that went well may have ended as a failing dam ends, or with a doubtful result.
-export function task_state({ state, ended: how, end_time, questionable }) {
+/// What a task's state is called: one that went well may have ended as a failing dam ends, or with a doubtful result; one that
+/// was skipped may lie beyond its FEM's regular end.
+export function task_state({ state, ended: how, end_time, questionable, not_reached }) {
+    if (state === "skipped" && not_reached) return "not_reached";
     if (!["succeeded", "cached"].includes(state)) return state;
     if (questionable) return "questionable";
     return how === "entangled" ? `ended: entangled at ${seconds(end_time)}` : state;
@@ -95,7 +98,7 @@ export function task_state({ state, ended: how, end_time, questionable }) {
 export function show_state(badge, state) {
     const { family, sign } = state_look(state);
     badge.className = `state ${family}`;
-    const text = `${sign} ${state}`;
+    const text = `${sign} ${state.replace("_", " ")}`;
     if (badge.textContent !== text) badge.textContent = text;
 }
 

@@ -45,7 +45,8 @@ export class Provenance {
     }
 }
 
-/// The tasks from the runout back to the FEM, each as {task, provenance: of its result.json or null}.
+/// The tasks from the runout back to the FEM, each as {task, provenance: of its result.json, or of the fault.json of one
+/// that broke down, or null}.
 async function chain_of(run, row) {
     const transfer = run.tasks.find((task) => task.id === row.transfer_task);
     const fem = run.tasks.find((task) => task.phase === "fem_solver" && task.variant === (transfer?.variant || row.variant)) ??
@@ -53,7 +54,7 @@ async function chain_of(run, row) {
     const mpm = run.tasks.find((task) => task.id === row.mpm_task);
     return Promise.all([mpm, transfer, fem].filter(Boolean).map(async (listed) => {
         const task = await api.read_task(listed.id);
-        const file = task.artifacts.find(({ name }) => name === "result.json");
+        const file = task.artifacts.find(({ name }) => name === "result.json") ?? task.artifacts.find(({ name }) => name === "fault.json");
         const result = file ? await api.read_json_artifact(file.sha256).catch(() => null) : null;
         return { task, provenance: result?.provenance ?? null };
     }));
@@ -112,7 +113,9 @@ const file_name = (path) => path.split("/").at(-1);
 /// A task that ended without a result says why, and what that leaves unknown.
 function no_result(task) {
     if (is_active(task.state)) return "No result.json yet.";
-    const fault = task.fault ? ` with exit code ${task.fault.exit_code}: ${task.fault.summary}` : "";
+    if (task.not_reached) return `Not reached: ${task.fault?.summary ?? ""}.`;
+    const code = Number.isFinite(task.fault?.exit_code) ? ` with exit code ${task.fault.exit_code}` : "";
+    const fault = task.fault ? `${code}: ${task.fault.summary}` : "";
     return `It left no result.json: it ended as “${task.state}”${fault}. Which version and settings it had is not known from here; ` +
            "scene.completed.json and the log say what it was given.";
 }

@@ -144,17 +144,17 @@ export function series_by_variant(rows, variants) {
 }
 
 function mark_of(row, several) {
-    const kinds = { failed: "failed", lost: "failed", skipped: "skipped", cancelled: "skipped", cancelling: "skipped" };
+    const kinds = { failed: "failed", lost: "failed", skipped: "skipped", not_reached: "skipped", cancelled: "skipped", cancelling: "skipped" };
     const busy = state_look(row.state).family === "busy" ? "running" : "pending";
     return { x: row.transfer_time, kind: kinds[row.state] ?? busy,
-             label: [several ? row.variant : "", row.state, row.reason].filter(Boolean).join(": ") };
+             label: [several ? row.variant : "", row.state.replace("_", " "), row.reason].filter(Boolean).join(": ") };
 }
 
 function fill_row(row, values) {
     const [time, variant, state] = row.children;
     const look = time.firstElementChild;
     set_text(look, number(values.transfer_time));
-    look.disabled = !values.mpm_task || ["blocked", "ready", "skipped"].includes(values.state);
+    look.disabled = !values.mpm_task || ["blocked", "ready", "skipped", "not_reached"].includes(values.state);
     look.title = "Show the particles";
     set_text(variant, values.variant);
     show_state(state.firstElementChild, values.reused && values.state === "succeeded" ? "cached" : values.state);

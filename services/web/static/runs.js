@@ -2,7 +2,7 @@
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { counts_text } from "./flags.js";
-import { clock, elapsed, is_active, percent, show_state, span } from "./format.js";
+import { clock, elapsed, is_active, percent, show_state, span, task_state } from "./format.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
 
@@ -68,7 +68,7 @@ export class RunHead {
         by_id("cancel").hidden = !active;
         by_id("pause").hidden = !active || run.paused;
         by_id("resume").hidden = !active || !run.paused;
-        by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task.state));
+        by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task_state(task)));
         set_text(by_id("cancel-what"), run.title || run.name);
     }
 

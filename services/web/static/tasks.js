@@ -114,7 +114,7 @@ function fill_chip(chip, task) {
     chip.className = `flow-chip ${family}`;
     chip.style.setProperty("--progress", percent(task.progress).replace(" ", ""));
     set_text(chip, sign);
-    const text = `${task_name(task)}: ${task_state(task)}, ${percent(task.progress)}`;
+    const text = `${task_name(task)}: ${task_state(task).replace("_", " ")}, ${percent(task.progress)}`;
     chip.title = task.flags?.length ? `${text}\n${flag_note(task)}` : text;
     chip.setAttribute("aria-label", text);
 }

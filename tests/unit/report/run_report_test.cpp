@@ -316,6 +316,25 @@ TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
     EXPECT_NE(chapter->text.find("it is no fault"), std::string::npos) << chapter->text;
 }
 
+TEST_F(WetRun, TellsABadCornerFromAFailure) {
+    flag_all();
+    edit_result("fem", {{"entanglement", {{"time", 20.5}, {"element", 3}, {"kind", "corner"}}},
+                        {"flags",
+                         {{{"code", "entangled_corner"},
+                           {"severity", "questionable"},
+                           {"message", "one corner folded"},
+                           {"pointer", ""}}}}});
+    const Document d = document();
+    EXPECT_NE(in_one(d.verdict.doubts)
+                  .find("The mesh entangled at 20.5 s in element 3, at one bad corner, not in a "
+                        "failure's band. That is the mesh's doing"),
+              std::string::npos)
+        << in_one(d.verdict.doubts);
+    EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "how it ended"),
+              "entangled at 20.5 s in element 3, at one bad corner, not in a failure's band; "
+              "questionable: entangled corner");
+}
+
 TEST_F(WetRun, TellsOnlyWhatItsOwnSceneAndStudySay) {
     fs::remove_all(folder_);
     write_wet_run(folder_, "other-dam");
