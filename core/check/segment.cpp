@@ -59,6 +59,14 @@ bool may_hold_nodes(const scene::Scene& scene, const Side& segment, double toler
     });
 }
 
+double length_on_sides(const scene::Scene& scene, const Side& segment, double tolerance) {
+    double sum = 0.0;
+    for (const scene::Region& region : scene.section.regions)
+        for (const Side& side : sides_of(region.polygon))
+            sum += std::max(0.0, shared_length(side, segment, tolerance));
+    return sum;
+}
+
 std::string how_it_misses(const scene::Scene& scene, const Side& segment) {
     double least = std::numeric_limits<double>::infinity();
     for (const scene::Region& region : scene.section.regions)

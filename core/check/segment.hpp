@@ -14,6 +14,9 @@ namespace breach::check {
 bool touches(const scene::Region& region, const Side& segment, double tolerance);
 bool may_hold_nodes(const scene::Scene& scene, const Side& segment, double tolerance);
 
+/// Length of the segment that lies on sides of regions, counted once per region [m].
+double length_on_sides(const scene::Scene& scene, const Side& segment, double tolerance);
+
 /// "runs 0.01 m beside the section", for one that holds none.
 std::string how_it_misses(const scene::Scene& scene, const Side& segment);
 

@@ -170,6 +170,20 @@ void check_crest(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+/// A long segment that runs along no side was meant to.
+void warn_if_hardly_held(const scene::Scene& scene, std::size_t index, double tolerance,
+                         Findings& findings) {
+    const scene::Support& support = scene.fem->supports[index];
+    const Side segment{support.from, support.to};
+    const double size = largest_element_size(scene);
+    if ((segment.b - segment.a).norm() <= size ||
+        length_on_sides(scene, segment, tolerance) > tolerance)
+        return;
+    warn(findings, "hardly_held", "/fem/supports/" + std::to_string(index),
+         "\"" + support.name + "\" runs from " + text(support.from) + " to " + text(support.to) +
+             " along no side of a region: it holds single nodes, if any; let it run along an edge");
+}
+
 }  // namespace
 
 void check_supports(const scene::Scene& scene, Findings& findings) {
@@ -180,7 +194,10 @@ void check_supports(const scene::Scene& scene, Findings& findings) {
     for (std::size_t i = 0; i < scene.fem->supports.size(); ++i) {
         const scene::Support& support = scene.fem->supports[i];
         const Side segment{support.from, support.to};
-        if (may_hold_nodes(scene, segment, tolerance)) continue;
+        if (may_hold_nodes(scene, segment, tolerance)) {
+            warn_if_hardly_held(scene, i, tolerance, findings);
+            continue;
+        }
         missed = true;
         refuse(findings, "/fem/supports/" + std::to_string(i),
                "\"" + support.name + "\" " + how_it_misses(scene, segment),

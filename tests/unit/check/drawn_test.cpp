@@ -71,6 +71,11 @@ TEST(Drawn, ASupportThroughUnstructuredSoilHoldsNoNodeForCertain) {
         "/fem/supports/0", "crosses the soil");
 }
 
+TEST(Drawn, ASupportThatMeetsTheSectionInOnePointIsTold) {
+    const Checked checked = changed("mochikoshi", {"/fem/supports/0/from=[-40,-8]"});
+    EXPECT_TRUE(has_warning(checked, "hardly_held", "/fem/supports/0")) << told(checked.faults);
+}
+
 TEST(Drawn, ABodyThatIsHeldInOneDirectionOnlyIsRefused) {
     expect_only(changed("mochikoshi", {"/fem/supports/0/fixes=x"}), "/fem/supports",
                 "nothing holds the body in y");
