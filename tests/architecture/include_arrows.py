@@ -46,7 +46,7 @@ floors = {
     "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # units that are one thing in several files: a door that its own parts include
-one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility)$"),
+one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution)$"),
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {
