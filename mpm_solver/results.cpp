@@ -19,9 +19,10 @@ const char* name_of(scene::UpdateOrder order) {
             return "musl";
         case scene::UpdateOrder::usf:
             return "usf";
-        default:
-            return "usl";
+        case scene::UpdateOrder::usl:
+            break;
     }
+    return "usl";
 }
 
 using nlohmann::json;

@@ -76,7 +76,7 @@ void add(Totals& whole, const Totals& part) {
 
 }  // namespace
 
-Totals run(Body& body, Loop Loops::*loop, Writes writes, double dt) {
+Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
     const Strips& strips = body.strips;
     const std::size_t zones = body.zones.size();
     body.sums.assign(strips.count() * zones, {});

@@ -11,9 +11,9 @@ enum class Writes {
     nodes,       ///< nodes or cells: strips that share none at once
 };
 
-/// Runs one of the loops of every zone over every strip and returns what it added up, strip by
-/// strip in their order: the same for any number of threads.
-Totals run(Body& body, Loop Loops::*loop, Writes writes, double dt);
+/// One of the loops of every zone over every strip; returns what it added up, strip by strip in
+/// their order: the same for any number of threads.
+Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt);
 
 /// Anti-locking: empties the cells that are in use.
 void forget_averages(Body& body);

@@ -1,6 +1,66 @@
 #include "mpm_solver/step.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "mpm_solver/share.hpp"
+
 namespace breach::mpm {
+
+namespace {
+
+/// Coulomb friction of a node that presses on the floor: the impulse that stops it is at most mu
+/// times the normal one. Returns the work that friction takes, impulse x (v_before + v_after) / 2
+/// [J], exact for the node's kinetic energy.
+double rub(double m, double mu, const Vec2& v_before, Vec2& v) {
+    if (v.y() >= 0.0) return 0.0;  // lifts off
+    const double normal = -m * v.y();
+    v.y() = 0.0;
+    const double free_vx = v.x();
+    const double most = mu * normal / m;
+    v.x() = std::copysign(std::max(std::abs(free_vx) - most, 0.0), free_vx);
+    return m * (free_vx - v.x()) * 0.5 * (v_before.x() + v.x());
+}
+
+/// Nothing may go through walls, floor and terrain. Friction has done its work already.
+void hold(Grid& grid, std::int32_t node) {
+    Lane& v = grid.motion[node];
+    const std::uint8_t must = grid.conditions[node];
+    if (must & condition::floor) v[1] = std::max(v[1], 0.0);
+    if (must & condition::terrain) {
+        v.head<2>() = kept_out(grid.contacts[grid.contact_of[node]], {v[0], v[1]}).array();
+    }
+    if (must & condition::hold_x) v[0] = 0.0;
+    if (must & condition::hold_y) v[1] = 0.0;
+}
+
+void move_strayed(Body& body, const Totals& sums) {
+    body.tally.strayed += sums.farthest * body.grid.per_h;
+    if (sums.lost != Totals::none) body.tally.lost = sums.lost;
+}
+
+/// Totals of one kind in the cells become averages over their volume.
+void average(Body& body, double CellSum::*number) {
+    for (std::vector<CellSum>& sums : body.averages) {
+        if (sums.empty()) continue;
+        for (const std::int32_t cell : body.grid.active) {
+            if (sums[cell].V > 0.0) sums[cell].*number /= sums[cell].V;
+        }
+    }
+}
+
+void find_lightest(Body& body) {
+    for (std::size_t z = 0; z < body.zones.size(); ++z) {
+        double largest = 0.0;
+        for (const std::size_t strip : body.strips.all()) {
+            largest =
+                std::max(largest, body.sums[strip * body.zones.size() + z].largest_specific_volume);
+        }
+        body.zones[z].largest_specific_volume = largest;
+    }
+}
+
+}  // namespace
 
 void keep_sorted(Body& body) {
     if (body.tally.strayed <= Strips::largest_stray) return;
@@ -17,6 +77,90 @@ void step(Body& body, double dt) {
     grid_to_particle(body, dt);
     if (body.order == Order::musl) map_again(body, dt);
     if (body.order != Order::usf) update_stress(body, dt);
+}
+
+void particle_to_grid(Body& body, double dt) {
+    for_all_points(body, &Loops::scatter, Writes::nodes, dt);
+}
+
+void update_momentum(Body& body, double dt) {
+    Grid& grid = body.grid;
+    double friction_work = 0.0;
+    for (const std::int32_t node : grid.active) {
+        const double m = grid.mass[node];
+        if (m <= 0.0) {
+            grid.motion[node].setZero();
+            continue;
+        }
+        const Lane motion = grid.motion[node] / m;
+        const Vec2 v_before{motion[0], motion[1]};
+        Vec2 v = v_before + dt * (Vec2{motion[2], motion[3]} + body.gravity);
+        if (const std::uint8_t must = grid.conditions[node]; must != 0) {
+            if (must & condition::floor) {
+                friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);
+            }
+            if (must & condition::terrain) {
+                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);
+            }
+            if (must & condition::hold_x) v.x() = 0.0;
+            if (must & condition::hold_y) v.y() = 0.0;
+        }
+        grid.motion[node] << v.x(), v.y(), v.x() - v_before.x(), v.y() - v_before.y();
+    }
+    body.tally.friction += friction_work;
+}
+
+void grid_to_particle(Body& body, double dt) {
+    if (body.order == Order::usl) forget_averages(body);
+    const Totals sums = for_all_points(body, &Loops::gather, Writes::nodes, dt);
+    body.tally.kinetic = sums.kinetic;
+    body.tally.fastest = std::sqrt(sums.fastest_squared);
+    move_strayed(body, sums);
+}
+
+void map_again(Body& body, double dt) {
+    Grid& grid = body.grid;
+    for (const std::int32_t node : grid.active) grid.motion[node].setZero();
+    for_all_points(body, &Loops::scatter_again, Writes::nodes, dt);
+    for (const std::int32_t node : grid.active) {
+        if (grid.mass[node] <= 0.0) continue;
+        grid.motion[node] /= grid.mass[node];
+        hold(grid, node);
+    }
+    forget_averages(body);
+    move_strayed(body, for_all_points(body, &Loops::gradient_again, Writes::nodes, dt));
+}
+
+void update_stress_first(Body& body, double dt) {
+    Grid& grid = body.grid;
+    // The momentum waits where the force comes later.
+    for (const std::int32_t node : grid.active) {
+        Lane& motion = grid.motion[node];
+        motion = Lane{0.0, 0.0, motion[0], motion[1]};
+        if (grid.mass[node] <= 0.0) continue;
+        motion[0] = motion[2] / grid.mass[node];
+        motion[1] = motion[3] / grid.mass[node];
+        hold(grid, node);
+    }
+    forget_averages(body);
+    for_all_points(body, &Loops::gradient, Writes::nodes, dt);
+    update_stress(body, dt);
+    for (const std::int32_t node : grid.active) {
+        Lane& motion = grid.motion[node];
+        motion = Lane{motion[2], motion[3], 0.0, 0.0};
+    }
+    for_all_points(body, &Loops::scatter_force, Writes::nodes, dt);
+}
+
+void update_stress(Body& body, double dt) {
+    average(body, &CellSum::trD);
+    body.tally.viscous += for_all_points(body, &Loops::dissipate, Writes::own_points, dt).viscous;
+    const Totals sums = for_all_points(body, &Loops::stress, Writes::nodes, dt);
+    body.tally.plastic += sums.plastic;
+    body.tally.pushed_in += sums.pushed_in;
+    average(body, &CellSum::sigma_m);
+    for_all_points(body, &Loops::settle, Writes::own_points, dt);
+    find_lightest(body);
 }
 
 }  // namespace breach::mpm

@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
+#include <string_view>
 
 #include "core/exchange/publish.hpp"
 #include "core/process/signals.hpp"
@@ -29,6 +31,15 @@ void draw_bar(double fraction, const std::string& message) {
     std::fflush(stderr);
 }
 
+/// A phase answers for what it reads. The results of the others do not change with its part of the
+/// scene; variants of a study share them, and must not share its flags.
+bool concerns(const std::string& phase, const std::string& pointer) {
+    constexpr std::array<std::string_view, 4> parts{"/lem", "/fem", "/transfer", "/mpm"};
+    const std::string part = pointer.substr(0, pointer.find('/', 1));
+    const std::string own = "/" + phase.substr(0, phase.find('_'));
+    return part == own || std::ranges::find(parts, part) == parts.end();
+}
+
 }  // namespace
 
 Session::Session(SessionSettings settings, scene::Scene scene)
@@ -47,7 +58,9 @@ Session::Session(SessionSettings settings, scene::Scene scene)
         telemetry_.open(file, std::ios::trunc);
     }
     if (!telemetry_) throw fault::IoError(file.string() + ": cannot be written");
-    for (const fault::Flag& each : scene_.warnings) flag(each);
+    for (const fault::Flag& each : scene_.warnings) {
+        if (concerns(settings_.phase, each.pointer)) flag(each);
+    }
 }
 
 Session::~Session() = default;

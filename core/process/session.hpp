@@ -68,8 +68,8 @@ class Session {
     /// The facts of result.json; published by the door when the phase ends well.
     nlohmann::json& result() { return result_; }
 
-    /// What goes with the result: in result.json, in the log and wherever the result is shown. The scene's own warnings are in
-    /// from the beginning; a code that is there already is replaced.
+    /// What goes with the result: in result.json, in the log and wherever the result is shown. The scene's warnings are in from
+    /// the beginning, those about other phases' parts left out; a code that is there already is replaced.
     void flag(fault::Flag flag);
     const std::vector<fault::Flag>& flags() const { return flags_; }
 

@@ -63,8 +63,10 @@ Reading read_text(std::string_view text, const std::string& name,
     read_mpm(reader, scene);
     doubt_together(reader, scene);
     Resolved resolved = resolution_of(scene);
-    for (Fault& each : resolved.faults)
+    for (Fault& each : resolved.faults) {
+        if (!reader.sound(each.pointer)) continue;  // a slip of the unit: said already
         reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
+    }
     std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
     if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
 

@@ -14,9 +14,10 @@ auto with_kernel(const Body& body, Visit&& visit) {
             return visit(GimpKernel(body.gimp_half_size));
         case KernelKind::b_spline:
             return visit(BSplineKernel{});
-        default:
-            return visit(LinearKernel{});
+        case KernelKind::linear:
+            break;
     }
+    return visit(LinearKernel{});
 }
 
 /// Integral of every node's weight over the places a point can take, by the midpoint rule.
