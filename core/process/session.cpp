@@ -36,7 +36,8 @@ void draw_bar(double fraction, const std::string& message) {
 bool concerns(const std::string& phase, const std::string& pointer) {
     constexpr std::array<std::string_view, 4> parts{"/lem", "/fem", "/transfer", "/mpm"};
     const std::string part = pointer.substr(0, pointer.find('/', 1));
-    const std::string own = "/" + phase.substr(0, phase.find('_'));
+    std::string own = phase.substr(0, phase.find('_'));
+    own.insert(own.begin(), '/');
     return part == own || std::ranges::find(parts, part) == parts.end();
 }
 

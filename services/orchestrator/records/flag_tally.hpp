@@ -15,7 +15,7 @@ struct FlagTally {
     std::string phase;
     bool questionable;
     std::int64_t results;     ///< that carry it
-    std::int64_t of_results;  ///< that the phase gave
+    std::int64_t of_results;  ///< that the phase gave; counted only where it is questionable
 };
 
 /// By code: the results that carry it, of the phase with the most.

@@ -134,10 +134,12 @@ void Store::add_flags(Connection& database, std::vector<Run>& runs) {
     json ids = json::array();
     for (const Run& each : runs) ids.push_back(each.id);
     database.query(
-        "SELECT run, code, phase, severity='questionable', count(DISTINCT task), (SELECT count(*) "
-        "FROM tasks WHERE tasks.run=flags.run AND tasks.phase=flags.phase AND tasks.state IN "
-        "('succeeded', 'cached')) FROM flags WHERE run IN (SELECT value FROM json_each(?)) "
-        "GROUP BY run, severity, code, phase",
+        "SELECT run, code, phase, severity='questionable', count(DISTINCT task), CASE WHEN "
+        "severity<>'questionable' THEN 0 WHEN phase='mpm_solver' THEN (SELECT runouts FROM "
+        "run_counts WHERE run_counts.run=flags.run) ELSE (SELECT count(*) FROM tasks WHERE "
+        "tasks.run=flags.run AND tasks.phase=flags.phase AND tasks.state IN ('succeeded', "
+        "'cached')) END FROM flags WHERE run IN (SELECT value FROM json_each(?)) GROUP BY run, "
+        "severity, code, phase",
         {ids.dump()}, [&](const Row& row) {
             std::ranges::find(runs, row.text(0), &Run::id)
                 ->flags.push_back({.code = row.text(1),
@@ -393,19 +395,19 @@ ResultRow result_from(const Row& row) {
 }  // namespace
 
 std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter& filter) const {
-    std::string sql = "SELECT " + selected_result_columns() + " FROM sweep_results WHERE run=?1";
+    std::string sql = "SELECT " + selected_result_columns() + " FROM sweep_results WHERE ";
     std::vector<Value> values{run, as_value(filter.most), as_value(filter.from)};
     if (!filter.state && !filter.flag) {
         // The page is found first, so that a long table is not worked out for a part of it.
         sql +=
-            " AND mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants ON "
+            "mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants ON "
             "variants.run=tasks.run AND variants.name=tasks.variant WHERE tasks.run=?1 AND "
             "tasks.phase='mpm_solver' ORDER BY coalesce(variants.place, 0), tasks.transfer_time "
             "LIMIT ?2 OFFSET ?3) ORDER BY variant_place, transfer_time";
     } else {
         sql +=
-            " AND (?4 IS NULL OR state=?4) AND (?5 IS NULL OR instr(';' || flags || ';', ';' || ?5 "
-            "|| ';') > 0) ORDER BY variant_place, transfer_time LIMIT ?2 OFFSET ?3";
+            "run=?1 AND (?4 IS NULL OR state=?4) AND (?5 IS NULL OR instr(';' || flags || ';', "
+            "';' || ?5 || ';') > 0) ORDER BY variant_place, transfer_time LIMIT ?2 OFFSET ?3";
         values.push_back(value_or_null(filter.state));
         values.push_back(value_or_null(filter.flag));
     }
