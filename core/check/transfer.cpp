@@ -45,8 +45,8 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
     for (const scene::Soil& soil : scene::soils_of(scene)) {
         if (soil.material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soil.material];
-        const bool frictional = materials::is_for_particles(material.law) &&
-                                materials::traits(material.law).frictional;
+        const bool frictional =
+            materials::is_for_particles(material.law) && materials::traits(material.law).frictional;
         if (!frictional) continue;
         refuse(findings, "/transfer/stress",
                "is effective, and \"" + material.name +

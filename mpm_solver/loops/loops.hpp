@@ -95,7 +95,7 @@ enum class Overlap { left_alone, corrected };
 enum class Viscosity { none, newtonian };
 /// How the volume of the force follows the soil.
 enum class VolumeRule {
-    tracked,      ///< V = volume: laws that never open, or gap closure switched off
+    tracked,  ///< V = volume: laws that never open, or gap closure switched off
     /// V = V_0 (1 + sigma_m / K): opened gaps carry no stress (docs/design/mpm.md, section 0)
     from_stress,
 };

@@ -279,8 +279,8 @@ TEST(Faults, TryAgainAndCrashAreRetriedButNotForEver) {
 
 TEST(Faults, MissingProgramFailsTheTaskWithTheReason) {
     const Sandbox sandbox;
+    Service service(sandbox);  // which asks all four for their version
     std::filesystem::remove(sandbox.bin() / "fem_solver");
-    Service service(sandbox);
     const json end = service.wait_for_end(service.submit(study("", {0.25})));
     EXPECT_EQ(end.at("state"), "failed");
     EXPECT_NE(end.at("message").get<std::string>().find("cannot be started"), std::string::npos)

@@ -48,8 +48,8 @@ def judge_scene(case, bases, folder, validator):
     scene = folder / "scene.json"
     document = case.scene(bases)
     if case.motion is not None:
-        (folder / "MOTION").write_text(case.motion)
-        document["fem"]["motion"]["file"] = str(folder / "MOTION")
+        (folder / "record.csv").write_text(case.motion)
+        document["fem"]["motion"]["file"] = str(folder / "record.csv")
     scene.write_text(json.dumps(document))
     done, row.milliseconds = asked("fem_solver", scene, "--check")
     if done.returncode == 65:

@@ -17,8 +17,7 @@ constexpr std::array phases{"lem_tool", "fem_solver", "transfer_tool", "mpm_solv
 constexpr std::string_view word = "numerics ";
 
 std::int64_t numerics_of(const std::filesystem::path& program) {
-    const std::string remedy =
-        "; give the folder of the phases of this build with --bin";
+    const std::string remedy = "; give the folder of the phases of this build with --bin";
     if (!std::filesystem::exists(program))
         throw fault::IoError(program.string() + ": there is no such program" + remedy);
     const CommandResult result = run_command({program.string(), "--version"}, "", longest_answer);
@@ -30,8 +29,8 @@ std::int64_t numerics_of(const std::filesystem::path& program) {
             std::from_chars(line.data() + word.size(), line.data() + line.size(), number);
         if (parsed.ec == std::errc{} && number > 0) return number;
     }
-    throw fault::IoError(program.string() +
-                         " --version does not say the version of its numerics" + remedy);
+    throw fault::IoError(program.string() + " --version does not say the version of its numerics" +
+                         remedy);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST(SspQuad, HasTheEigenvaluesOfSquareAndRectangle) {
     rectangle << 0, 0, 0, .16666667, .66666667, 1.35165334, 2.5, 7.39834666;
     const Stiffness K_1 = stiffness_of(geometry_of(corners({{0, 0}, {1, 0}, {1, 1}, {0, 1}})));
     const Stiffness K_2 = stiffness_of(geometry_of(corners({{0, 0}, {2, 0}, {2, 1}, {0, 1}})));
-    expect_error("unit square (docs/design/ssp_quad_up.md, 10.1)", (eigenvalues(K_1) - square).norm(), 1e-14);
+    expect_error("unit square (docs/design/ssp_quad_up.md, 10.1)",
+                 (eigenvalues(K_1) - square).norm(), 1e-14);
     expect_error("2 x 1 rectangle (10.2, eight decimals)", (eigenvalues(K_2) - rectangle).norm(),
                  2e-8);
 }
