@@ -146,7 +146,7 @@ cases = [
     # ------------------------------------------------ what only a result can tell
     Case("a runout cut off on its way", "column", "flagged", r"lower bound", {"/mpm/duration": 1.0, "/section/regions/0/mesh/divisions": [5, 10]},
          run="mpm_solver", code="still_moving"),
-    Case("cells wider than the soil, allowed", "column", "flagged", r"cells", {"/mpm/cell_size": 8, "/mpm/allow_coarse_cells": True,
+    Case("cells nearly as wide as the soil, allowed", "column", "flagged|warned", r"cells", {"/mpm/cell_size": 8, "/mpm/allow_coarse_cells": True,
                                                                               "/mpm/domain_x": [0, 64], "/mpm/duration": 0.5},
          run="mpm_solver", code="coarse_cells"),
     Case("cohesion in MPa", "slope", "warned|refused", r"c_kPa", {"/materials/slope_soil/law/c_kPa": 0.012,

@@ -80,9 +80,11 @@ TEST_F(LemTool, RefusesACircleThatLeavesTheModel) {
 }
 
 TEST_F(LemTool, RefusesASearchThatFindsNothing) {
-    EXPECT_EQ(
-        run("--progress none --set /lem/search/minimum_depth=500 --output " + folder_.string()),
-        65);
+    EXPECT_EQ(run("--progress none --set /lem/search/minimum_depth=14 --set "
+                  "'/lem/search/entry=[19,19.5]' "
+                  "--set '/lem/search/exit=[21,22]' --output " +
+                  folder_.string()),
+              65);
     EXPECT_NE(printed().find("shallower than minimum_depth"), std::string::npos);
 }
 

@@ -83,8 +83,8 @@ TEST(Queue, LimitOfAPhaseIsKeptAndOthersGoPast) {
 
 TEST(Queue, RetryRunsWhatEndedBadlyAndNothingElse) {
     const Sandbox sandbox;
-    std::filesystem::rename(sandbox.bin() / "mpm_solver", sandbox.bin() / "away");
     Service service(sandbox, {"--tries", "1"});
+    std::filesystem::rename(sandbox.bin() / "mpm_solver", sandbox.bin() / "away");
     const std::string run = service.submit(study("", {0.25}));
     EXPECT_EQ(service.wait_for_end(run).at("state"), "failed");
     std::filesystem::rename(sandbox.bin() / "away", sandbox.bin() / "mpm_solver");
