@@ -152,6 +152,18 @@ TEST_P(ExecutorConformance, StopReachesATreeThatIgnoresTermAndHasLeftItsSession)
     EXPECT_FALSE(is_alive(pid_in(root_ / "near")));
 }
 
+TEST_P(ExecutorConformance, SupervisorIsNotPutOffByThoseWhoLookWhetherItLives) {
+    if (GetParam() == std::string("Local")) GTEST_SKIP() << "its lock is taken before it starts";
+    // A look takes the lock for an instant; this one lasts until the supervisor has surely met it.
+    submit(folder(), "exit 0");
+    {
+        const auto look = FileLock::try_take(folder().lock());
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    ASSERT_TRUE(becomes(folder(), Life::ended));
+    EXPECT_EQ(read_exit_record(folder())->exit_code, 0);
+}
+
 TEST_P(ExecutorConformance, PhaseThatEndsOnTermIsNotKilled) {
     submit(folder(), "trap 'kill $!; exit 143' TERM; sleep 300 & echo $$ >near; wait", 20);
     ASSERT_TRUE(eventually([&] { return pid_in(root_ / "near") > 0; }));
