@@ -216,17 +216,6 @@ class Supervision {
     ExitRecord record_;
 };
 
-/// The attempt's lock; nothing when another supervisor has it. Whoever asks whether it is held takes
-/// it for an instant, so one refusal means nothing: a job that believed it ended without a trace.
-std::optional<FileLock> own_lock(const AttemptFolder& folder) {
-    constexpr auto patience = std::chrono::seconds(2);
-    for (const auto end = Clock::now() + patience;;) {
-        if (auto lock = FileLock::try_take(folder.lock())) return lock;
-        if (Clock::now() > end) return std::nullopt;
-        std::this_thread::sleep_for(pause);
-    }
-}
-
 }  // namespace
 
 int supervise(const std::filesystem::path& root, AttemptLock wanted) {
@@ -234,7 +223,7 @@ int supervise(const std::filesystem::path& root, AttemptLock wanted) {
         const AttemptFolder folder{root};
         std::optional<FileLock> lock;
         if (wanted == AttemptLock::to_be_taken) {
-            lock = own_lock(folder);
+            lock = FileLock::try_take(folder.lock());
             if (!lock || std::filesystem::exists(folder.exit_record())) return 0;
             lock = held_by_all_below(std::move(*lock));
         }

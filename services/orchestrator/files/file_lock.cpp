@@ -1,7 +1,6 @@
 #include "services/orchestrator/files/file_lock.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,13 +11,30 @@
 
 namespace breach::orchestrator {
 
+namespace {
+
+/// All of the file, for one open file description: as flock() has it, but others can ask about it.
+struct flock whole_file() {
+    struct flock range {};
+    range.l_type = F_WRLCK;
+    range.l_whence = SEEK_SET;
+    return range;
+}
+
+fault::IoError trouble(const std::filesystem::path& file, const std::string& what = "") {
+    return fault::IoError(file.string() + ": " + what + std::strerror(errno));
+}
+
+}  // namespace
+
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor < 0) throw fault::IoError(file.string() + ": " + std::strerror(errno));
+    if (descriptor < 0) throw trouble(file);
     FileLock lock(descriptor);
-    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return lock;
-    if (errno == EWOULDBLOCK) return std::nullopt;
-    throw fault::IoError(file.string() + ": cannot be locked: " + std::strerror(errno));
+    struct flock range = whole_file();
+    if (fcntl(descriptor, F_OFD_SETLK, &range) == 0) return lock;
+    if (errno == EAGAIN || errno == EACCES) return std::nullopt;
+    throw trouble(file, "cannot be locked: ");
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -33,7 +49,14 @@ FileLock::~FileLock() {
 }
 
 bool is_held(const std::filesystem::path& file) {
-    return std::filesystem::exists(file) && !FileLock::try_take(file);
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0 && errno == ENOENT) return false;
+    if (descriptor < 0) throw trouble(file);
+    struct flock range = whole_file();
+    const bool answered = fcntl(descriptor, F_OFD_GETLK, &range) == 0;
+    close(descriptor);
+    if (!answered) throw trouble(file, "cannot be asked for its lock: ");
+    return range.l_type != F_UNLCK;
 }
 
 }  // namespace breach::orchestrator

@@ -24,7 +24,8 @@ class FileLock {
     int descriptor_;
 };
 
-/// Somebody holds it now. A file that is not there is not held.
+/// Somebody holds it now. Asking takes nothing, so it is in nobody's way. A file that is not there
+/// is not held.
 bool is_held(const std::filesystem::path& file);
 
 }  // namespace breach::orchestrator

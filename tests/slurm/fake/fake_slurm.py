@@ -108,12 +108,14 @@ def start_runner(path, job, script, throttle):
     if os.fork():
         return
     os.setsid()
-    write(path, {**job, "state": "PENDING", "pid": 0})
-    ctypes.CDLL(None).prctl(36, 1)  # PR_SET_CHILD_SUBREAPER
     nothing = os.open(os.devnull, os.O_RDWR)
     for descriptor in range(3):
         os.dup2(nothing, descriptor)
     os.closerange(3, 256)
+    lives = open(folder / "runners", "a+")  # locked while any runner lives: the folder is written to until then
+    fcntl.lockf(lives, fcntl.LOCK_SH)
+    write(path, {**job, "state": "PENDING", "pid": 0})
+    ctypes.CDLL(None).prctl(36, 1)  # PR_SET_CHILD_SUBREAPER
     try:
         run(path, job["number"], job["index"], script, throttle)
     finally:
