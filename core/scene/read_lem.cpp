@@ -24,7 +24,6 @@ std::optional<std::size_t> region_named(Reader& reader, const Scene& scene, cons
                     "give the name of one of /section/regions");
 }
 
-constexpr double kPa = 1e3;
 constexpr double kN = 1e3;
 
 void read_loads(Reader& reader, const Scene& scene, const json& lem, Lem& result) {

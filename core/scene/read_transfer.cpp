@@ -12,8 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kPa = 1e3;
-
 template <class List>
 std::optional<std::size_t> named(Reader& reader, const List& list, const std::string& name,
                                  const std::string& pointer, const std::string& where) {

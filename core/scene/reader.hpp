@@ -10,6 +10,8 @@
 
 namespace breach::scene {
 
+constexpr double kPa = 1e3;  // Pa
+
 class Reader {
   public:
     Reader(const nlohmann::json& document, std::vector<fault::Fault> faults)

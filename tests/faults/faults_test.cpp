@@ -36,13 +36,6 @@ void expect_no_task_succeeded_twice(const Sandbox& sandbox, const json& run) {
     }
 }
 
-const json& task_labelled(const json& run, const std::string& label) {
-    for (const json& task : run.at("tasks")) {
-        if (task.at("label") == label) return task;
-    }
-    throw std::runtime_error("no task " + label);
-}
-
 TEST(Faults, KilledPhaseIsResumedAndTheTableIsTheSame) {
     const Sandbox sandbox;
     Service service(sandbox);

@@ -198,6 +198,12 @@ json study(const std::string& title, const std::vector<double>& times) {
             {"transfer_times", times}};
 }
 
+const json& task_labelled(const json& run, const std::string& label) {
+    for (const json& task : run.at("tasks"))
+        if (task.at("label") == label) return task;
+    throw std::runtime_error("no task " + label + " in " + run.dump());
+}
+
 std::vector<pid_t> phases_alive(const Sandbox& sandbox, const std::string& phase) {
     std::vector<pid_t> found;
     const std::string program = sandbox.bin() / phase;

@@ -85,6 +85,9 @@ bool eventually(const std::function<bool()>& condition, double seconds = 60);
 /// The slope scene with this title (the fake phases' orders), transferred at these times.
 nlohmann::json study(const std::string& title, const std::vector<double>& times);
 
+/// The task of an answered run; throws when there is none.
+const nlohmann::json& task_labelled(const nlohmann::json& run, const std::string& label);
+
 /// Pids of living phases (not supervisors) started from this sandbox, by the program's name.
 std::vector<pid_t> phases_alive(const Sandbox& sandbox, const std::string& phase);
 bool is_alive(pid_t pid);

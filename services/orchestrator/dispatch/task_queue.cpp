@@ -6,7 +6,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr auto pause_after_trouble = std::chrono::seconds(1);
+constexpr auto pause_before_next_try = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void TaskQueue::serve(std::stop_token stop) {
         lock.unlock();
         if (handle_(task) == Handled::done) continue;
         lock.lock();
-        arrived_.wait_for(lock, stop, pause_after_trouble, [] { return false; });
+        arrived_.wait_for(lock, stop, pause_before_next_try, [] { return false; });
         waiting_.push_back(std::move(task));
     }
 }

@@ -8,6 +8,9 @@
 
 namespace breach::orchestrator {
 
+/// A phase that is asked about itself (--plan, --version) has answered by then.
+constexpr auto longest_answer = std::chrono::seconds(20);
+
 struct CommandResult {
     std::optional<int> exit_code;  ///< empty: it was killed, or took too long and was killed
     std::string out;

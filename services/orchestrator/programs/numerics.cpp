@@ -12,7 +12,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr auto longest_answer = std::chrono::seconds(20);
 constexpr std::array phases{"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"};
 constexpr std::string_view word = "numerics ";
 

@@ -13,8 +13,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr auto longest_answer = std::chrono::seconds(20);
-
 constexpr std::array<std::pair<const char*, const char*>, 4> phases_by_part{
     {{"lem", "lem_tool"},
      {"fem", "fem_solver"},

@@ -10,12 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-json task_labelled(const json& run, const std::string& label) {
-    for (const json& task : run.at("tasks"))
-        if (task.at("label") == label) return task;
-    throw std::runtime_error("no task " + label + " in " + run.dump());
-}
-
 int count_in_state(const json& run, const std::string& state) {
     int count = 0;
     for (const json& task : run.at("tasks")) count += task.at("state") == state ? 1 : 0;

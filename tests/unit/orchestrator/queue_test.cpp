@@ -10,12 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-const json& task_labelled(const json& run, const std::string& label) {
-    for (const json& task : run.at("tasks"))
-        if (task.at("label") == label) return task;
-    throw std::runtime_error("no task " + label);
-}
-
 TEST(Queue, HigherPriorityGoesFirst) {
     const Sandbox sandbox;
     Service service(sandbox, {"--slots", "1"});

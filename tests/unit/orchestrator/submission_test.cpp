@@ -128,12 +128,6 @@ TEST(ListOfRuns, IsFilteredByStateAndName) {
     EXPECT_EQ(service.get("/v1/runs?colour=red").status, 400);
 }
 
-json task_labelled(const json& run, const std::string& label) {
-    for (const json& each : run.at("tasks"))
-        if (each.at("label") == label) return each;
-    return json::object();
-}
-
 std::vector<std::string> of_rows(const json& rows, const char* key) {
     std::vector<std::string> found;
     for (const json& row : rows) found.push_back(row.at(key));
