@@ -17,19 +17,27 @@ std::string text_of(double value) {
     return text.str();
 }
 
-void plan_softening(const scene::Scene& scene, const std::string& name, const materials::Law& law,
-                    Plan& plan) {
+void plan_softening(const scene::Scene& scene, const scene::Material& material, Plan& plan) {
+    const std::string& name = material.name;
     const std::string pointer = "/materials/" + name + "/law/softening";
-    if (!materials::softening(law)) {
+    if (!materials::softening(material.law)) {
         plan.push_back({"softening of " + name, Use::left_out,
                         "the law has none: its strength is constant", pointer});
         return;
     }
     const auto& length = scene.mpm->softening_length;
+    const double band = material.nonlocal_length
+                            ? scene::band_in_nonlocal_lengths * *material.nonlocal_length
+                            : scene.mpm->cell_size;
     plan.push_back({"softening of " + name, Use::on, "strength falls with epsilon_q", pointer});
-    plan.push_back({"softening strains of " + name + " scaled to the cell",
+    plan.push_back(
+        {"nonlocal softening of " + name, material.nonlocal_length ? Use::on : Use::left_out,
+         material.nonlocal_length ? "bands " + text_of(band) + " m wide whatever the cells"
+                                  : "every point softens by its own strain: bands are a cell wide",
+         "/materials/" + name + "/nonlocal_length"});
+    plan.push_back({"softening strains of " + name + " scaled to the band",
                     length ? Use::on : Use::left_out,
-                    length ? "factor " + text_of(*length / scene.mpm->cell_size)
+                    length ? "factor " + text_of(*length / band)
                            : "taken as they stand: bands narrow with the cells and dissipate less",
                     "/mpm/softening_length"});
 }
@@ -77,7 +85,7 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
         plan.push_back(plan_anti_locking(*scene.mpm, material));
         plan.push_back({"law of " + material.name, Use::on,
                         law.opens ? name + " with tension cut-off" : name, pointer});
-        if (law.yields) plan_softening(scene, material.name, material.law, plan);
+        if (law.yields) plan_softening(scene, material, plan);
     }
     plan.push_back({"dispatch of laws", scene.materials.size() > 1 ? Use::on : Use::left_out,
                     scene.materials.size() > 1

@@ -155,7 +155,9 @@ void update_stress_first(Body& body, double dt) {
 void update_stress(Body& body, double dt) {
     average(body, &CellSum::trD);
     body.tally.viscous += for_all_points(body, &Loops::dissipate, Writes::own_points, dt).viscous;
+    if (body.softening.is_on()) body.softening.remember(body.points, body.zones);
     const Totals sums = for_all_points(body, &Loops::stress, Writes::nodes, dt);
+    if (body.softening.is_on()) body.softening.spread(body.points, body.zones, body.grid);
     body.tally.plastic += sums.plastic;
     body.tally.pushed_in += sums.pushed_in;
     average(body, &CellSum::sigma_m);

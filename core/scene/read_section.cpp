@@ -249,6 +249,9 @@ void read_materials(Reader& reader, Scene& scene) {
         std::optional<double> void_ratio;
         std::optional<std::array<double, 2>> permeability;
         if (material.contains("void_ratio")) void_ratio = material.at("void_ratio").get<double>();
+        std::optional<double> nonlocal_length;
+        if (material.contains("nonlocal_length"))
+            nonlocal_length = material.at("nonlocal_length").get<double>();
         if (material.contains("permeability")) {
             permeability = range_from(material.at("permeability"));
         }
@@ -256,6 +259,7 @@ void read_materials(Reader& reader, Scene& scene) {
                                    .density = material.at("density"),
                                    .law = law_from(reader, material.at("law"), pointer + "/law"),
                                    .viscosity = material.at("viscosity"),
+                                   .nonlocal_length = nonlocal_length,
                                    .void_ratio = void_ratio,
                                    .permeability = permeability,
                                    .limit_strength = limit_strength_from(material)});

@@ -269,6 +269,60 @@ void judge_cells(const Scene& scene, Resolved& resolved) {
          "/mpm/cell_size"});
 }
 
+void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
+    const std::string pointer = "/materials/" + soil.name + "/nonlocal_length";
+    if (!materials::softening(soil.law)) {
+        resolved.faults.push_back({pointer, "belongs to a law that does not soften",
+                                   "give " + std::string("/materials/").append(soil.name) +
+                                       "/law/softening, or leave the length out"});
+        return;
+    }
+    if (!mpm.softening_length) {
+        resolved.faults.push_back(
+            {pointer, "needs to know for which band the softening strains hold",
+             "give /mpm/softening_length, the cell size that they were found with"});
+    }
+    const double cells = *soil.nonlocal_length / mpm.cell_size;
+    if (cells >= nonlocal_cells_wanted) return;
+    const std::string found = "is " + text_of(cells) + " cells of " + text_of(mpm.cell_size) + " m";
+    const std::string wanted = "take cells of at most " +
+                               rounded_down(*soil.nonlocal_length / nonlocal_cells_wanted) +
+                               " m or a longer length";
+    if (cells < least_nonlocal_cells) {
+        resolved.faults.push_back(
+            {pointer, found + ": an average over so few nodes leaves the band to the lattice",
+             wanted});
+    } else {
+        resolved.flags.push_back({"short_nonlocal_length", fault::Severity::warning,
+                                  found + " (" + text_of(nonlocal_cells_wanted) +
+                                      " are wanted): bands hang on the lattice; " + wanted,
+                                  pointer});
+    }
+}
+
+void judge_band(const Material& soil, const Region& region, Resolved& resolved) {
+    const double band = band_in_nonlocal_lengths * *soil.nonlocal_length;
+    const double thickness = thickness_of(region.polygon);
+    if (band <= widest_band_share * thickness) return;
+    resolved.flags.push_back({"wide_band", fault::Severity::warning,
+                              "bands of shear are " + text_of(band) + " m wide in region \"" +
+                                  region.name + "\" of " + text_of(thickness) +
+                                  " m: it cannot break into blocks; a shorter nonlocal_length "
+                                  "needs smaller cells",
+                              "/materials/" + soil.name + "/nonlocal_length"});
+}
+
+void judge_bands(const Scene& scene, Resolved& resolved) {
+    for (const Material& soil : scene.materials) {
+        if (soil.nonlocal_length) judge_length(soil, *scene.mpm, resolved);
+    }
+    for (const Soil& each : soils_of(scene)) {
+        const Material& soil = scene.materials[each.material];
+        const Region& region = scene.section.regions[each.region];
+        if (soil.nonlocal_length && !region.polygon.empty()) judge_band(soil, region, resolved);
+    }
+}
+
 }  // namespace
 
 double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached) {
@@ -345,6 +399,7 @@ Resolved resolution_of(const Scene& scene) {
     const auto known = [&](const Region& r) { return r.material < scene.materials.size(); };
     if (!std::ranges::all_of(scene.section.regions, known)) return resolved;
     if (scene.mpm) judge_cells(scene, resolved);
+    if (scene.mpm) judge_bands(scene, resolved);
     for (const Across& each : elements_across(scene)) {
         if (each.number >= elements_wanted) continue;
         resolved.flags.push_back(

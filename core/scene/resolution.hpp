@@ -16,6 +16,12 @@ namespace breach::scene {
 /// cannot shear within itself at all: all its points share the same nodes.
 constexpr double cells_wanted = 8.0;
 constexpr double least_cells = 2.0;
+/// Nonlocal lengths are as long as that many cells: least, and wanted. Shorter ones average over too
+/// few nodes, and the band is again as wide as the lattice makes it.
+constexpr double least_nonlocal_cells = 1.3;
+constexpr double nonlocal_cells_wanted = 1.6;
+/// A wider band than this share of a region is no band any more.
+constexpr double widest_band_share = 1.0 / 3.0;
 /// Elements across a region: one cannot bend, and a band through it has no soil beside it.
 constexpr double elements_wanted = 2.0;
 

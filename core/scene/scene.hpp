@@ -23,11 +23,16 @@ struct LimitStrength {
     double phi;  ///< [rad]
 };
 
+/// Width of a shear band under nonlocal softening, in nonlocal lengths, whatever the cells [-].
+constexpr double band_in_nonlocal_lengths = 2.5;
+
 struct Material {
     std::string name;
     double density;  ///< [kg/m3]
     materials::Law law;
     double viscosity = 0.0;  ///< mpm: Newtonian stress beside the law's, 2 eta dev D [Pa s]
+    /// mpm: its softening strains are averaged over this length [m]
+    std::optional<double> nonlocal_length{};
     std::optional<double> void_ratio{};                   ///< fem with water [-]
     std::optional<std::array<double, 2>> permeability{};  ///< hydraulic conductivity, x, y [m/s]
     std::optional<LimitStrength> limit_strength{};        ///< lem: instead of the law's

@@ -49,6 +49,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .drift_x = {},
               .drift_y = {},
               .loops = {},
+              .softening = {},
               .strips = {},
               .team = {},
               .sums = {},
@@ -60,6 +61,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
         body.loops.push_back(choose_loops(choice, computing.instructions));
         if (choice.averages == Averages::per_cell) body.averages[z].resize(body.grid.nodes());
     }
+    body.softening = NonlocalSoftening(body.points, body.zones, body.grid, body.kernel,
+                                       body.gimp_half_size, body.widest);
     const std::size_t n = body.points.size();
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);

@@ -9,6 +9,7 @@
 
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
+#include "mpm_solver/body/nonlocal.hpp"
 #include "mpm_solver/body/points.hpp"
 #include "mpm_solver/body/strips.hpp"
 #include "mpm_solver/body/team.hpp"
@@ -53,6 +54,7 @@ struct Body {
     /// MUSL: velocity that moves the points [m/s]; empty otherwise
     std::vector<double> drift_x, drift_y;
     std::vector<Loops> loops;  ///< per zone
+    NonlocalSoftening softening;
     Strips strips;
     std::shared_ptr<Team> team;
     std::vector<Totals> sums;  ///< of every zone of every strip

@@ -9,10 +9,14 @@ namespace breach::mpm {
 
 namespace {
 
-/// A band of shear is about a cell wide: with strains in proportion to 1 / h it dissipates the same
-/// whatever the cells.
-double softening_scale(const scene::Mpm& mpm) {
-    return mpm.softening_length ? *mpm.softening_length / mpm.cell_size : 1.0;
+/// A band of shear is about a cell wide, or as wide as nonlocal softening makes it: with strains in
+/// inverse proportion it dissipates the same whatever the cells.
+double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
+    if (!mpm.softening_length) return 1.0;
+    const double band = soil.nonlocal_length
+                            ? scene::band_in_nonlocal_lengths * *soil.nonlocal_length
+                            : mpm.cell_size;
+    return *mpm.softening_length / band;
 }
 
 materials::LawLanes lanes_of(const materials::Law& law, const scene::Material& soil) {
@@ -37,13 +41,14 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
     const scene::Mpm& mpm = scene::mpm_of(scene);
     const scene::Material& soil = scene.materials[material];
     const materials::Law law =
-        materials::scaled(soil.law, mpm.stiffness_scale, softening_scale(mpm));
+        materials::scaled(soil.law, mpm.stiffness_scale, softening_scale(mpm, soil));
     Zone zone{.material = soil.name,
               .law = law,
               .lanes = lanes_of(law, soil),
               .elasticity = materials::elasticity(law),
               .volume_rule = volume_rule_of(mpm, law),
               .viscosity = soil.viscosity,
+              .nonlocal_length = soil.nonlocal_length.value_or(0.0),
               .begin = begin,
               .end = end};
     zone.largest_specific_volume = largest_specific_volume(points, zone);

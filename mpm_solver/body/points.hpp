@@ -72,6 +72,7 @@ struct Zone {
     mechanics::Elasticity elasticity;
     VolumeRule volume_rule;
     double viscosity;  ///< eta [Pa s]
+    double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
     std::size_t begin;
     std::size_t end;
     double largest_specific_volume = 0.0;  ///< max V / m, for the wave speed [m3/kg]

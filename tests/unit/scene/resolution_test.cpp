@@ -131,6 +131,42 @@ TEST(Cells, FewerThanTwoAreRefusedWithTheSizeThatWouldDoUnlessTheSceneSaysSo) {
     EXPECT_EQ(codes(document), Codes{"coarse_cells questionable /mpm/cell_size"});
 }
 
+/// The pointer and the cause of what is refused, or nothing.
+std::vector<std::string> refused(const json& document) {
+    std::vector<std::string> found;
+    try {
+        read(document);
+    } catch (const fault::BadInput& error) {
+        for (const fault::Fault& each : error.faults())
+            found.push_back(each.pointer + ": " + each.cause);
+    }
+    return found;
+}
+
+TEST(NonlocalLength, HasToFitTheCellsAndTheRegion) {
+    json document = dyke();  // 6 m wide
+    document["mpm"]["cell_size"] = 0.4;
+    json& clay = document["materials"]["clay"];
+    clay["nonlocal_length"] = 0.7;
+    EXPECT_EQ(refused(document),
+              Codes{"/materials/clay/nonlocal_length: belongs to a law that does not soften"});
+    clay["law"]["softening"] = {{"epsilon_q_start", 0.01},
+                                {"epsilon_q_end", 0.1},
+                                {"c_residual_kPa", 0.5},
+                                {"phi_residual_deg", 20}};
+    ASSERT_EQ(refused(document).size(), 1U) << "no softening_length";
+    document["mpm"]["softening_length"] = 0.5;
+    EXPECT_EQ(codes(document), Codes{});
+    clay["nonlocal_length"] = 0.6;
+    EXPECT_EQ(codes(document),
+              Codes{"short_nonlocal_length warning /materials/clay/nonlocal_length"});
+    clay["nonlocal_length"] = 0.5;
+    ASSERT_EQ(refused(document).size(), 1U);
+    EXPECT_NE(refused(document)[0].find("1.25 cells"), std::string::npos) << refused(document)[0];
+    clay["nonlocal_length"] = 1.0;
+    EXPECT_EQ(codes(document), Codes{"wide_band warning /materials/clay/nonlocal_length"});
+}
+
 TEST(Cells, AreCountedAcrossRegionsOfOneStrengthThatTouch) {
     json document = dyke();
     document["mpm"]["cell_size"] = 2;  // three across the dyke

@@ -1,0 +1,59 @@
+// Softening that does not hang on the lattice: what a brittle soil's softening strain grows by in a
+// step is averaged over its neighbourhood, so that a shear band is as wide as the soil's own length
+// says and not as wide as a cell. How and why: docs/mpm_method.md.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm_solver/body/grid.hpp"
+#include "mpm_solver/body/points.hpp"
+
+namespace breach::mpm {
+
+class NonlocalSoftening {
+  public:
+    /// Nothing is averaged.
+    NonlocalSoftening() = default;
+    /// `widest`: Body's; a point that has opened that far is torn off.
+    NonlocalSoftening(const Points& points, const std::vector<Zone>& zones, const Grid& grid,
+                      KernelKind kernel, double gimp_half_size, double widest);
+
+    bool is_on() const { return !groups_.empty(); }
+    /// Before the stress update of a step: from where the strains grow.
+    void remember(const Points& points, const std::vector<Zone>& zones);
+    /// After it: the growth of every brittle point becomes its neighbourhood's.
+    void spread(Points& points, const std::vector<Zone>& zones, const Grid& grid);
+
+  private:
+    /// Soil of one region: debris that rides over another dam does not soften that from a distance.
+    struct Group {
+        std::size_t zone;
+        std::int32_t region;
+    };
+    /// Another node of the neighbourhood and its weight.
+    struct Neighbour {
+        std::int32_t columns, rows;
+        double weight;
+    };
+    bool grows(const Points& points, const Zone& zone) const;
+    bool takes_part(const Points& points, std::size_t p, const Group& group, double spent) const;
+    template <class Kernel>
+    void spread_with(const Kernel& kernel, Points& points, const std::vector<Zone>& zones,
+                     const Grid& grid);
+    void average(const Grid& grid, const std::vector<Neighbour>& neighbours);
+
+    std::vector<Group> groups_;
+    std::vector<std::vector<Neighbour>> neighbours_;  ///< per zone; empty: its softening is local
+    KernelKind kernel_ = KernelKind::gimp;
+    double gimp_half_size_ = 0.0;
+    double widest_ = 0.0;
+    std::vector<double> before_;  ///< epsilon_q_plastic of the points of zones with neighbours
+    // Per node, of one group at a time; all 0 between the groups.
+    std::vector<double> volume_;  ///< of the points about it [m3]
+    std::vector<double> growth_;  ///< volume x growth [m3]
+    std::vector<double> given_;   ///< growth_ of its neighbours, weighted [m3]
+    std::vector<double> mean_;    ///< the neighbourhood's growth [-]
+};
+
+}  // namespace breach::mpm
