@@ -17,7 +17,7 @@ MATERIALS = ["embankment_saturated", "embankment"] + [f"liquefied_{k}" for k in 
 
 
 def case(h=2.5, points=3, order="usl", cfl=0.4, scale=0.03, overlap=5.0, tolerance=0.1, softens=True, length=2.5, eta=1000.0, shift=0.0,
-         kernel="gimp", half_size=0.25, beta=1.0):
+         kernel="gimp", half_size=0.25, beta=1.0, nonlocal_length=None):
     """Overrides of one run. length None: softening strains as they stand; softens False: residual strengths from the start."""
     left = -40 - shift  # moves every point against the lattice: a jitter that keeps all areas
     sets = [f"/mpm/cell_size={h}", "/mpm/allow_coarse_cells=true", f"/mpm/fill_points={points}", f"/mpm/order={order}", f"/mpm/cfl={cfl}",
@@ -38,6 +38,8 @@ def case(h=2.5, points=3, order="usl", cfl=0.4, scale=0.03, overlap=5.0, toleran
         sets.append(f"/mpm/softening_length={h}")
     elif length != 2.5:
         sets.append(f"/mpm/softening_length={length}")
+    for material in MATERIALS[:2] if nonlocal_length else []:  # the brittle ones
+        sets.append(f"/materials/{material}/nonlocal_length={nonlocal_length}")
     for material in MATERIALS:
         if eta != 1000.0:
             sets.append(f"/materials/{material}/viscosity={eta}")
@@ -77,6 +79,10 @@ FULL = dict(QUICK, **{
     "h2.5_9_b_spline": case(kernel="b_spline"), "h2.5_16_b_spline": case(points=4, kernel="b_spline"),
     "h2.5_9_half": case(half_size=0.5), "h2.5_16_half": case(points=4, half_size=0.5),
     "h2.5_9_eta3000": case(eta=3000.0), "h2.5_16_eta3000": case(points=4, eta=3000.0),
+    **{f"h2.5_{points ** 2}_nonlocal4{name}": case(points=points, nonlocal_length=4, shift=shift)
+       for points in (3, 4) for name, shift in {"": 0.0, **SHIFTS}.items()},
+    **{f"h1.25_{points ** 2}_nonlocal{length}_cfl0.8": case(h=1.25, points=points, nonlocal_length=length, cfl=0.8)
+       for points in (3, 4) for length in (2, 4)},
     "h2.5_9_soft_off": case(softens=False), "h2.5_16_soft_off": case(softens=False, points=4),
     "h2.5_9_soft_off_musl": case(softens=False, order="musl"),
     "h2.5_9_cfl0.2": case(cfl=0.2), "h2.5_9_cfl0.8": case(cfl=0.8),
@@ -150,7 +156,7 @@ def deposit(folder, name):
     return [float(r["x_m"]) for r in rows], [float(r["depth_m"]) for r in rows]
 
 
-OTHER_PHYSICS = ("_eta", "soft_off", "unscaled")  # another question, not another way to answer the same
+OTHER_PHYSICS = ("_eta", "soft_off", "unscaled", "nonlocal")  # another question, not another way to answer the same
 OTHER_SCHEMES = ("h5", "_4", "overlap_off", "b_spline", "half", "beta")  # settings that are tried, not trusted
 COLOURS = {"4": "C1", "9": "C0", "16": "C3", "25": "C2"}
 MARKS = {"h5": "o", "h2.5": "s", "h1.25": "D"}
