@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "core/phases/files.hpp"
+#include "core/words/number.hpp"
 #include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/model/pore_water.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
@@ -16,6 +17,7 @@ using process::Outcome;
 using scene::Stage;
 using scene::StageKind;
 using End = NewtonOutcome::End;
+using words::text_of;
 
 namespace {
 
@@ -35,12 +37,6 @@ Symmetry symmetry_for(const Stage& stage, const std::vector<materials::Law>& law
     return general ? Symmetry::general : Symmetry::symmetric;
 }
 
-std::string text_of(double value) {
-    std::ostringstream out;
-    out << value;
-    return out.str();
-}
-
 }  // namespace
 
 Analysis::Analysis(process::Session& session, Model model)
@@ -56,7 +52,7 @@ Analysis::Analysis(process::Session& session, Model model)
     prediction_ = prediction_for(model_);
     report_crest();
     const bool resumed = session.settings().start == process::Start::resume &&
-                         std::filesystem::exists(session.output("checkpoint.h5"));
+                         std::filesystem::exists(session.output(phases::files::checkpoint));
     if (resumed) {
         resume();
     } else {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/phases/files.hpp"
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
@@ -98,13 +99,14 @@ void Analysis::write_checkpoint() {
     exchange::Archive archive = checkpoint_archive(checkpoint, session_.scene());
     const nlohmann::json& facts = session_.result();
     if (facts.contains(geostatic)) archive.texts[geostatic] = facts.at(geostatic).dump();
-    exchange::write_archive(session_.output("checkpoint.h5"), archive, session_.provenance());
+    exchange::write_archive(session_.output(phases::files::checkpoint), archive,
+                            session_.provenance());
     checkpoint_written_ = session_.wall_seconds();
     checkpoint_wanted_ = false;
 }
 
 void Analysis::resume() {
-    const auto file = session_.output("checkpoint.h5");
+    const auto file = session_.output(phases::files::checkpoint);
     const exchange::Archive archive =
         exchange::read_archive(file, checkpoint_kind, checkpoint_version);
     Checkpoint checkpoint = checkpoint_from(archive, session_.scene(), model_, file.string());
@@ -128,7 +130,7 @@ void Analysis::resume() {
 
 void Analysis::write_history() {
     const Stopwatch watch(seconds_, &Seconds::output);
-    exchange::write_archive(session_.output("history.h5"), history_archive(history_),
+    exchange::write_archive(session_.output(phases::files::history), history_archive(history_),
                             session_.provenance());
 }
 

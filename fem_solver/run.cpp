@@ -10,6 +10,8 @@
 #include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/motion/plausibility.hpp"
+#include "core/phases/files.hpp"
+#include "core/words/number.hpp"
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/model/build_model.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
@@ -25,7 +27,7 @@ void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
     const std::string name = wanted.file.filename().string();
     std::ostringstream csv;
     motion::write_csv(csv, applied, "as applied, from " + name);
-    exchange::publish_text(session.output("motion.csv"), csv.str());
+    exchange::publish_text(session.output(phases::files::motion), csv.str());
     const motion::Peaks peaks = motion::peaks_of(applied);
     spdlog::info("motion {} as applied: {}", name, motion::summary_of(applied));
     session.result()["motion"] = {{"file", name},
@@ -72,12 +74,6 @@ std::string regions_where(const scene::Scene& scene, Predicate predicate) {
         names += (names.empty() ? "" : ", ") + region.name;
     }
     return names;
-}
-
-std::string scene_number(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
 }
 
 PlanLine on_if(bool on, const std::string& feature, const std::string& why_on,
@@ -163,7 +159,7 @@ process::Plan plan(const scene::Scene& scene) {
               std::to_string(fem.snapshot_times.size()) + " times",
               "only the end is kept, and what is asked for on the way", "/fem/snapshot_times"),
         on_if(fem.snapshot_interval > 0.0, "regular snapshots",
-              "one per " + scene_number(fem.snapshot_interval) + " s", "no interval is given",
+              "one per " + words::text_of(fem.snapshot_interval) + " s", "no interval is given",
               "/fem/snapshot_interval"),
         on_if(fem.water.has_value(), "pore pressure",
               "an unknown of every node below the phreatic line", "the scene has no water",

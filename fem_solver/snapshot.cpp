@@ -71,10 +71,4 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
     return s;
 }
 
-std::string snapshot_name(double time) {
-    char name[64];
-    std::snprintf(name, sizeof name, "snapshot_%.6f.vtkhdf", time);
-    return name;
-}
-
 }  // namespace breach::fem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/exchange/mesh_snapshot.hpp"
+#include "core/phases/files.hpp"
 #include "fem_solver/solve/beginning.hpp"
 
 namespace breach::fem {
@@ -12,6 +13,6 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
                                    std::int64_t step);
 
 /// "snapshot_0.250000.vtkhdf"
-std::string snapshot_name(double time);
+using phases::files::snapshot_name;
 
 }  // namespace breach::fem

@@ -3,19 +3,21 @@
 #include <cstdio>
 #include <string>
 
+#include "core/phases/files.hpp"
+
 namespace breach::fem {
 
 namespace {
 
 std::filesystem::path taken_file(const std::filesystem::path& output) {
-    return output / (std::string(request_file) + ".taken");
+    return output / (std::string(phases::files::request) + ".taken");
 }
 
 }  // namespace
 
 /// Taken by renaming: a request that arrives while the snapshot is being written is another one.
 bool request_is_taken(const std::filesystem::path& output) {
-    return std::rename((output / request_file).c_str(), taken_file(output).c_str()) == 0;
+    return std::rename((output / phases::files::request).c_str(), taken_file(output).c_str()) == 0;
 }
 
 void answer_request(const std::filesystem::path& output) {

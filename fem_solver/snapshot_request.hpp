@@ -8,8 +8,6 @@
 
 namespace breach::fem {
 
-inline constexpr const char* request_file = "snapshot_request";
-
 /// True when there is a request; it is taken by renaming it to snapshot_request.taken.
 bool request_is_taken(const std::filesystem::path& output);
 

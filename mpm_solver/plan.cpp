@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <sstream>
 
+#include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/run.hpp"
 
@@ -10,12 +10,7 @@ namespace {
 
 using process::Plan;
 using process::Use;
-
-std::string text_of(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
+using words::text_of;
 
 void plan_softening(const scene::Scene& scene, const scene::Material& material, Plan& plan) {
     const std::string& name = material.name;
@@ -42,39 +37,12 @@ void plan_softening(const scene::Scene& scene, const scene::Material& material, 
                     "/mpm/softening_length"});
 }
 
-void plan_viscosity(const scene::Material& material, Plan& plan) {
-    const bool flows = material.viscosity > 0.0;
-    plan.push_back({"viscosity of " + material.name, flows ? Use::on : Use::left_out,
-                    flows ? text_of(material.viscosity) + " Pa s beside the law's stress"
-                          : "0: nothing but the law and the scheme dissipates",
-                    "/materials/" + material.name + "/viscosity"});
-}
-
-process::PlanLine plan_anti_locking(const scene::Mpm& mpm, const scene::Material& soil) {
-    const std::string pointer = "/mpm/anti_locking";
-    const std::string what = "anti-locking of " + soil.name;
-    const Use use = averages_of(mpm, soil.law) == Averages::per_cell ? Use::on : Use::left_out;
-    switch (mpm.anti_locking) {
-        case scene::AntiLocking::on:
-            return {what, use,
-                    "volumetric increment and mean stress averaged per cell and material", pointer};
-        case scene::AntiLocking::off:
-            return {what, use, "switched off", pointer};
-        case scene::AntiLocking::automatic:
-            break;
-    }
-    return {what, use,
-            materials::traits(soil.law).yields ? "plastic flow keeps its volume"
-            : use == Use::on
-                ? "nearly incompressible"
-                : "elastic and compressible: it does not lock, averaging would take energy",
-            pointer};
-}
-
 void plan_laws(const scene::Scene& scene, Plan& plan) {
     for (const scene::Material& material : scene.materials) {
         const std::string pointer = "/materials/" + material.name + "/law";
-        plan_viscosity(material, plan);
+        const SoilDecisions decided =
+            decide(*scene.mpm, {material.name, material.law, material.viscosity});
+        plan.push_back(decided.viscosity.line);
         const materials::Traits law = materials::traits(material.law);
         const std::string name = law.name;
         if (!materials::is_for_particles(material.law)) {
@@ -82,7 +50,7 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
                             name + " belongs to the FEM: no particle may have it", pointer});
             continue;
         }
-        plan.push_back(plan_anti_locking(*scene.mpm, material));
+        plan.push_back(decided.averages.line);
         plan.push_back({"law of " + material.name, Use::on,
                         law.opens ? name + " with tension cut-off" : name, pointer});
         if (law.yields) plan_softening(scene, material, plan);
@@ -95,45 +63,13 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
     plan.push_back({"pore pressure", Use::left_out, "no law of this scene uses it", "/materials"});
 }
 
-process::PlanLine plan_kernel(const scene::Mpm& mpm) {
-    switch (mpm.kernel) {
-        case scene::Kernel::gimp:
-            return {
-                "GIMP kernel", Use::on,
-                "half size " + text_of(mpm.gimp_half_size) + " cells, clipped at walls and floor",
-                "/mpm/kernel"};
-        case scene::Kernel::b_spline:
-            return {"quadratic B-spline kernel", Use::on, "hat functions beside walls and floor",
-                    "/mpm/kernel"};
-        default:
-            return {"linear kernel", Use::on, "asked for: tests only", "/mpm/kernel"};
-    }
-}
-
-process::PlanLine plan_order(scene::UpdateOrder order) {
-    switch (order) {
-        case scene::UpdateOrder::musl:
-            return {"second mapping of momentum (MUSL)", Use::on, "asked for", "/mpm/order"};
-        case scene::UpdateOrder::usf:
-            return {"stress before forces (USF)", Use::on,
-                    "asked for: forces are mapped after momentum, on their own", "/mpm/order"};
-        default:
-            return {"second mapping of momentum (MUSL)", Use::left_out,
-                    "usl: the gradient comes from the nodes' new velocities", "/mpm/order"};
-    }
-}
-
 void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
-    plan.push_back(plan_kernel(mpm));
-    plan.push_back(plan_order(mpm.order));
+    const SchemeDecisions decided = decide(mpm);
+    plan.push_back(decided.kernel.line);
+    plan.push_back(decided.order.line);
     plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
                     "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
-    const bool corrects = mpm.overlap_correction.rate > 0.0;
-    plan.push_back({"overlap correction", corrects ? Use::on : Use::left_out,
-                    corrects ? "rate " + text_of(mpm.overlap_correction.rate) + " 1/s beyond " +
-                                   text_of(mpm.overlap_correction.tolerance)
-                             : "rate 0: overlap is measured only",
-                    "/mpm/overlap_correction/rate"});
+    plan.push_back(decided.overlap.line);
     plan.push_back({"stiffness scaling", mpm.stiffness_scale != 1.0 ? Use::on : Use::left_out,
                     "factor " + text_of(mpm.stiffness_scale) + " on every E",
                     "/mpm/stiffness_scale"});
@@ -143,16 +79,14 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
                     mpm.time_step ? "/mpm/time_step" : "/mpm/cfl"});
 }
 
+/// One line for all soils: that of the first one that opens, if any does.
 void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
-    const bool opens = std::any_of(
-        scene.materials.begin(), scene.materials.end(),
-        [](const scene::Material& material) { return materials::traits(material.law).opens; });
-    const bool closes = opens && scene.mpm->gap_closure;
-    plan.push_back({"gap closure after tension", closes ? Use::on : Use::left_out,
-                    !opens    ? "no law opens in tension"
-                    : !closes ? "switched off"
-                              : "opened volume closes before pressure builds again",
-                    "/mpm/gap_closure"});
+    std::optional<process::PlanLine> line;
+    for (const scene::Material& soil : scene.materials) {
+        line = decide(*scene.mpm, {soil.name, soil.law, soil.viscosity}).volume_rule.line;
+        if (materials::traits(soil.law).opens) break;
+    }
+    if (line) plan.push_back(*line);
 }
 
 void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {

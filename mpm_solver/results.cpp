@@ -7,23 +7,13 @@
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
+#include "core/phases/files.hpp"
+#include "core/scene/words.hpp"
 #include "mpm_solver/measure/doubts.hpp"
 
 namespace breach::mpm {
 
 namespace {
-
-const char* name_of(scene::UpdateOrder order) {
-    switch (order) {
-        case scene::UpdateOrder::musl:
-            return "musl";
-        case scene::UpdateOrder::usf:
-            return "usf";
-        case scene::UpdateOrder::usl:
-            break;
-    }
-    return "usl";
-}
 
 using nlohmann::json;
 using process::Session;
@@ -113,7 +103,7 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["dt_max"] = clock.dt_max;
     result["particles"] = simulation.body().points.size();
     result["particle_steps_per_second"] = speed;
-    result["order"] = name_of(mpm.order);
+    result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
 }
 
@@ -124,7 +114,7 @@ void write_history(const Session& session, const Simulation& simulation) {
     store(records.history, "", archive);
     store(simulation.gauges(), records.gauges, "", archive);
     store(records.profiles, simulation.view(), "", archive);
-    write_archive(session.output("history.h5"), archive, session.provenance());
+    write_archive(session.output(phases::files::history), archive, session.provenance());
 }
 
 /// The deposit as a table: for other programs, and for the eye.

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "core/phases/files.hpp"
 #include "mpm_solver/body/fill.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "mpm_solver/results.hpp"
@@ -16,8 +17,6 @@ namespace {
 using nlohmann::json;
 using process::Outcome;
 using process::Session;
-
-constexpr const char* checkpoint_name = "checkpoint.h5";
 
 Computing computing_of(const Session& session) { return {.threads = session.settings().threads}; }
 
@@ -54,7 +53,7 @@ Simulation begin(const Session& session) {
 }
 
 Simulation begin_or_resume(Session& session) {
-    const auto checkpoint = session.output(checkpoint_name);
+    const auto checkpoint = session.output(phases::files::checkpoint);
     if (session.settings().start == process::Start::resume && std::filesystem::exists(checkpoint)) {
         Resumed resumed = load_checkpoint(checkpoint, session.scene(), session.provenance(),
                                           computing_of(session));
@@ -68,14 +67,12 @@ Simulation begin_or_resume(Session& session) {
 }
 
 void save(const Session& session, const Simulation& simulation) {
-    save_checkpoint(session.output(checkpoint_name), simulation, session.telemetry_lines(),
-                    session.provenance());
+    save_checkpoint(session.output(phases::files::checkpoint), simulation,
+                    session.telemetry_lines(), session.provenance());
 }
 
 void write_frame(Session& session, Simulation& simulation) {
-    char name[64];
-    std::snprintf(name, sizeof name, "particles_%.6f.vtkhdf", simulation.clock().time);
-    const auto file = session.output(name);
+    const auto file = session.output(phases::files::frame_name(simulation.clock().time));
     exchange::write_particle_state(file, simulation.state(), session.provenance());
     simulation.take_frame();
     session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
@@ -136,11 +133,11 @@ void finish(Session& session, Simulation& simulation, double speed) {
         simulation.look();
         report(session, simulation);
     }
-    const auto file = session.output("final.vtkhdf");
+    const auto file = session.output(phases::files::final_state);
     exchange::write_particle_state(file, simulation.state(), session.provenance());
     session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
     write_results(session, simulation, speed);
-    std::filesystem::remove(session.output(checkpoint_name));
+    std::filesystem::remove(session.output(phases::files::checkpoint));
     session.progress(1.0, "done");
 }
 

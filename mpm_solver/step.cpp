@@ -72,11 +72,11 @@ void step(Body& body, double dt) {
     keep_sorted(body);
     clear(body.grid);
     particle_to_grid(body, dt);
-    if (body.order == Order::usf) update_stress_first(body, dt);
+    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);
     update_momentum(body, dt);
     grid_to_particle(body, dt);
-    if (body.order == Order::musl) map_again(body, dt);
-    if (body.order != Order::usf) update_stress(body, dt);
+    if (body.order == UpdateOrder::musl) map_again(body, dt);
+    if (body.order != UpdateOrder::usf) update_stress(body, dt);
 }
 
 void particle_to_grid(Body& body, double dt) {
@@ -111,7 +111,7 @@ void update_momentum(Body& body, double dt) {
 }
 
 void grid_to_particle(Body& body, double dt) {
-    if (body.order == Order::usl) forget_averages(body);
+    if (body.order == UpdateOrder::usl) forget_averages(body);
     const Totals sums = for_all_points(body, &Loops::gather, Writes::nodes, dt);
     body.tally.kinetic = sums.kinetic;
     body.tally.fastest = std::sqrt(sums.fastest_squared);

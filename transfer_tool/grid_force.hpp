@@ -1,6 +1,5 @@
-// The out-of-balance force of the new points on the MPM's grid, evaluated once with the MPM's
-// definition of weights (GIMP with a domain of fixed size; linear and quadratic B-spline are its
-// limits). It says what the grid will feel in its first step, before anything has moved.
+// The out-of-balance force of the new points on the MPM's grid, evaluated once with the kernel that
+// the MPM will use. It says what the grid will feel in its first step, before anything has moved.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "transfer_tool/run.hpp"
+#include "transfer_tool/soils.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -27,8 +28,6 @@ bool softens(const scene::Material* material) {
     return materials::softening(material->law) != nullptr;
 }
 
-bool rubs(const scene::Material* material) { return materials::traits(material->law).frictional; }
-
 /// "Mohr-Coulomb, ...": the laws that yield, each once.
 std::string names_of_yielding(const scene::Scene& scene) {
     std::string names;
@@ -46,8 +45,10 @@ PlanLine stress_line(const scene::Scene& scene, const scene::Transfer& settings)
         return {"pore pressure", Use::left_out,
                 "the scene's FEM has no water; a snapshot with water is carried all the same",
                 "/fem/water"};
-    if (settings.stress == scene::TransferredStress::total ||
-        std::ranges::none_of(materials_of_points(scene), rubs))
+    const auto stays_effective = [&](const scene::Material* material) {
+        return measure_for(material->law, settings.stress) == exchange::StressMeasure::effective;
+    };
+    if (std::ranges::none_of(materials_of_points(scene), stays_effective))
         return {"pore pressure", Use::on, "all points get the total stress sigma' - u I",
                 "/transfer/stress"};
     return {"pore pressure", Use::on,

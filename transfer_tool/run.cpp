@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/phases/files.hpp"
+#include "core/scene/words.hpp"
 #include "transfer_tool/transfer.hpp"
 
 namespace breach::transfer {
@@ -25,10 +27,9 @@ nlohmann::json soils_as_json(const Transferred& t) {
     nlohmann::json soils = nlohmann::json::array();
     for (const SoilShare& each : t.shares) {
         const SoilOfPoints& soil = t.soils[each.soil];
-        const bool total = soil.stress == exchange::StressMeasure::total;
         soils.push_back({{"region", soil.region},
                          {"material", soil.material},
-                         {"stress", total ? "total" : "effective"},
+                         {"stress", words::name_of(soil.stress)},
                          {"points", each.points},
                          {"mass", each.mass}});
     }
@@ -38,14 +39,12 @@ nlohmann::json soils_as_json(const Transferred& t) {
 nlohmann::json softening_as_json(const Transferred& t, scene::SofteningStart start) {
     nlohmann::json softening = nlohmann::json::array();
     for (const SofteningShare& each : t.softening) {
-        const bool total = each.driver == materials::SofteningDriver::total;
-        softening.push_back(
-            {{"region", t.soils[each.soil].region},
-             {"material", t.soils[each.soil].material},
-             {"start", start == scene::SofteningStart::carried ? "carried" : "zero"},
-             {"driver", total ? "total" : "plastic"},
-             {"mean_epsilon_q", each.mean},
-             {"largest_epsilon_q", each.largest}});
+        softening.push_back({{"region", t.soils[each.soil].region},
+                             {"material", t.soils[each.soil].material},
+                             {"start", words::name_of(start)},
+                             {"driver", words::name_of(each.driver)},
+                             {"mean_epsilon_q", each.mean},
+                             {"largest_epsilon_q", each.largest}});
     }
     return softening;
 }
@@ -87,10 +86,8 @@ void log(const Transferred& t) {
     spdlog::info("{} points at t_T = {} s\n{}", t.state.size(), t.state.transfer_time,
                  as_text(t.ledger));
     for (const SoilShare& each : t.shares)
-        spdlog::info(
-            "{}: {} points, {:.6g} kg, {} stress", named(t.soils[each.soil]), each.points,
-            each.mass,
-            t.soils[each.soil].stress == exchange::StressMeasure::total ? "total" : "effective");
+        spdlog::info("{}: {} points, {:.6g} kg, {} stress", named(t.soils[each.soil]), each.points,
+                     each.mass, words::name_of(t.soils[each.soil].stress));
     for (const SofteningShare& each : t.softening)
         spdlog::info("{} softens from epsilon_q {:.3g} on the mean, {:.3g} at most",
                      named(t.soils[each.soil]), each.mean, each.largest);
@@ -116,10 +113,8 @@ void report(process::Session& session, const Transferred& t) {
     result["transfer_time"] = t.state.transfer_time;
     result["points"] = t.state.size();
     result["points_per_direction"] = settings.points_per_direction;
-    result["interpolation"] =
-        settings.interpolation == scene::Interpolation::local ? "local" : "paper";
-    result["softening_start"] =
-        settings.softening_start == scene::SofteningStart::carried ? "carried" : "zero";
+    result["interpolation"] = words::name_of(settings.interpolation);
+    result["softening_start"] = words::name_of(settings.softening_start);
     result["soils"] = soils_as_json(t);
     result["softening"] = softening_as_json(t, settings.softening_start);
     result["rebuilt_elements"] = rebuilt_as_json(t.rebuilt);
@@ -135,7 +130,7 @@ void report(process::Session& session, const Transferred& t) {
 
 process::Outcome run(process::Session& session) {
     const std::string file = session.input().string();
-    const auto output = session.output("particles.vtkhdf");
+    const auto output = session.output(phases::files::particles);
     std::filesystem::remove(output);  // points of an earlier transfer must not pass for this one's
     session.progress(0.0, "reading");
     const exchange::MeshSnapshot mesh = exchange::read_mesh_snapshot(session.input()).snapshot;

@@ -6,9 +6,15 @@
 #include <optional>
 #include <vector>
 
-#include "transfer_tool/quad.hpp"
+#include "core/geometry/quad.hpp"
 
 namespace breach::transfer {
+
+using geometry::Corners;
+using geometry::gauss_legendre;
+using geometry::GaussRule;
+using geometry::shape_functions;
+using mechanics::Vec2;
 
 /// Panels along xi and along eta.
 using Panels = std::array<int, 2>;

@@ -6,10 +6,19 @@
 #include <vector>
 
 #include "core/exchange/mesh_snapshot.hpp"
+#include "core/geometry/quad.hpp"
 #include "core/scene/scene.hpp"
-#include "transfer_tool/quad.hpp"
 
 namespace breach::transfer {
+
+using geometry::corner_jacobians;
+using geometry::Corners;
+using geometry::integral;
+using geometry::jacobian;
+using geometry::shape_functions;
+using geometry::shape_gradients;
+using mechanics::Matrix2;
+using mechanics::Vec2;
 
 /// Any nodal field at an element's corners, columns are corners.
 Corners corner_values(const std::vector<Vec2>& field, const std::array<std::int32_t, 4>& quad);

@@ -10,13 +10,6 @@ namespace {
 using exchange::MeshSnapshot;
 using exchange::StressMeasure;
 
-/// Only a law with friction can tell an effective stress from a total one.
-StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
-    const bool effective =
-        materials::traits(law).frictional && wanted == scene::TransferredStress::effective;
-    return effective ? StressMeasure::effective : StressMeasure::total;
-}
-
 /// Index into the section's regions of each region of the mesh; faults where the scene does not
 /// fit.
 std::vector<std::size_t> match_regions(const MeshSnapshot& mesh, const scene::Scene& scene,
@@ -54,6 +47,12 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Transfer& settings,
 }
 
 }  // namespace
+
+StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
+    const bool effective =
+        materials::traits(law).frictional && wanted == scene::TransferredStress::effective;
+    return effective ? StressMeasure::effective : StressMeasure::total;
+}
 
 SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std::string& file)
     : mesh_(mesh) {
@@ -116,15 +115,6 @@ std::int32_t SoilMap::at(std::size_t element, const Vec2& xi) const {
     }
     if (rule.saturated && place.y() < level_at(phreatic_line_, place.x())) return *rule.saturated;
     return rule.soil;
-}
-
-double level_at(const std::vector<Vec2>& line, double x) {
-    const auto after = std::ranges::upper_bound(line, x, {}, [](const Vec2& p) { return p.x(); });
-    if (after == line.begin()) return line.front().y();
-    if (after == line.end()) return line.back().y();
-    const Vec2& a = *std::prev(after);
-    const Vec2& b = *after;
-    return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
 }
 
 void assign_soils(const SoilMap& map, Points& points) {

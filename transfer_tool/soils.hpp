@@ -6,11 +6,14 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
+#include "core/geometry/polyline.hpp"
 #include "core/scene/scene.hpp"
 #include "transfer_tool/liquefied_zone.hpp"
 #include "transfer_tool/points.hpp"
 
 namespace breach::transfer {
+
+using geometry::level_at;
 
 /// One soil as points get it. Index: as scene::soils_of.
 struct SoilOfPoints {
@@ -52,8 +55,9 @@ class SoilMap {
     std::optional<LiquefiedZone> liquefied_;
 };
 
-/// Level of a line at x, level beyond its ends [m].
-double level_at(const std::vector<Vec2>& line, double x);
+/// What the points of such a soil get. Only a law with friction can tell an effective stress from a
+/// total one.
+exchange::StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted);
 
 /// Gives every point its soil: state.region, and the lists of regions that it refers to.
 void assign_soils(const SoilMap& map, Points& points);

@@ -101,19 +101,6 @@ bool in_soil(const scene::Scene& scene, const Vec2& place, double tolerance) {
     });
 }
 
-double level_at(const std::vector<Vec2>& line, double x) {
-    if (x <= line.front().x()) return line.front().y();
-    if (x >= line.back().x()) return line.back().y();
-    return straight_level_at(line, x);
-}
-
-double straight_level_at(const std::vector<Vec2>& line, double x) {
-    if (line.size() == 1) return line.front().y();
-    std::size_t i = 1;
-    while (i + 1 < line.size() && x > line[i].x()) ++i;
-    return along({line[i - 1], line[i]}, x);
-}
-
 Depth deepest_below(const scene::Polygon& polygon, const std::vector<Vec2>& line, Level level) {
     Depth deepest{-infinity, Vec2::Zero()};
     const auto look = [&](const Vec2& place) {

@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/polyline.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::check {
 
+using geometry::level_at;
+using geometry::straight_level_at;
 using scene::Vec2;
 
 /// "12.4", "(3, -5)": a number as the scene would write it.
@@ -39,11 +42,6 @@ std::vector<Side> sides_of(const scene::Polygon& polygon);
 /// From a place to the nearest soil; 0 inside [m].
 double distance_to_soil(const scene::Scene& scene, const Vec2& place);
 bool in_soil(const scene::Scene& scene, const Vec2& place, double tolerance);
-
-/// Level of a line, level beyond its ends [m].
-double level_at(const std::vector<Vec2>& line, double x);
-/// The same for a line that goes on straight beyond its ends.
-double straight_level_at(const std::vector<Vec2>& line, double x);
 
 /// Greatest height of the line over a point of the polygon, and where. The line's level beyond its
 /// ends is what `level` says.

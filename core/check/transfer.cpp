@@ -71,9 +71,9 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
         refuse(findings, region_pointer(r, "/material"),
                "\"" + name + "\" is of \"" + material.name + "\", whose law is " +
                    materials::traits(material.law).type + ", which material points cannot have",
-               "map it in /transfer/mapping to a material of mohr_coulomb or another law of the "
-               "MPM: {\"region\": \"" +
-                   name + "\", \"to\": ...}");
+               "map it in /transfer/mapping to a material of " +
+                   materials::types_of_laws_that(materials::is_for_particles) +
+                   ": {\"region\": \"" + name + "\", \"to\": ...}");
     }
 }
 

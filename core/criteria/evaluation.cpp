@@ -57,10 +57,16 @@ double combined(Code code, double x, double y) {
             return both(x, y);
         case Code::either:
             return either(x, y);
-        default:
+        case Code::constant:
+        case Code::field:
+        case Code::negate:
+        case Code::absolute:
+        case Code::opposite:
+        case Code::rate:
+        case Code::growth:
             break;
     }
-    assert(false);
+    assert(false);  // these have no second operand
     return unknown;
 }
 
@@ -121,7 +127,18 @@ double Evaluation::operator()(double time, std::span<const double> values) {
                     x > 0.0 && x_past > 0.0 ? std::log(x / x_past) / each.value : unknown;
                 break;
             }
-            default: {
+            case Code::add:
+            case Code::subtract:
+            case Code::multiply:
+            case Code::divide:
+            case Code::smaller:
+            case Code::larger:
+            case Code::less:
+            case Code::less_equal:
+            case Code::greater:
+            case Code::greater_equal:
+            case Code::both:
+            case Code::either: {
                 const double y = stack_.back();
                 stack_.pop_back();
                 stack_.back() = combined(each.code, stack_.back(), y);

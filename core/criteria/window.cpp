@@ -2,14 +2,17 @@
 
 #include <cmath>
 
+#include "core/words/words.hpp"
+
 namespace breach::criteria {
 
-std::optional<Pick> pick_named(std::string_view name) {
-    if (name == "first") return Pick::first;
-    if (name == "midpoint") return Pick::midpoint;
-    if (name == "last_before") return Pick::last_before;
-    return std::nullopt;
+static constexpr auto words_of(Pick) {
+    using enum Pick;
+    return words::in_order<Pick>(
+        {{first, "first"}, {midpoint, "midpoint"}, {last_before, "last_before"}});
 }
+
+std::optional<Pick> pick_named(std::string_view name) { return words::find<Pick>(name); }
 
 Window::Window(Expression lower, Expression upper, double hold)
     : lower_(std::move(lower), hold), upper_(std::move(upper), hold) {}

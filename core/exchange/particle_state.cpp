@@ -52,8 +52,7 @@ void write_points(Hdf5Image& image, const ParticleState& s) {
 void write_stress_measures(Hdf5Image& image, const std::vector<StressMeasure>& measures) {
     if (measures.empty()) return;
     std::vector<std::string> names;
-    for (const StressMeasure each : measures)
-        names.emplace_back(each == StressMeasure::total ? "total" : "effective");
+    for (const StressMeasure each : measures) names.emplace_back(words::name_of(each));
     image.strings(stress_of_regions, names);
 }
 
@@ -61,9 +60,10 @@ std::vector<StressMeasure> read_stress_measures(Hdf5Reader& reader, std::size_t 
     std::vector<StressMeasure> measures;
     if (!reader.exists(stress_of_regions)) return measures;
     for (const std::string& name : reader.strings(stress_of_regions)) {
-        if (name != "total" && name != "effective")
+        const auto measure = words::find<StressMeasure>(name);
+        if (!measure)
             reader.fault(stress_of_regions, "\"" + name + "\" is neither total nor effective");
-        measures.push_back(name == "total" ? StressMeasure::total : StressMeasure::effective);
+        measures.push_back(*measure);
     }
     if (measures.size() != regions)
         reader.fault(stress_of_regions, std::to_string(measures.size()) + " entries for " +

@@ -10,12 +10,18 @@
 #include "core/exchange/ledger.hpp"
 #include "core/exchange/provenance.hpp"
 #include "core/mechanics/tensor.hpp"
+#include "core/words/words.hpp"
 
 namespace breach::exchange {
 
 /// What the stress of a region's points is. effective: the total stress is stress - u I with the
 /// points' pore_pressure u; total: the pore pressure is in it already.
 enum class StressMeasure { effective, total };
+
+constexpr auto words_of(StressMeasure) {
+    using enum StressMeasure;
+    return words::in_order<StressMeasure>({{effective, "effective"}, {total, "total"}});
+}
 
 struct ParticleState {
     double time = 0.0;           ///< [s] on the MPM's clock; 0 at the transfer

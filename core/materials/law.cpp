@@ -1,6 +1,29 @@
 #include "core/materials/law.hpp"
 
+#include <vector>
+
 namespace breach::materials {
+
+namespace {
+
+template <class... Each>
+std::vector<Law> one_of_each(const std::variant<Each...>*) {
+    return {Law(Each{})...};
+}
+
+}  // namespace
+
+std::string types_of_laws_that(bool (*does)(const Law&)) {
+    std::vector<std::string> types;
+    for (const Law& law : one_of_each(static_cast<const Law*>(nullptr)))
+        if (does(law)) types.emplace_back(traits(law).type);
+    std::string list;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+        const bool last = i + 1 == types.size();
+        list += (i == 0 ? "" : last ? " or " : ", ") + types[i];
+    }
+    return list;
+}
 
 Law scaled(Law law, double stiffness, double softening_strains) {
     std::visit([&](auto& each) { each.elasticity.E *= stiffness; }, law);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <concepts>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -68,6 +69,13 @@ std::optional<LawLanes> for_particles(const L& law) {
 
 /// Particles can have it.
 inline bool is_for_particles(const Law& law) { return for_particles(law).has_value(); }
+
+/// Its strength stands in two entries.
+inline bool has_c_and_phi(const Law& law) { return traits(law).c_and_phi; }
+
+/// "mohr_coulomb or drucker_prager": the scene's words for the laws that do what is asked, for
+/// whoever must name one. Asked of laws whose numbers are all zero.
+std::string types_of_laws_that(bool (*does)(const Law&));
 
 /// The law whose points remember a pm4sand::State, or null.
 inline const PM4Sand* sand_in(const Law& law) { return std::get_if<PM4Sand>(&law); }

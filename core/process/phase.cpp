@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/exchange/publish.hpp"
+#include "core/phases/files.hpp"
 #include "core/process/signals.hpp"
 #include "core/version/version.hpp"
 
@@ -141,10 +142,10 @@ void make_output_folder(const std::filesystem::path& folder, Start start) {
     if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
     if (access(folder.c_str(), W_OK) != 0)
         throw fault::IoError(folder.string() + ": is not writable");
-    std::filesystem::remove(folder / "fault.json", error);
-    std::filesystem::remove(folder / "result.json",
+    std::filesystem::remove(folder / phases::files::fault, error);
+    std::filesystem::remove(folder / phases::files::result,
                             error);  // an old result must not pass for a new one
-    if (start == Start::fresh) std::filesystem::remove(folder / "checkpoint.h5", error);
+    if (start == Start::fresh) std::filesystem::remove(folder / phases::files::checkpoint, error);
 }
 
 /// What of a run is known when it breaks down: fault.json has it as result.json would.
@@ -166,7 +167,7 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     spdlog::info("plan\n{}", as_text(plan));
     make_output_folder(arguments.settings.output, arguments.settings.start);
     Session session(arguments.settings, std::move(scene));
-    exchange::publish_text(session.output("scene.completed.json"),
+    exchange::publish_text(session.output(phases::files::scene),
                            json::parse(session.scene().completed).dump(2) + "\n");
     try {
         if (phase.run(session) == Outcome::stopped) {
@@ -178,7 +179,7 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
         throw;
     }
     json result = known_of(session, plan);
-    exchange::publish_text(session.output("result.json"), result.dump(2) + "\n");
+    exchange::publish_text(session.output(phases::files::result), result.dump(2) + "\n");
     if (session.settings().progress == ProgressStyle::json) {
         result.erase("provenance");
         result.erase("plan");
@@ -218,7 +219,7 @@ ExitCode report(const Arguments& arguments, const json& known, ExitCode code,
         if (std::filesystem::is_directory(arguments.settings.output)) {
             json document = known;
             document.update(line);
-            exchange::publish_text(arguments.settings.output / "fault.json",
+            exchange::publish_text(arguments.settings.output / phases::files::fault,
                                    document.dump(2) + "\n");
         }
     } catch (const fault::IoError& error) {

@@ -18,6 +18,14 @@ struct PlanLine {
 
 using Plan = std::vector<PlanLine>;
 
+/// What was decided, with the plan's line about it. Made once, where it is decided: whoever acts
+/// reads the value, the plan prints the line.
+template <class Value>
+struct Decided {
+    Value value;
+    PlanLine line;
+};
+
 /// Aligned text for people.
 std::string as_text(const Plan& plan);
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/exchange/publish.hpp"
+#include "core/phases/files.hpp"
 #include "core/process/signals.hpp"
 #include "core/version/version.hpp"
 
@@ -50,7 +51,7 @@ Session::Session(SessionSettings settings, scene::Scene scene)
     for (const auto& input : settings_.inputs) {
         digests_.push_back({input.string(), exchange::sha256_of_file(input)});
     }
-    const auto file = output("telemetry.jsonl");
+    const auto file = output(phases::files::telemetry);
     if (settings_.start == Start::resume && std::filesystem::exists(file)) {
         std::ifstream old(file);
         telemetry_lines_ = std::count(std::istreambuf_iterator<char>(old), {}, '\n');
@@ -104,14 +105,14 @@ void Session::telemetry(const json& line) {
     telemetry_ << line.dump() << '\n';
     telemetry_.flush();
     if (!telemetry_) {
-        throw fault::IoError(output("telemetry.jsonl").string() +
+        throw fault::IoError(output(phases::files::telemetry).string() +
                              ": cannot be written (disk full?)");
     }
     ++telemetry_lines_;
 }
 
 std::int64_t Session::truncate_telemetry(std::int64_t lines) {
-    const auto file = output("telemetry.jsonl");
+    const auto file = output(phases::files::telemetry);
     telemetry_.close();
     std::ifstream old(file);
     std::string kept;

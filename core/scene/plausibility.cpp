@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/polyline.hpp"
 #include "core/scene/slips.hpp"
 
 namespace breach::scene {
@@ -62,22 +63,13 @@ void doubt_section(Doubter& d) {
     }
 }
 
-double level_at(const std::vector<Vec2>& line, double x) {
-    if (x <= line.front().x()) return line.front().y();
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        if (x > line[i].x()) continue;
-        const double share = (x - line[i - 1].x()) / (line[i].x() - line[i - 1].x());
-        return line[i - 1].y() + share * (line[i].y() - line[i - 1].y());
-    }
-    return line.back().y();
-}
-
 /// Water above the highest ground drowns the whole section: a lake's floor may lie so, but free
 /// water lies level.
 void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& pointer) {
     if (line.empty() || !d.reader.sound(pointer)) return;
     const double left = d.extent.low.x(), right = d.extent.high.x();
-    auto [lowest, highest] = std::minmax({level_at(line, left), level_at(line, right)});
+    auto [lowest, highest] =
+        std::minmax({geometry::level_at(line, left), geometry::level_at(line, right)});
     for (const Vec2& point : line) {
         if (point.x() < left || point.x() > right) continue;
         lowest = std::min(lowest, point.y());
@@ -120,8 +112,8 @@ void doubt_tables(Doubter& d) {
         double apart = 0.0, place = d.extent.low.x();
         const auto compare = [&](double x) {
             if (x < d.extent.low.x() || x > d.extent.high.x()) return;
-            const double here =
-                std::abs(level_at(*tables[i].line, x) - level_at(*tables[0].line, x));
+            const double here = std::abs(geometry::level_at(*tables[i].line, x) -
+                                         geometry::level_at(*tables[0].line, x));
             if (here > apart) place = x;
             apart = std::max(apart, here);
         };

@@ -10,19 +10,18 @@ using nlohmann::json;
 namespace {
 
 Stage stage_from(const json& stage) {
-    const StageLaws laws = stage.at("laws") == "elastic" ? StageLaws::elastic : StageLaws::scene;
-    const StagePermeability permeability = stage.at("permeability") == "free_drainage"
-                                               ? StagePermeability::free_drainage
-                                               : StagePermeability::scene;
-    if (stage.at("type") == "static") {
+    const auto kind = word_at<StageKind>(stage, "type");
+    const auto laws = word_at<StageLaws>(stage, "laws");
+    const auto permeability = word_at<StagePermeability>(stage, "permeability");
+    if (kind == StageKind::static_equilibrium) {
         return {.name = stage.at("name"),
-                .kind = StageKind::static_equilibrium,
+                .kind = kind,
                 .laws = laws,
                 .permeability = permeability,
                 .load_steps = stage.at("load_steps")};
     }
     return {.name = stage.at("name"),
-            .kind = StageKind::dynamic,
+            .kind = kind,
             .laws = laws,
             .permeability = permeability,
             .duration = stage.at("duration"),
@@ -43,7 +42,7 @@ GroundWater water_from(Reader& reader, const json& water) {
     GroundWater result{.line = line_from(reader, water.at("line"), "/fem/water/line"),
                        .density = water.at("density"),
                        .bulk_modulus = 1e6 * water.at("bulk_modulus_MPa").get<double>(),
-                       .above = water.at("above") == "dry" ? AboveWater::dry : AboveWater::drained,
+                       .above = word_at<AboveWater>(water, "above"),
                        .pressure_stabilisation = water.at("pressure_stabilisation"),
                        .boundaries = {}};
     for (const json& each : water.at("boundaries")) {
@@ -56,15 +55,13 @@ GroundWater water_from(Reader& reader, const json& water) {
 }
 
 ElasticBase base_from(const json& base) {
-    return {base.at("density"), base.at("V_s"),
-            base.at("motion_at") == "upgoing" ? MotionAt::upgoing : MotionAt::outcrop,
-            base.at("nodes") == "free" ? BaseNodes::free : BaseNodes::tied};
+    return {base.at("density"), base.at("V_s"), word_at<MotionAt>(base, "motion_at"),
+            word_at<BaseNodes>(base, "nodes")};
 }
 
 BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) {
-    BaseMotion result{
-        std::filesystem::absolute(folder / motion.at("file").get<std::string>()), std::nullopt,
-        motion.at("baseline") == "corrected" ? Baseline::corrected : Baseline::as_recorded};
+    BaseMotion result{std::filesystem::absolute(folder / motion.at("file").get<std::string>()),
+                      std::nullopt, word_at<Baseline>(motion, "baseline")};
     if (motion.contains("scale_to_pga_g")) {
         result.scale_to_pga_g = motion.at("scale_to_pga_g").get<double>();
     }
@@ -72,11 +69,8 @@ BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) 
 }
 
 FreeField free_field_from(const json& field) {
-    const std::string sides = field.at("sides");
     return {field.at("width"), field.at("thickness_factor"),
-            sides == "left"    ? FreeFieldSides::left
-            : sides == "right" ? FreeFieldSides::right
-                               : FreeFieldSides::both};
+            word_at<FreeFieldSides>(field, "sides")};
 }
 
 /// Water, base, motion, columns and loads: what shakes and what presses.
@@ -169,11 +163,9 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     if (!reader.sound("/fem")) return;
     const json& fem = reader.document().at("fem");
     Fem result{};
-    result.kinematics = fem.at("kinematics") == "small_strain" ? Kinematics::small_strain
-                                                               : Kinematics::updated_lagrangian;
-    result.element = fem.at("element") == "ssp" ? ElementKind::ssp : ElementKind::bbar;
-    result.hourglass =
-        fem.at("hourglass") == "elastic" ? HourglassKind::elastic : HourglassKind::current;
+    result.kinematics = word_at<Kinematics>(fem, "kinematics");
+    result.element = word_at<ElementKind>(fem, "element");
+    result.hourglass = word_at<HourglassKind>(fem, "hourglass");
     if (fem.contains("msh_file")) {
         result.mesh.msh_file =
             std::filesystem::absolute(folder / fem.at("msh_file").get<std::string>());

@@ -45,9 +45,8 @@ void read_loads(Reader& reader, const Scene& scene, const json& lem, Lem& result
     }
     if (lem.contains("water")) {
         const json& water = lem.at("water");
-        result.water = Water{
-            line_from(reader, water.at("line"), "/lem/water/line"), water.at("density"),
-            water.at("correction") == "cos2" ? PhreaticCorrection::cos2 : PhreaticCorrection::none};
+        result.water = Water{line_from(reader, water.at("line"), "/lem/water/line"),
+                             water.at("density"), word_at<PhreaticCorrection>(water, "correction")};
     }
 }
 
@@ -91,10 +90,6 @@ std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, 
     return result;
 }
 
-VariedSurface varied_surface(const json& part) {
-    return part.at("surface") == "fixed" ? VariedSurface::fixed : VariedSurface::searched;
-}
-
 std::size_t layers_liquefied(Reader& reader, const json& part, const Lem& lem,
                              const std::string& pointer) {
     const std::size_t count = part.at("layers_liquefied");
@@ -103,15 +98,6 @@ std::size_t layers_liquefied(Reader& reader, const json& part, const Lem& lem,
                    "give at most " + std::to_string(lem.liquefaction.size()));
     }
     return count;
-}
-
-Parameter parameter_from(const std::string& text) {
-    if (text == "cohesion") return Parameter::cohesion;
-    if (text == "friction_angle") return Parameter::friction_angle;
-    if (text == "density") return Parameter::density;
-    if (text == "undrained_strength") return Parameter::undrained_strength;
-    if (text == "residual_strength") return Parameter::residual_strength;
-    return Parameter::seismic_coefficient;
 }
 
 /// What `of` counts: see RandomVariable.
@@ -130,7 +116,8 @@ std::optional<std::size_t> varied(Reader& reader, const Scene& scene, const Lem&
             return material;
         }
         reader.add(pointer, "has no cohesion or friction",
-                   "name a Mohr-Coulomb material, or give it a limit_strength");
+                   "name a " + materials::types_of_laws_that(materials::has_c_and_phi) +
+                       " material, or give it a limit_strength");
         return std::nullopt;
     }
     const auto region = region_named(reader, scene, name, pointer);
@@ -154,26 +141,25 @@ void read_variations(Reader& reader, const Scene& scene, const json& lem, Lem& r
     if (lem.contains("sensitivity")) {
         const json& part = lem.at("sensitivity");
         result.sensitivity =
-            Sensitivity{part.at("change"), varied_surface(part),
+            Sensitivity{part.at("change"), word_at<VariedSurface>(part, "surface"),
                         layers_liquefied(reader, part, result, "/lem/sensitivity")};
     }
     if (!lem.contains("probability")) return;
     const json& part = lem.at("probability");
     Probability probability{part.at("samples"),
                             part.at("seed"),
-                            varied_surface(part),
+                            word_at<VariedSurface>(part, "surface"),
                             layers_liquefied(reader, part, result, "/lem/probability"),
                             {}};
     for (std::size_t i = 0; i < part.at("variables").size(); ++i) {
         const json& each = part.at("variables")[i];
-        const Parameter parameter = parameter_from(each.at("parameter"));
+        const auto parameter = word_at<Parameter>(each, "parameter");
         const auto of = varied(reader, scene, result, parameter, each.at("of"),
                                "/lem/probability/variables/" + std::to_string(i) + "/of");
         if (!of) continue;
-        probability.variables.push_back(
-            {parameter, *of,
-             each.at("distribution") == "normal" ? Distribution::normal : Distribution::lognormal,
-             each.at("coefficient_of_variation")});
+        probability.variables.push_back({parameter, *of,
+                                         word_at<Distribution>(each, "distribution"),
+                                         each.at("coefficient_of_variation")});
     }
     result.probability = std::move(probability);
 }

@@ -11,16 +11,6 @@ using nlohmann::json;
 
 namespace {
 
-UpdateOrder order_of(const std::string& word) {
-    if (word == "musl") return UpdateOrder::musl;
-    return word == "usf" ? UpdateOrder::usf : UpdateOrder::usl;
-}
-
-AntiLocking anti_locking_of(const std::string& word) {
-    if (word == "auto") return AntiLocking::automatic;
-    return word == "on" ? AntiLocking::on : AntiLocking::off;
-}
-
 void check_grid(Reader& reader, const Mpm& mpm) {
     const auto whole = [&](double from, double to) {
         const double cells = (to - from) / mpm.cell_size;
@@ -98,16 +88,6 @@ void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     }
 }
 
-Wall wall_from(const std::string& text) {
-    if (text == "roller") return Wall::roller;
-    return text == "fixed" ? Wall::fixed : Wall::open;
-}
-
-Kernel kernel_from(const std::string& text) {
-    if (text == "gimp") return Kernel::gimp;
-    return text == "b_spline" ? Kernel::b_spline : Kernel::linear;
-}
-
 double number_or(const json& entry, double automatic) {
     return entry.is_string() ? automatic : entry.get<double>();
 }
@@ -158,8 +138,8 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.domain_y = range_from(mpm.at("domain_y"));
     check_ascending(reader, result.domain_x, "/mpm/domain_x");
     check_ascending(reader, result.domain_y, "/mpm/domain_y");
-    result.left = wall_from(mpm.at("left"));
-    result.right = wall_from(mpm.at("right"));
+    result.left = word_at<Wall>(mpm, "left");
+    result.right = word_at<Wall>(mpm, "right");
     result.floor.level = mpm.at("floor").at("level");
     for (const json& zone : mpm.at("floor").at("friction")) {
         result.floor.friction.push_back({zone.at("from"), zone.at("to"), zone.at("coefficient")});
@@ -170,11 +150,11 @@ void read_mpm(Reader& reader, Scene& scene) {
     if (mpm.contains("terrain")) {
         result.terrain = line_from(reader, mpm.at("terrain"), "/mpm/terrain");
     }
-    result.kernel = kernel_from(mpm.at("kernel"));
+    result.kernel = word_at<Kernel>(mpm, "kernel");
     result.gimp_half_size = mpm.at("gimp_half_size");
-    result.order = order_of(mpm.at("order"));
+    result.order = word_at<UpdateOrder>(mpm, "order");
     result.blending_rate = mpm.at("blending_rate");
-    result.anti_locking = anti_locking_of(mpm.at("anti_locking"));
+    result.anti_locking = word_at<AntiLocking>(mpm, "anti_locking");
     result.gap_closure = mpm.at("gap_closure");
     result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
                                  mpm.at("overlap_correction").at("tolerance")};
@@ -196,8 +176,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.checkpoint_interval = mpm.at("checkpoint_interval");
     result.largest_energy_gain = mpm.at("largest_energy_gain");
     result.fill_points = mpm.at("fill_points");
-    result.fill_stress =
-        mpm.at("fill_stress") == "overburden" ? FillStress::overburden : FillStress::none;
+    result.fill_stress = word_at<FillStress>(mpm, "fill_stress");
     check_mpm(reader, scene, result);
     scene.mpm = std::move(result);
 }

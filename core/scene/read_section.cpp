@@ -26,8 +26,7 @@ std::optional<materials::Softening> softening_from(Reader& reader, const json& l
         .epsilon_q_end = s.at("epsilon_q_end"),
         .c_residual = 1e3 * s.at("c_residual_kPa").get<double>(),
         .tan_phi_residual = std::tan(phi_residual),
-        .driver = s.at("driver") == "total" ? materials::SofteningDriver::total
-                                            : materials::SofteningDriver::plastic,
+        .driver = word_at<materials::SofteningDriver>(s, "driver"),
     };
     if (softening.epsilon_q_end <= softening.epsilon_q_start) {
         reader.add(pointer + "/epsilon_q_end", "is not above epsilon_q_start",
@@ -203,7 +202,7 @@ double element_size_from(const Reader& reader, const json& mesh) {
 
 void read_region_mesh(Reader& reader, const json& mesh, const json& ring,
                       const std::string& pointer, Region& region) {
-    region.mesh = mesh.at("type") == "unstructured" ? RegionMesh::unstructured : RegionMesh::block;
+    region.mesh = word_at<RegionMesh>(mesh, "type");
     region.element_size = element_size_from(reader, mesh);
     region.grading = grading_from(mesh);
     const bool divided = mesh.contains("divisions");

@@ -29,8 +29,9 @@ std::optional<std::size_t> point_material(Reader& reader, const Scene& scene,
     const auto material = named(reader, scene.materials, name, pointer, "/materials");
     if (!material || materials::is_for_particles(scene.materials[*material].law)) return material;
     const std::string type = materials::traits(scene.materials[*material].law).type;
-    reader.add(pointer, "names a " + type + " material, which particles cannot have",
-               "name a linear_elastic or mohr_coulomb material");
+    reader.add(
+        pointer, "names a " + type + " material, which particles cannot have",
+        "name a " + materials::types_of_laws_that(materials::is_for_particles) + " material");
     return std::nullopt;
 }
 
@@ -75,7 +76,8 @@ std::optional<StrengthFunction> strength_function(Reader& reader, const Scene& s
         materials::traits(law).c_and_phi && strength->tan_phi == 0.0 && strength->c > 0.0;
     if (!undrained) {
         reader.add(pointer, "has no undrained strength to be replaced",
-                   "name a mohr_coulomb material with phi_deg 0 and c_kPa above 0");
+                   "name a " + materials::types_of_laws_that(materials::has_c_and_phi) +
+                       " material with phi_deg 0 and c_kPa above 0");
         return std::nullopt;
     }
     return StrengthFunction{*like, function.at("coefficient_kPa").get<double>() * kPa,
@@ -166,14 +168,11 @@ void read_transfer(Reader& reader, Scene& scene) {
     const json& transfer = reader.document().at("transfer");
     Transfer result{
         .points_per_direction = transfer.at("points_per_direction"),
-        .interpolation =
-            transfer.at("interpolation") == "local" ? Interpolation::local : Interpolation::paper,
+        .interpolation = word_at<Interpolation>(transfer, "interpolation"),
         .neighbours = transfer.at("neighbours"),
-        .entangled = transfer.at("entangled") == "rebuild" ? Entangled::rebuild : Entangled::refuse,
-        .stress = transfer.at("stress") == "effective" ? TransferredStress::effective
-                                                       : TransferredStress::total,
-        .softening_start = transfer.at("softening_start") == "carried" ? SofteningStart::carried
-                                                                       : SofteningStart::zero,
+        .entangled = word_at<Entangled>(transfer, "entangled"),
+        .stress = word_at<TransferredStress>(transfer, "stress"),
+        .softening_start = word_at<SofteningStart>(transfer, "softening_start"),
         .round_trip = transfer.at("round_trip"),
         .largest_mass_loss = transfer.at("largest_mass_loss"),
         .largest_momentum_loss = transfer.at("largest_momentum_loss"),

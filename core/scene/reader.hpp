@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/scene.hpp"
+#include "core/scene/words.hpp"
 
 namespace breach::scene {
 

@@ -5,21 +5,17 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string_view>
 #include <tuple>
 #include <variant>
+
+#include "core/words/number.hpp"
 
 namespace breach::scene {
 
 namespace {
 
-std::string text_of(double value) {
-    std::ostringstream text;
-    text.precision(3);
-    text << value;
-    return text.str();
-}
+std::string text_of(double value) { return words::text_of(value, 3); }
 
 /// A number below a limit must not be rounded up to it.
 std::string rounded_down(double value) {

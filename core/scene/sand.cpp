@@ -2,6 +2,18 @@
 
 #include <numbers>
 
+#include "core/words/words.hpp"
+
+namespace breach::materials::pm4sand {
+
+/// Which answer is wanted: the corrected scheme's, or that of OpenSees.
+static constexpr auto words_of(Scheme) {
+    using enum Scheme;
+    return words::in_order<Scheme>({{reference, "opensees"}, {adaptive, "corrected"}});
+}
+
+}  // namespace breach::materials::pm4sand
+
 namespace breach::scene {
 
 namespace pm4sand = materials::pm4sand;
@@ -61,8 +73,7 @@ Parameters sand_parameters(const json& law) {
 }
 
 pm4sand::Options sand_options(const json& law) {
-    return {.scheme = law.at("compat") == "opensees" ? pm4sand::Scheme::reference
-                                                     : pm4sand::Scheme::adaptive,
+    return {.scheme = words::word_at<pm4sand::Scheme>(law, "compat"),
             .tolerance = law.at("tolerance")};
 }
 

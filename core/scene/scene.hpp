@@ -12,6 +12,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/fault/flag.hpp"
+#include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
 #include "core/scene/polygon.hpp"
 
@@ -368,8 +369,8 @@ struct Transfer {
 
 // ---------------------------------------------------------------- mpm_solver
 
-enum class Kernel { gimp, b_spline, linear };
-enum class UpdateOrder { usl, musl, usf };
+using Kernel = grid::KernelKind;
+using grid::UpdateOrder;
 /// automatic: on where the law is plastic or nu > 0.45.
 enum class AntiLocking { on, off, automatic };
 enum class Wall { roller, fixed, open };

@@ -33,23 +33,15 @@ TestLaw law_of(const json& law) {
     if (type == "pm4sand") return sand_of(law);
     const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
     if (type == "linear_elastic") return PlainLaw{materials::LinearElastic{elasticity}};
-    if (type != "mohr_coulomb") {
-        throw std::logic_error("the schema knows a law \"" + type + "\" that nothing reads");
-    }
-    return PlainLaw{
-        materials::MohrCoulomb{.elasticity = elasticity,
-                               .c = 1e3 * law.at("c_kPa").get<double>(),
-                               .phi = degree * law.at("phi_deg").get<double>(),
-                               .psi = degree * law.at("psi_deg").get<double>(),
-                               .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>(),
-                               .softening = std::nullopt}};
-}
-
-Boundary boundary_of(const std::string& name) {
-    if (name == "undrained_shear") return Boundary::undrained_shear;
-    if (name == "drained_shear") return Boundary::drained_shear;
-    if (name == "undrained_biaxial") return Boundary::undrained_biaxial;
-    return Boundary::drained_biaxial;
+    const double c = 1e3 * law.at("c_kPa").get<double>();
+    const double phi = degree * law.at("phi_deg").get<double>();
+    const double psi = degree * law.at("psi_deg").get<double>();
+    const double cut_off = 1e3 * law.at("tension_cutoff_kPa").get<double>();
+    if (type == "mohr_coulomb")
+        return PlainLaw{materials::MohrCoulomb{elasticity, c, phi, psi, cut_off, std::nullopt}};
+    if (type == "drucker_prager")
+        return PlainLaw{materials::DruckerPrager{elasticity, c, phi, psi, cut_off}};
+    throw std::logic_error("the schema knows a law \"" + type + "\" that nothing reads");
 }
 
 std::vector<double> scaled(const json& numbers, double unit) {
@@ -62,7 +54,7 @@ Pace pace_of(const json& test) { return {.step = test.at("step"), .every = test.
 
 TestPlan plan_of(const std::string& name, const json& test) {
     TestPlan plan{name,
-                  {.boundary = boundary_of(test.at("boundary")),
+                  {.boundary = words::word_at<Boundary>(test, "boundary"),
                    .sigma_v = scaled(test.at("sigma_v_kPa"), 1e3),
                    .K0 = test.at("K0"),
                    .static_shear = test.value("static_shear", 0.0)},

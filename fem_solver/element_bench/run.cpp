@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/exchange/archive.hpp"
+#include "core/phases/files.hpp"
 #include "core/scene/sand.hpp"
 #include "fem_solver/element_bench/document.hpp"
 
@@ -171,9 +172,9 @@ Outcome run_tests(Session& session) {
         }
         done += 1.0;
     }
-    exchange::write_archive(session.output("element_tests.h5"), results.curves,
+    exchange::write_archive(session.output(phases::files::element_tests), results.curves,
                             session.provenance());
-    session.announce(session.output("element_tests.h5"), {{"kind", "element_tests"}});
+    session.announce(session.output(phases::files::element_tests), {{"kind", "element_tests"}});
     session.result()["tests"] = results.numbers;
     session.progress(1.0, "done");
     return Outcome::done;

@@ -6,13 +6,15 @@
 
 #include "core/materials/law.hpp"
 #include "core/materials/pm4sand/pm4sand.hpp"
+#include "core/words/words.hpp"
 
 namespace breach::element_bench {
 
 using mechanics::Voigt;
 
 /// Laws whose memory is materials::State alone.
-using PlainLaw = std::variant<materials::LinearElastic, materials::MohrCoulomb>;
+using PlainLaw =
+    std::variant<materials::LinearElastic, materials::MohrCoulomb, materials::DruckerPrager>;
 
 struct PlainPoint {
     PlainLaw law;
@@ -60,6 +62,14 @@ enum class Boundary {
     undrained_biaxial,  ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
     drained_biaxial,    ///< epsilon_yy driven, sigma_xx held, no shear
 };
+
+constexpr auto words_of(Boundary) {
+    using enum Boundary;
+    return words::in_order<Boundary>({{undrained_shear, "undrained_shear"},
+                                      {drained_shear, "drained_shear"},
+                                      {undrained_biaxial, "undrained_biaxial"},
+                                      {drained_biaxial, "drained_biaxial"}});
+}
 
 /// Advances the driven strain by `d`; `held` is the stress component that the boundary holds [Pa,
 /// tension positive], if it holds one. Fails when no strain meets it.

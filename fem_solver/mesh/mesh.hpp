@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/quad.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::fem {
 
+using geometry::Corners;
 using mechanics::Vec2;
-using Quad = std::array<std::int32_t, 4>;     ///< corners, counter-clockwise
-using Corners = Eigen::Matrix<double, 2, 4>;  ///< their coordinates, one column each [m]
+using Quad = std::array<std::int32_t, 4>;  ///< corners, counter-clockwise
 
 struct Mesh {
     std::vector<Vec2> nodes;                      ///< [m]

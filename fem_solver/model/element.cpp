@@ -4,18 +4,6 @@
 #include <cmath>
 
 namespace breach::fem {
-namespace {
-
-/// dN_i/d(xi, eta), one column per node.
-Gradient natural_gradient(const Vec2& xi) {
-    const double s = xi.x(), t = xi.y();
-    Gradient dN;
-    dN << -(1 - t), (1 - t), (1 + t), -(1 + t),  //
-        -(1 - s), -(1 + s), (1 + s), (1 - s);
-    return 0.25 * dN;
-}
-
-}  // namespace
 
 const std::array<Vec2, gauss_points>& gauss_positions() {
     static const double a = 1.0 / std::sqrt(3.0);
@@ -24,17 +12,11 @@ const std::array<Vec2, gauss_points>& gauss_positions() {
     return positions;
 }
 
-Eigen::Vector4d shape_functions(const Vec2& xi) {
-    const double s = xi.x(), t = xi.y();
-    return 0.25 * Eigen::Vector4d((1 - s) * (1 - t), (1 + s) * (1 - t), (1 + s) * (1 + t),
-                                  (1 - s) * (1 + t));
-}
-
 void evaluate_gradients(const Corners& x, double thickness, Gradients& out) {
     static const std::array<Gradient, gauss_points> natural = [] {
         std::array<Gradient, gauss_points> all;
         for (std::size_t g = 0; g < gauss_points; ++g) {
-            all[g] = natural_gradient(gauss_positions()[g]);
+            all[g] = geometry::shape_gradients(gauss_positions()[g]);
         }
         return all;
     }();

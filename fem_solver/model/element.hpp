@@ -1,4 +1,4 @@
-// The 4-node plane-strain quad: shape functions at 2x2 Gauss points and the mean-dilatation strain
+// The 4-node plane-strain quad: gradients at 2x2 Gauss points and the mean-dilatation strain
 // operator B-bar.
 #pragma once
 
@@ -7,6 +7,8 @@
 #include "fem_solver/mesh/mesh.hpp"
 
 namespace breach::fem {
+
+using geometry::shape_functions;
 
 inline constexpr int gauss_points = 4;
 
@@ -18,9 +20,6 @@ using Stiffness = Eigen::Matrix<double, 8, 8>;
 
 /// Natural coordinates (xi, eta) of the Gauss points, counter-clockwise like the corners.
 const std::array<Vec2, gauss_points>& gauss_positions();
-
-/// N_i at natural coordinates (xi, eta) [-].
-Eigen::Vector4d shape_functions(const Vec2& xi);
 
 /// What an element's integrals need at each Gauss point.
 struct Quadrature {

@@ -38,16 +38,6 @@ std::vector<GroundEdge> ground_edges(const Model& model) {
     return ground;
 }
 
-double level_at(const std::vector<Vec2>& line, double x) {
-    if (x <= line.front().x()) return line.front().y();
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        if (x > line[i].x()) continue;
-        const Vec2 &a = line[i - 1], &b = line[i];
-        return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
-    }
-    return line.back().y();
-}
-
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x) {
     return water.density * gravity * std::max(0.0, level_at(water.line, x.x()) - x.y());
 }

@@ -1,9 +1,12 @@
 // The ground surface of the mesh and what lies on it: ponded water and surcharge.
 #pragma once
 
+#include "core/geometry/polyline.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
+
+using geometry::level_at;
 
 /// An edge of the mesh that looks upwards, or sideways within the section.
 struct GroundEdge {
@@ -12,9 +15,6 @@ struct GroundEdge {
     Vec2 outwards;  ///< normal times area [m2]
 };
 std::vector<GroundEdge> ground_edges(const Model& model);
-
-/// Level of a line at x: straight between its points, level beyond its ends [m].
-double level_at(const std::vector<Vec2>& line, double x);
 
 /// Pressure of free water with its surface at `line` on a point of the ground, 0 above it [Pa].
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x);

@@ -43,8 +43,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .blending_rate = mpm.blending_rate,
               .overlap_rate = mpm.overlap_correction.rate,
               .widest = 4.0 * mpm.cell_size * mpm.cell_size * scene.thickness,
-              .kernel = kernel_of(mpm.kernel),
-              .order = order_of(mpm),
+              .kernel = mpm.kernel,
+              .order = mpm.order,
               .averages = {},
               .drift_x = {},
               .drift_y = {},
@@ -57,7 +57,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     refuse_points_outside(body.grid, body.points, file);
     body.averages.resize(body.zones.size());
     for (std::size_t z = 0; z < body.zones.size(); ++z) {
-        const Choice choice = choice_of(mpm, body.zones[z].law, body.zones[z].viscosity);
+        const Zone& zone = body.zones[z];
+        const Choice choice = choice_of(mpm, {zone.material, zone.law, zone.viscosity});
         body.loops.push_back(choose_loops(choice, computing.instructions));
         if (choice.averages == Averages::per_cell) body.averages[z].resize(body.grid.nodes());
     }
@@ -67,7 +68,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
     body.team = std::make_shared<Team>(useful_threads(computing.threads, n));
-    if (body.order == Order::musl) body.drift_x.resize(n), body.drift_y.resize(n);
+    if (body.order == UpdateOrder::musl) body.drift_x.resize(n), body.drift_y.resize(n);
     for (std::size_t p = 0; p < n; ++p) {
         const Vec2 v{body.points.vx[p], body.points.vy[p]};
         body.tally.kinetic += 0.5 * body.points.m[p] * v.squaredNorm();

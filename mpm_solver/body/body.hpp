@@ -47,7 +47,7 @@ struct Body {
     /// left, and its gradient, which nothing then contradicts, would open it without end.
     double widest;
     KernelKind kernel;
-    Order order;
+    UpdateOrder order;
     /// Anti-locking (A3 of docs/design/mpm.md): the points of a zone in a cell share their
     /// volumetric strain rate and mean stress. Per zone, then per cell; empty: no averages.
     std::vector<std::vector<CellSum>> averages;

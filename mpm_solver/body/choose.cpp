@@ -1,57 +1,126 @@
 #include "mpm_solver/body/choose.hpp"
 
+#include "core/words/number.hpp"
+
 namespace breach::mpm {
 
-Averages averages_of(const scene::Mpm& mpm, const materials::Law& law) {
+namespace {
+
+using process::Decided;
+using process::Use;
+using words::text_of;
+
+/// Plastic flow keeps its volume and locks, as nearly incompressible elasticity does.
+Decided<Averages> averages_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
+    const std::string pointer = "/mpm/anti_locking";
+    const std::string what = "anti-locking of " + soil.material;
     switch (mpm.anti_locking) {
         case scene::AntiLocking::on:
-            return Averages::per_cell;
+            return {
+                Averages::per_cell,
+                {what, Use::on,
+                 "volumetric increment and mean stress averaged per cell and material", pointer}};
         case scene::AntiLocking::off:
-            return Averages::none;
+            return {Averages::none, {what, Use::left_out, "switched off", pointer}};
         case scene::AntiLocking::automatic:
             break;
     }
-    const bool locks = materials::traits(law).yields || materials::elasticity(law).nu > locking_nu;
-    return locks ? Averages::per_cell : Averages::none;
+    if (materials::traits(soil.law).yields)
+        return {Averages::per_cell, {what, Use::on, "plastic flow keeps its volume", pointer}};
+    if (materials::elasticity(soil.law).nu > locking_nu)
+        return {Averages::per_cell, {what, Use::on, "nearly incompressible", pointer}};
+    return {Averages::none,
+            {what, Use::left_out,
+             "elastic and compressible: it does not lock, averaging would take energy", pointer}};
 }
 
-VolumeRule volume_rule_of(const scene::Mpm& mpm, const materials::Law& law) {
-    return materials::traits(law).opens && mpm.gap_closure ? VolumeRule::from_stress
-                                                           : VolumeRule::tracked;
+Decided<VolumeRule> volume_rule_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
+    const std::string what = "gap closure after tension", pointer = "/mpm/gap_closure";
+    if (!materials::traits(soil.law).opens)
+        return {VolumeRule::tracked, {what, Use::left_out, "no law opens in tension", pointer}};
+    if (!mpm.gap_closure)
+        return {VolumeRule::tracked, {what, Use::left_out, "switched off", pointer}};
+    return {VolumeRule::from_stress,
+            {what, Use::on, "opened volume closes before pressure builds again", pointer}};
 }
 
-KernelKind kernel_of(scene::Kernel kernel) {
-    switch (kernel) {
-        case scene::Kernel::gimp:
-            return KernelKind::gimp;
-        case scene::Kernel::b_spline:
-            return KernelKind::b_spline;
-        case scene::Kernel::linear:
+Decided<Viscosity> viscosity_of(const SoilOfZone& soil) {
+    const std::string what = "viscosity of " + soil.material;
+    const std::string pointer = "/materials/" + soil.material + "/viscosity";
+    if (soil.viscosity > 0.0)
+        return {
+            Viscosity::newtonian,
+            {what, Use::on, text_of(soil.viscosity) + " Pa s beside the law's stress", pointer}};
+    return {Viscosity::none,
+            {what, Use::left_out, "0: nothing but the law and the scheme dissipates", pointer}};
+}
+
+process::PlanLine line_of_kernel(const scene::Mpm& mpm) {
+    const std::string pointer = "/mpm/kernel";
+    switch (mpm.kernel) {
+        case KernelKind::gimp:
+            return {
+                "GIMP kernel", Use::on,
+                "half size " + text_of(mpm.gimp_half_size) + " cells, clipped at walls and floor",
+                pointer};
+        case KernelKind::b_spline:
+            return {"quadratic B-spline kernel", Use::on, "hat functions beside walls and floor",
+                    pointer};
+        case KernelKind::linear:
             break;
     }
-    return KernelKind::linear;
+    return {"linear kernel", Use::on, "asked for: tests only", pointer};
 }
 
-Order order_of(const scene::Mpm& mpm) {
-    switch (mpm.order) {
-        case scene::UpdateOrder::musl:
-            return Order::musl;
-        case scene::UpdateOrder::usf:
-            return Order::usf;
-        case scene::UpdateOrder::usl:
+process::PlanLine line_of_order(UpdateOrder order) {
+    const std::string pointer = "/mpm/order";
+    switch (order) {
+        case UpdateOrder::musl:
+            return {"second mapping of momentum (MUSL)", Use::on, "asked for", pointer};
+        case UpdateOrder::usf:
+            return {"stress before forces (USF)", Use::on,
+                    "asked for: forces are mapped after momentum, on their own", pointer};
+        case UpdateOrder::usl:
             break;
     }
-    return Order::usl;
+    return {"second mapping of momentum (MUSL)", Use::left_out,
+            "usl: the gradient comes from the nodes' new velocities", pointer};
 }
 
-Choice choice_of(const scene::Mpm& mpm, const materials::Law& law, double viscosity) {
-    return {.kernel = kernel_of(mpm.kernel),
-            .order = order_of(mpm),
-            .law = materials::for_particles(law).value().index(),
-            .averages = averages_of(mpm, law),
-            .overlap = mpm.overlap_correction.rate > 0.0 ? Overlap::corrected : Overlap::left_alone,
-            .viscosity = viscosity > 0.0 ? Viscosity::newtonian : Viscosity::none,
-            .volume_rule = volume_rule_of(mpm, law)};
+Decided<Overlap> overlap_of(const scene::OverlapCorrection& correction) {
+    const std::string what = "overlap correction", pointer = "/mpm/overlap_correction/rate";
+    if (correction.rate > 0.0)
+        return {
+            Overlap::corrected,
+            {what, Use::on,
+             "rate " + text_of(correction.rate) + " 1/s beyond " + text_of(correction.tolerance),
+             pointer}};
+    return {Overlap::left_alone,
+            {what, Use::left_out, "rate 0: overlap is measured only", pointer}};
+}
+
+}  // namespace
+
+SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil) {
+    return {averages_of(mpm, soil), volume_rule_of(mpm, soil), viscosity_of(soil)};
+}
+
+SchemeDecisions decide(const scene::Mpm& mpm) {
+    return {{mpm.kernel, line_of_kernel(mpm)},
+            {mpm.order, line_of_order(mpm.order)},
+            overlap_of(mpm.overlap_correction)};
+}
+
+Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
+    const SchemeDecisions scheme = decide(mpm);
+    const SoilDecisions decided = decide(mpm, soil);
+    return {.kernel = scheme.kernel.value,
+            .order = scheme.order.value,
+            .law = materials::for_particles(soil.law).value().index(),
+            .averages = decided.averages.value,
+            .overlap = scheme.overlap.value,
+            .viscosity = decided.viscosity.value,
+            .volume_rule = decided.volume_rule.value};
 }
 
 InstructionSet best_instruction_set() {

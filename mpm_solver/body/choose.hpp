@@ -1,6 +1,9 @@
 // From the scene's words to the loops that do the work: once, before the first step.
 #pragma once
 
+#include <string>
+
+#include "core/process/plan.hpp"
 #include "core/scene/scene.hpp"
 #include "mpm_solver/loops/loops.hpp"
 
@@ -15,13 +18,30 @@ enum class InstructionSet { plain, avx2, avx512 };
 /// The widest that this CPU has.
 InstructionSet best_instruction_set();
 
-KernelKind kernel_of(scene::Kernel kernel);
-Order order_of(const scene::Mpm& mpm);
-/// Plastic flow keeps its volume and locks, as nearly incompressible elasticity does.
-Averages averages_of(const scene::Mpm& mpm, const materials::Law& law);
-VolumeRule volume_rule_of(const scene::Mpm& mpm, const materials::Law& law);
-/// `law` as its zone has it.
-Choice choice_of(const scene::Mpm& mpm, const materials::Law& law, double viscosity);
+/// How the points of one soil are computed.
+struct SoilDecisions {
+    process::Decided<Averages> averages;
+    process::Decided<VolumeRule> volume_rule;
+    process::Decided<Viscosity> viscosity;
+};
+
+/// A soil as the loops see it: `law` may be scaled.
+struct SoilOfZone {
+    const std::string& material;
+    const materials::Law& law;
+    double viscosity;  ///< [Pa s]
+};
+SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil);
+
+/// How all points are computed.
+struct SchemeDecisions {
+    process::Decided<KernelKind> kernel;
+    process::Decided<UpdateOrder> order;
+    process::Decided<Overlap> overlap;
+};
+SchemeDecisions decide(const scene::Mpm& mpm);
+
+Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil);
 Loops choose_loops(const Choice& choice, InstructionSet instructions);
 
 }  // namespace breach::mpm

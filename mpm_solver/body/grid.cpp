@@ -40,9 +40,10 @@ std::uint8_t wall_condition(scene::Wall wall) {
             return condition::hold_x;
         case scene::Wall::fixed:
             return condition::hold_x | condition::hold_y;
-        default:
-            return 0;
+        case scene::Wall::open:
+            break;
     }
+    return 0;
 }
 
 }  // namespace

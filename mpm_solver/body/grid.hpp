@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/grid/kernel.hpp"
 #include "core/scene/scene.hpp"
 #include "mpm_solver/body/terrain.hpp"
-#include "mpm_solver/loops/kernel.hpp"
 
 namespace breach::mpm {
+
+using grid::WallRows;
 
 /// Four numbers of a node that are scattered and gathered together.
 using Lane = Eigen::Array4d;

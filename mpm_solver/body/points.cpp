@@ -22,10 +22,12 @@ double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
 materials::LawLanes lanes_of(const materials::Law& law, const scene::Material& soil) {
     const auto lanes = materials::for_particles(law);
     if (lanes) return *lanes;
-    throw fault::BadInput("scene", {{"/materials/" + soil.name + "/law/type",
-                                     "is " + std::string(materials::traits(law).type) +
-                                         ", which particles cannot have",
-                                     "give them a material with mohr_coulomb"}});
+    throw fault::BadInput(
+        "scene",
+        {{"/materials/" + soil.name + "/law/type",
+          "is " + std::string(materials::traits(law).type) + ", which particles cannot have",
+          "give them a material with " +
+              materials::types_of_laws_that(materials::is_for_particles)}});
 }
 
 double largest_specific_volume(const Points& points, const Zone& zone) {
@@ -46,7 +48,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
               .law = law,
               .lanes = lanes_of(law, soil),
               .elasticity = materials::elasticity(law),
-              .volume_rule = volume_rule_of(mpm, law),
+              .volume_rule = decide(mpm, {soil.name, law, soil.viscosity}).volume_rule.value,
               .viscosity = soil.viscosity,
               .nonlocal_length = soil.nonlocal_length.value_or(0.0),
               .begin = begin,

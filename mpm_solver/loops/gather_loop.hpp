@@ -124,7 +124,7 @@ template <int N>
 
 /// Velocity (affine FLIP drawn to affine PIC at the rate beta), its gradient and, unless MUSL, the
 /// position of the points.
-template <class Isa, class Kernel, Order order, Averages averages>
+template <class Isa, class Kernel, UpdateOrder order, Averages averages>
 void gather(const ZoneWork& work, Span span, Totals& sums) {
     using namespace materials::lanes;
     constexpr int N = Isa::lanes;
@@ -165,14 +165,14 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
             if (any(differs_from_zero(dx) | differs_from_zero(dy))) [[unlikely]] {
                 move_to_place(grid, weights, at, dx, dy, moving_x, moving_y);
             }
-            if constexpr (averages == Averages::per_cell && order != Order::usf) {
+            if constexpr (averages == Averages::per_cell && order != UpdateOrder::usf) {
                 store<N>(a.cell + p, integers(xi) * grid.rows + integers(eta));
             }
-            if constexpr (order == Order::musl) {
+            if constexpr (order == UpdateOrder::musl) {
                 store(a.drift_x + p, moving_x);
                 store(a.drift_y + p, moving_y);
             } else {
-                if constexpr (averages == Averages::per_cell && order == Order::usl) {
+                if constexpr (averages == Averages::per_cell && order == UpdateOrder::usl) {
                     add_to_cells(work.cells, a, p, at, grid.per_h, count);
                 }
                 move(work, block, x, y, moving_x, moving_y, farthest, sums);
@@ -184,7 +184,7 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
 }
 
 /// The gradient alone: USF before the stress, MUSL after the second mapping, where the points move.
-template <class Isa, class Kernel, Order order, Averages averages>
+template <class Isa, class Kernel, UpdateOrder order, Averages averages>
 void gradient(const ZoneWork& work, Span span, Totals& sums) {
     constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
@@ -206,7 +206,7 @@ void gradient(const ZoneWork& work, Span span, Totals& sums) {
                 store<N>(a.cell + p, integers(xi) * grid.rows + integers(eta));
                 add_to_cells(work.cells, a, p, at, grid.per_h, count);
             }
-            if constexpr (order == Order::musl) {
+            if constexpr (order == UpdateOrder::musl) {
                 move(work, block, x, y, load<Real>(a.drift_x + p), load<Real>(a.drift_y + p),
                      farthest, sums);
             }

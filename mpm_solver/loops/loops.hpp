@@ -7,10 +7,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/grid/kernel.hpp"
 #include "core/materials/lane_law.hpp"
-#include "mpm_solver/loops/kernel.hpp"
 
 namespace breach::mpm {
+
+using grid::BSplineKernel;
+using grid::GimpKernel;
+using grid::KernelKind;
+using grid::LinearKernel;
+using grid::Stencil;
+using grid::UpdateOrder;
+using grid::WallRows;
 
 /// Points [begin, end).
 struct Span {
@@ -88,8 +96,6 @@ struct Loops {
     Loop dissipate = nullptr;  ///< work of viscosity
 };
 
-enum class KernelKind { gimp, b_spline, linear };
-enum class Order { usl, musl, usf };
 enum class Averages { none, per_cell };
 enum class Overlap { left_alone, corrected };
 enum class Viscosity { none, newtonian };
@@ -103,7 +109,7 @@ enum class VolumeRule {
 /// What decides a zone's loops.
 struct Choice {
     KernelKind kernel;
-    Order order;
+    UpdateOrder order;
     std::size_t law;  ///< its place in materials::LaneLaws
     Averages averages;
     Overlap overlap;

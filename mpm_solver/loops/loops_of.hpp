@@ -18,29 +18,29 @@ void choose_mappings(const Choice& choice, Loops& loops) {
     constexpr Viscosity none = Viscosity::none;
     constexpr Viscosity newtonian = Viscosity::newtonian;
     switch (choice.order) {
-        case Order::usl:
-        case Order::musl:
+        case UpdateOrder::usl:
+        case UpdateOrder::musl:
             loops.scatter = flows ? scatter<Isa, Kernel, momentum_and_force, newtonian>
                                   : scatter<Isa, Kernel, momentum_and_force, none>;
             break;
-        case Order::usf:
+        case UpdateOrder::usf:
             loops.scatter = scatter<Isa, Kernel, momentum, none>;
             loops.scatter_force =
                 flows ? scatter<Isa, Kernel, force, newtonian> : scatter<Isa, Kernel, force, none>;
             break;
     }
     switch (choice.order) {
-        case Order::usl:
-            loops.gather = gather<Isa, Kernel, Order::usl, averages>;
+        case UpdateOrder::usl:
+            loops.gather = gather<Isa, Kernel, UpdateOrder::usl, averages>;
             break;
-        case Order::musl:
-            loops.gather = gather<Isa, Kernel, Order::musl, averages>;
+        case UpdateOrder::musl:
+            loops.gather = gather<Isa, Kernel, UpdateOrder::musl, averages>;
             loops.scatter_again = scatter<Isa, Kernel, momentum_alone, none>;
-            loops.gradient_again = gradient<Isa, Kernel, Order::musl, averages>;
+            loops.gradient_again = gradient<Isa, Kernel, UpdateOrder::musl, averages>;
             break;
-        case Order::usf:
-            loops.gradient = gradient<Isa, Kernel, Order::usf, averages>;
-            loops.gather = gather<Isa, Kernel, Order::usf, averages>;
+        case UpdateOrder::usf:
+            loops.gradient = gradient<Isa, Kernel, UpdateOrder::usf, averages>;
+            loops.gather = gather<Isa, Kernel, UpdateOrder::usf, averages>;
             break;
     }
 }

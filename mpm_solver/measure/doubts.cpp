@@ -1,7 +1,8 @@
 #include "mpm_solver/measure/doubts.hpp"
 
 #include <cmath>
-#include <sstream>
+
+#include "core/words/number.hpp"
 
 namespace breach::mpm {
 
@@ -10,12 +11,7 @@ namespace {
 using fault::Flag;
 using fault::Severity;
 
-std::string text_of(double value) {
-    std::ostringstream text;
-    text.precision(3);
-    text << value;
-    return text.str();
-}
+std::string text_of(double value) { return words::text_of(value, 3); }
 
 Flag still_moving(const Ending& ending) {
     const char* bound = ending.until_rest ? "/mpm/longest_duration" : "/mpm/duration";

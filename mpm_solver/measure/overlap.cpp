@@ -6,25 +6,11 @@ namespace breach::mpm {
 
 namespace {
 
-/// Calls visit(kernel) with the body's own kernel.
-template <class Visit>
-auto with_kernel(const Body& body, Visit&& visit) {
-    switch (body.kernel) {
-        case KernelKind::gimp:
-            return visit(GimpKernel(body.gimp_half_size));
-        case KernelKind::b_spline:
-            return visit(BSplineKernel{});
-        case KernelKind::linear:
-            break;
-    }
-    return visit(LinearKernel{});
-}
-
 /// Integral of every node's weight over the places a point can take, by the midpoint rule.
 std::vector<double> capacities(const Body& body, const WallRows& walls, std::int32_t rows) {
     constexpr int samples = 200;  // per cell; the weights are quadratic
     std::vector<double> capacity(rows, 0.0);
-    with_kernel(body, [&](const auto& kernel) {
+    grid::with_kernel(body.kernel, body.gimp_half_size, [&](const auto& kernel) {
         for (std::int32_t cell = 1; cell < rows - 2; ++cell) {
             for (int k = 0; k < samples; ++k) {
                 const auto s = kernel(cell + (k + 0.5) / samples, walls);
@@ -40,7 +26,7 @@ std::vector<double> capacities(const Body& body, const WallRows& walls, std::int
 template <class Visit>
 void for_each_weight(const Body& body, Visit&& visit) {
     const Grid& grid = body.grid;
-    with_kernel(body, [&](const auto& kernel) {
+    grid::with_kernel(body.kernel, body.gimp_half_size, [&](const auto& kernel) {
         for (std::size_t p = 0; p < body.points.size(); ++p) {
             const auto sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
             const auto sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);

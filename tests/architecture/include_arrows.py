@@ -12,18 +12,22 @@ root = pathlib.Path(os.environ["BREACH_ROOT"])
 
 # room -> rooms it may include (besides itself)
 core = {
-    "core/fault": set(),
+    "core/words": set(),
+    "core/phases": set(),
+    "core/fault": {"core/words"},
     "core/version": set(),
-    "core/criteria": {"core/fault"},
+    "core/criteria": {"core/fault", "core/words"},
     "core/mechanics": set(),
+    "core/geometry": {"core/mechanics"},
     "core/numerics": set(),
     "core/telemetry": set(),
     "core/materials": {"core/mechanics"},
-    "core/scene": {"core/fault", "core/materials", "core/mechanics"},
-    "core/exchange": {"core/fault", "core/mechanics"},
+    "core/grid": {"core/materials"},
+    "core/scene": {"core/fault", "core/geometry", "core/grid", "core/materials", "core/mechanics", "core/words"},
+    "core/exchange": {"core/fault", "core/mechanics", "core/words"},
     "core/motion": {"core/fault"},
-    "core/check": {"core/criteria", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/scene", "core/telemetry"},
-    "core/process": {"core/check", "core/fault", "core/scene", "core/exchange", "core/version"},
+    "core/check": {"core/criteria", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/scene", "core/telemetry"},
+    "core/process": {"core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version"},
 }
 every_core_room = set(core)
 arrows = {
@@ -32,9 +36,9 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/telemetry", "core/version"},
+    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
-    "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion"},
+    "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion", "core/phases"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.
@@ -46,7 +50,7 @@ floors = {
     "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # units that are one thing in several files: a door that its own parts include
-one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution)$"),
+one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {

@@ -82,9 +82,14 @@ Return kind_of(const Cone& cone, Facet facet) {
             return Return::edge_minor;
         case Facet::tip:
             return cone.tip == Cone::Tip::apex ? Return::apex : Return::tension;
-        default:
-            return Return::tension;
+        case Facet::cut_plane:
+        case Facet::cut_edge:
+        case Facet::cut_cone_edge:
+        case Facet::cut_cone_corner_major:
+        case Facet::cut_cone_corner_minor:
+            break;
     }
+    return Return::tension;
 }
 
 Update update_from(const MohrCoulombNumbers& law, const Cone& cone, const State& trial,

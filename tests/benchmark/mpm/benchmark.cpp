@@ -11,6 +11,7 @@
 #include <ctime>
 #include <numeric>
 
+#include "core/scene/words.hpp"
 #include "mpm_solver/measure/runout.hpp"
 #include "mpm_solver/simulation.hpp"
 #include "tests/unit/mpm/bodies.hpp"
@@ -110,9 +111,10 @@ const char* name_of(InstructionSet instructions) {
             return "avx512";
         case InstructionSet::avx2:
             return "avx2";
-        default:
-            return "plain";
+        case InstructionSet::plain:
+            break;
     }
+    return "plain";
 }
 
 void measure_speed(double h, double end, const Computing& computing) {
@@ -177,7 +179,7 @@ void measure_errors() {
           Setting{0.25, 2, 0.8, usl}, Setting{0.25, 2, 0.4, usl}}) {
         const Run r = run(column(s.h, s.points, s.cfl, s.order));
         std::printf("%5.2f %3d x %d %5.1f %5s %6.2f %+6.1f %% %+8.1f %% %7.2f\n", s.h, s.points,
-                    s.points, s.cfl, s.order == usl ? "usl" : "musl", r.x99,
+                    s.points, s.cfl, words::name_of(s.order).data(), r.x99,
                     100.0 * (r.x99 / finest.x99 - 1.0), 100.0 * r.numerical_share, r.seconds);
         std::fflush(stdout);
     }

@@ -1,4 +1,4 @@
-#include "mpm_solver/loops/kernel.hpp"
+#include "core/grid/kernel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A manufactured solution, the generalised vortex: a ring shears between its two still edges, and
 // the body force that this needs is given to the points. What comes out must be the motion that
 // went in, the more so the smaller the cells.
-#include "mpm_solver/loops/kernel.hpp"
+#include "core/grid/kernel.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
@@ -174,7 +174,7 @@ void step(Body& body, const Vortex& vortex, double t, double dt) {
     keep_sorted(body);
     clear(body.grid);
     particle_to_grid(body, dt);
-    if (body.order == Order::usf) update_stress_first(body, dt);
+    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);
     if (body.kernel == KernelKind::gimp) {
         add_body_force(body, GimpKernel(body.gimp_half_size), vortex, t);
     } else {
@@ -182,8 +182,8 @@ void step(Body& body, const Vortex& vortex, double t, double dt) {
     }
     update_momentum(body, dt);
     grid_to_particle(body, dt);
-    if (body.order == Order::musl) map_again(body, dt);
-    if (body.order != Order::usf) update_stress(body, dt);
+    if (body.order == UpdateOrder::musl) map_again(body, dt);
+    if (body.order != UpdateOrder::usf) update_stress(body, dt);
 }
 
 Errors errors_of(const Body& body, const std::vector<mechanics::Vec2>& X, const Vortex& vortex,

@@ -63,6 +63,18 @@ TEST(ElementBench, MohrCoulombBiaxialEndsOnItsLine) {
     expect_near("sigma_1", record.readings.back().sigma_yy, sigma_1, 1e-6);
 }
 
+/// Its cone is fitted to Mohr-Coulomb's strength in plane-strain flow.
+TEST(ElementBench, DruckerPragerBiaxialEndsOnMohrCoulombsLine) {
+    const double c = 5e3, phi = 0.5;
+    const materials::DruckerPrager law{{E, nu}, c, phi, 0.0, 0.0};
+    const Specimen specimen{PlainPoint{law, {Voigt(-100e3, -100e3, -100e3, 0.0), 0.0}}};
+    const double K_p = (1.0 + std::sin(phi)) / (1.0 - std::sin(phi));
+    const Record record =
+        monotonic(specimen, Boundary::drained_biaxial, 0.2, {.step = 1e-4, .every = 0});
+    const double sigma_1 = 100e3 * K_p + 2.0 * c * std::sqrt(K_p);
+    expect_near("sigma_1", record.readings.back().sigma_yy, sigma_1, 1e-6);
+}
+
 TEST(ElementBench, PerfectlyPlasticLoopLosesWhatTheRectangleHolds) {
     // tau = tau_y beyond gamma_y: damping = 2 (1 - gamma_y / gamma) / pi (Masing's parallelogram).
     const double c = 10e3, G = E / (2.0 * (1.0 + nu));

@@ -28,6 +28,17 @@ def main():
         assert completed["law"]["C_Kaf"] > 4 and completed["law"]["compat"] == "corrected"  # defaults are visible
         assert (out / "tests" / "element_tests.h5").stat().st_size > 10000
 
+        document = out / "cohesive.json"
+        document.write_text(json.dumps({
+            "format": "breachline-element-test/1", "name": "cohesive", "title": "Drucker-Prager without friction",
+            "law": {"type": "drucker_prager", "E_MPa": 20, "nu": 0.3, "c_kPa": 10, "phi_deg": 0},
+            "tests": {"undrained": {"type": "monotonic", "sigma_v_kPa": [100], "strain": 0.05}}}))
+        done = fem_solver("element-test", document, "--output", out / "cohesive", "--progress", "none")
+        assert done.returncode == 0, done.stderr
+        strength = json.loads((out / "cohesive" / "result.json").read_text())["tests"]["undrained"][0]["response_kPa"]
+        print("Drucker-Prager without friction: s_u", strength, "kPa, c 10 kPa")
+        assert abs(strength / 10 - 1) < 1e-9
+
         done = fem_solver("calibrate", documents / "calibrate_tailings.json", "--output", out / "calibration",
                           "--set", "/calibration/most_evaluations=60", "--progress", "none")
         assert done.returncode == 0, done.stderr

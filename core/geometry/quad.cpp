@@ -1,9 +1,9 @@
-#include "transfer_tool/quad.hpp"
+#include "core/geometry/quad.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace breach::transfer {
+namespace breach::geometry {
 namespace {
 
 constexpr int side_xi[4] = {-1, 1, 1, -1};
@@ -86,4 +86,4 @@ GaussRule gauss_legendre(int n, int panels) {
     return rule;
 }
 
-}  // namespace breach::transfer
+}  // namespace breach::geometry

@@ -6,7 +6,7 @@
 
 #include "core/mechanics/tensor.hpp"
 
-namespace breach::transfer {
+namespace breach::geometry {
 
 using mechanics::Matrix2;
 using mechanics::Vec2;
@@ -37,4 +37,4 @@ GaussRule gauss_legendre(int n);
 /// the same degree. With two points per panel all weights are equal, whatever their number.
 GaussRule gauss_legendre(int n, int panels);
 
-}  // namespace breach::transfer
+}  // namespace breach::geometry

@@ -1,11 +1,11 @@
-#include "transfer_tool/quad.hpp"
+#include "core/geometry/quad.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-namespace breach::transfer {
+namespace breach::geometry {
 namespace {
 
 Corners kite() {
@@ -73,4 +73,4 @@ TEST(Quad, ClosedFormIntegralsAgreeWithQuadrature) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::geometry

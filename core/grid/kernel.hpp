@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/grid/scheme.hpp"
 #include "core/materials/lanes.hpp"
 
-namespace breach::mpm {
+namespace breach::grid {
 
 /// Weights of the nodes first, first + 1, first + 2 and their derivatives [1/cell]. They always sum
 /// to 1 (derivatives to 0), and reproduce a linear field about `centre`, the centroid of the
@@ -163,4 +164,18 @@ class LinearKernel {
     }
 };
 
-}  // namespace breach::mpm
+/// Calls visit(kernel) with the kernel of this kind.
+template <class Visit>
+auto with_kernel(KernelKind kind, double gimp_half_size, Visit&& visit) {
+    switch (kind) {
+        case KernelKind::gimp:
+            return visit(GimpKernel(gimp_half_size));
+        case KernelKind::b_spline:
+            return visit(BSplineKernel{});
+        case KernelKind::linear:
+            break;
+    }
+    return visit(LinearKernel{});
+}
+
+}  // namespace breach::grid

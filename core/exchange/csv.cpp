@@ -1,0 +1,16 @@
+#include "core/exchange/csv.hpp"
+
+namespace breach::exchange {
+
+std::string csv_field(const nlohmann::json& value) {
+    if (value.is_null()) return {};
+    if (!value.is_string()) return value.dump();
+    std::string quoted = "\"";
+    for (const char each : value.get_ref<const std::string&>()) {
+        if (each == '"') quoted += '"';
+        quoted += each;
+    }
+    return quoted + '"';
+}
+
+}  // namespace breach::exchange

@@ -1,0 +1,29 @@
+#include "core/geometry/polyline.hpp"
+
+namespace breach::geometry {
+
+using mechanics::Vec2;
+
+namespace {
+
+double on_straight(const Vec2& a, const Vec2& b, double x) {
+    return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
+}
+
+}  // namespace
+
+double level_at(const std::vector<Vec2>& line, double x) {
+    if (x <= line.front().x()) return line.front().y();
+    for (std::size_t i = 1; i < line.size(); ++i)
+        if (x <= line[i].x()) return on_straight(line[i - 1], line[i], x);
+    return line.back().y();
+}
+
+double straight_level_at(const std::vector<Vec2>& line, double x) {
+    if (line.size() == 1) return line.front().y();
+    std::size_t i = 1;
+    while (i + 1 < line.size() && x > line[i].x()) ++i;
+    return on_straight(line[i - 1], line[i], x);
+}
+
+}  // namespace breach::geometry

@@ -1,0 +1,17 @@
+// A line given by its points from left to right: water table, phreatic line, terrain.
+#pragma once
+
+#include <vector>
+
+#include "core/mechanics/tensor.hpp"
+
+namespace breach::geometry {
+
+/// Level of the line at x: straight between its points, level beyond its ends [m]. At least one
+/// point, ascending in x.
+double level_at(const std::vector<mechanics::Vec2>& line, double x);
+
+/// The same, but the first and the last part go on straight beyond the ends.
+double straight_level_at(const std::vector<mechanics::Vec2>& line, double x);
+
+}  // namespace breach::geometry

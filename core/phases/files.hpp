@@ -1,0 +1,32 @@
+// What the phases call their files, which is how they find each other's: a name is spelt here and
+// nowhere else.
+#pragma once
+
+#include <string>
+
+namespace breach::phases::files {
+
+/// What every phase leaves in its output folder.
+inline constexpr const char* scene = "scene.completed.json";
+inline constexpr const char* result = "result.json";
+inline constexpr const char* fault = "fault.json";  ///< instead of a result
+inline constexpr const char* telemetry = "telemetry.jsonl";
+inline constexpr const char* checkpoint = "checkpoint.h5";
+
+inline constexpr const char* history = "history.h5";
+inline constexpr const char* motion = "motion.csv";           ///< fem: as it is applied
+inline constexpr const char* particles = "particles.vtkhdf";  ///< transfer: the new points
+inline constexpr const char* final_state = "final.vtkhdf";    ///< mpm
+inline constexpr const char* request = "snapshot_request";    ///< to the fem, in its output
+inline constexpr const char* element_tests = "element_tests.h5";
+
+inline constexpr const char* snapshot_extension = ".vtkhdf";
+
+/// "0.500000": how a time is spelt in the names of snapshots and tasks.
+std::string spelt(double time);
+/// "snapshot_0.500000.vtkhdf", of the fem
+std::string snapshot_name(double time);
+/// "particles_0.500000.vtkhdf", of the mpm
+std::string frame_name(double time);
+
+}  // namespace breach::phases::files

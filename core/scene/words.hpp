@@ -1,0 +1,157 @@
+// The words of the scene's entries that are one of a few: what the readers understand, what results
+// and plans say. The schema lists the same words (tests/unit/scene/words_test.cpp).
+#pragma once
+
+#include "core/scene/scene.hpp"
+#include "core/words/words.hpp"
+
+namespace breach::grid {
+
+constexpr auto words_of(KernelKind) {
+    using enum KernelKind;
+    return words::in_order<KernelKind>(
+        {{gimp, "gimp"}, {b_spline, "b_spline"}, {linear, "linear"}});
+}
+
+constexpr auto words_of(UpdateOrder) {
+    using enum UpdateOrder;
+    return words::in_order<UpdateOrder>({{usl, "usl"}, {musl, "musl"}, {usf, "usf"}});
+}
+
+}  // namespace breach::grid
+
+namespace breach::materials {
+
+constexpr auto words_of(SofteningDriver) {
+    using enum SofteningDriver;
+    return words::in_order<SofteningDriver>({{plastic, "plastic"}, {total, "total"}});
+}
+
+}  // namespace breach::materials
+
+namespace breach::scene {
+
+constexpr auto words_of(RegionMesh) {
+    using enum RegionMesh;
+    return words::in_order<RegionMesh>({{block, "block"}, {unstructured, "unstructured"}});
+}
+
+constexpr auto words_of(PhreaticCorrection) {
+    using enum PhreaticCorrection;
+    return words::in_order<PhreaticCorrection>({{none, "none"}, {cos2, "cos2"}});
+}
+
+constexpr auto words_of(VariedSurface) {
+    using enum VariedSurface;
+    return words::in_order<VariedSurface>({{fixed, "fixed"}, {searched, "searched"}});
+}
+
+constexpr auto words_of(Parameter) {
+    using enum Parameter;
+    return words::in_order<Parameter>({{cohesion, "cohesion"},
+                                       {friction_angle, "friction_angle"},
+                                       {density, "density"},
+                                       {undrained_strength, "undrained_strength"},
+                                       {residual_strength, "residual_strength"},
+                                       {seismic_coefficient, "seismic_coefficient"}});
+}
+
+constexpr auto words_of(Distribution) {
+    using enum Distribution;
+    return words::in_order<Distribution>({{normal, "normal"}, {lognormal, "lognormal"}});
+}
+
+constexpr auto words_of(Kinematics) {
+    using enum Kinematics;
+    return words::in_order<Kinematics>(
+        {{small_strain, "small_strain"}, {updated_lagrangian, "updated_lagrangian"}});
+}
+
+constexpr auto words_of(ElementKind) {
+    using enum ElementKind;
+    return words::in_order<ElementKind>({{bbar, "bbar"}, {ssp, "ssp"}});
+}
+
+constexpr auto words_of(HourglassKind) {
+    using enum HourglassKind;
+    return words::in_order<HourglassKind>({{current, "current"}, {elastic, "elastic"}});
+}
+
+constexpr auto words_of(StageKind) {
+    using enum StageKind;
+    return words::in_order<StageKind>({{static_equilibrium, "static"}, {dynamic, "dynamic"}});
+}
+
+constexpr auto words_of(StageLaws) {
+    return words::in_order<StageLaws>(
+        {{StageLaws::elastic, "elastic"}, {StageLaws::scene, "scene"}});
+}
+
+constexpr auto words_of(StagePermeability) {
+    return words::in_order<StagePermeability>(
+        {{StagePermeability::free_drainage, "free_drainage"}, {StagePermeability::scene, "scene"}});
+}
+
+constexpr auto words_of(AboveWater) {
+    using enum AboveWater;
+    return words::in_order<AboveWater>({{drained, "drained"}, {dry, "dry"}});
+}
+
+constexpr auto words_of(MotionAt) {
+    using enum MotionAt;
+    return words::in_order<MotionAt>({{outcrop, "outcrop"}, {upgoing, "upgoing"}});
+}
+
+constexpr auto words_of(BaseNodes) {
+    using enum BaseNodes;
+    return words::in_order<BaseNodes>({{tied, "tied"}, {free, "free"}});
+}
+
+constexpr auto words_of(Baseline) {
+    using enum Baseline;
+    return words::in_order<Baseline>({{as_recorded, "as_recorded"}, {corrected, "corrected"}});
+}
+
+constexpr auto words_of(FreeFieldSides) {
+    using enum FreeFieldSides;
+    return words::in_order<FreeFieldSides>({{left, "left"}, {right, "right"}, {both, "both"}});
+}
+
+constexpr auto words_of(Interpolation) {
+    using enum Interpolation;
+    return words::in_order<Interpolation>({{local, "local"}, {paper, "paper"}});
+}
+
+constexpr auto words_of(SofteningStart) {
+    using enum SofteningStart;
+    return words::in_order<SofteningStart>({{carried, "carried"}, {zero, "zero"}});
+}
+
+constexpr auto words_of(Entangled) {
+    using enum Entangled;
+    return words::in_order<Entangled>({{refuse, "refuse"}, {rebuild, "rebuild"}});
+}
+
+constexpr auto words_of(TransferredStress) {
+    using enum TransferredStress;
+    return words::in_order<TransferredStress>({{total, "total"}, {effective, "effective"}});
+}
+
+constexpr auto words_of(AntiLocking) {
+    using enum AntiLocking;
+    return words::in_order<AntiLocking>({{on, "on"}, {off, "off"}, {automatic, "auto"}});
+}
+
+constexpr auto words_of(Wall) {
+    using enum Wall;
+    return words::in_order<Wall>({{roller, "roller"}, {fixed, "fixed"}, {open, "open"}});
+}
+
+constexpr auto words_of(FillStress) {
+    using enum FillStress;
+    return words::in_order<FillStress>({{none, "none"}, {overburden, "overburden"}});
+}
+
+using words::word_at;
+
+}  // namespace breach::scene

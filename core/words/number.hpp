@@ -1,0 +1,17 @@
+// A number in a sentence for people.
+#pragma once
+
+#include <sstream>
+#include <string>
+
+namespace breach::words {
+
+/// "0.25", "1e+09": with so many significant digits at most.
+inline std::string text_of(double value, int digits = 6) {
+    std::ostringstream text;
+    text.precision(digits);
+    text << value;
+    return text.str();
+}
+
+}  // namespace breach::words
