@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/exchange/csv.hpp"
 #include "services/cli/study_file.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/views.hpp"
@@ -20,17 +21,6 @@ void show_json(const json& answer, const Console& console) {
 /// Tasks are named after their run: "<run>-00007".
 bool names_task(const std::string& id) { return id.find('-') != std::string::npos; }
 
-std::string csv_field(const json& value) {
-    if (value.is_null()) return "";
-    if (!value.is_string()) return value.dump();
-    std::string quoted = "\"";
-    for (const char each : value.get_ref<const std::string&>()) {
-        if (each == '"') quoted += '"';
-        quoted += each;
-    }
-    return quoted + '"';
-}
-
 void show_as_csv(const json& lines, const Console& console) {
     if (lines.empty()) return;
     std::vector<std::string> keys;
@@ -39,7 +29,7 @@ void show_as_csv(const json& lines, const Console& console) {
     for (std::size_t i = 0; i < keys.size(); ++i) console.out << (i > 0 ? "," : "") << keys[i];
     for (const json& line : lines) {
         for (std::size_t i = 0; i < keys.size(); ++i)
-            console.out << (i > 0 ? "," : "\n") << csv_field(line.value(keys[i], json()));
+            console.out << (i > 0 ? "," : "\n") << exchange::csv_field(line.value(keys[i], json()));
     }
     console.out << "\n";
 }

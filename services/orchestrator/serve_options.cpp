@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 
 namespace breach::orchestrator {
 
@@ -29,11 +30,9 @@ std::filesystem::path shared_folder(const std::filesystem::path& self, const cha
 
 /// "mpm_solver=2"
 std::pair<std::string, std::size_t> limit_in(const std::string& text) {
-    static const std::set<std::string> phases{"lem_tool", "fem_solver", "transfer_tool",
-                                              "mpm_solver"};
     const std::size_t equals = text.find('=');
     std::size_t number = 0;
-    if (equals != std::string::npos && phases.contains(text.substr(0, equals))) {
+    if (equals != std::string::npos && phases::named(text.substr(0, equals))) {
         const char* const end = text.data() + text.size();
         const auto parsed = std::from_chars(text.data() + equals + 1, end, number);
         if (parsed.ec != std::errc{} || parsed.ptr != end) number = 0;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/phases/files.hpp"
 #include "services/orchestrator/dispatch/dispatcher.hpp"
 #include "services/orchestrator/dispatch/verdict.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
@@ -185,7 +186,7 @@ void Dispatcher::retry_or_give_up(Transaction& transaction, const Live& live, Ta
 TaskFault Dispatcher::fault_of(const Live& live, const ExitRecord& record) const {
     TaskFault fault{record.exit_code, in_words(record)};
     if (!record.exit_code) return fault;
-    std::ifstream stream(data_.output(live.task) / "fault.json");
+    std::ifstream stream(data_.output(live.task) / phases::files::fault);
     const json said = json::parse(stream, nullptr, false);
     std::string summary;
     if (said.is_object() && said.value("exit_code", 0) == *record.exit_code)

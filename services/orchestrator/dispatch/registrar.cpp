@@ -7,6 +7,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 
 namespace breach::orchestrator {
@@ -94,7 +95,7 @@ void Registrar::finalize(const Task& task) {
     std::string input;
     try {
         input = input_sha256(task);
-        result = facts_of(output / "result.json");
+        result = facts_of(output / phases::files::result);
         artifacts = hashed_outputs(task, output);
     } catch (const json::exception&) {
         trouble = "the phase ended with exit code 0 but left no readable result.json";

@@ -6,10 +6,17 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "core/words/words.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
+
+static constexpr auto words_of(StopReason) {
+    using enum StopReason;
+    return words::in_order<StopReason>(
+        {{cancel, "cancel"}, {shutdown, "shutdown"}, {revoked, "revoked"}});
+}
 
 namespace {
 
@@ -19,25 +26,6 @@ std::optional<std::string> text_of(const std::filesystem::path& file) {
     std::ostringstream text;
     text << stream.rdbuf();
     return text.str();
-}
-
-std::string name_of(StopReason reason) {
-    switch (reason) {
-        case StopReason::cancel:
-            return "cancel";
-        case StopReason::shutdown:
-            return "shutdown";
-        case StopReason::revoked:
-            break;
-    }
-    return "revoked";
-}
-
-std::optional<StopReason> reason_named(const std::string& name) {
-    if (name == "cancel") return StopReason::cancel;
-    if (name == "shutdown") return StopReason::shutdown;
-    if (name == "revoked") return StopReason::revoked;
-    return std::nullopt;
 }
 
 }  // namespace
@@ -71,7 +59,7 @@ void write_exit_record(const AttemptFolder& folder, const ExitRecord& record) {
                   {"cpu_seconds", record.cpu_seconds}};
     if (record.exit_code) document["exit_code"] = *record.exit_code;
     if (record.signal) document["signal"] = *record.signal;
-    if (record.stopped) document["stopped"] = name_of(*record.stopped);
+    if (record.stopped) document["stopped"] = words::name_of(*record.stopped);
     exchange::publish_text(folder.exit_record(), document.dump(2) + "\n");
 }
 
@@ -82,7 +70,7 @@ std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
     ExitRecord record{.attempt = document.at("attempt"),
                       .exit_code = {},
                       .signal = {},
-                      .stopped = reason_named(document.value("stopped", "")),
+                      .stopped = words::find<StopReason>(document.value("stopped", "")),
                       .wall_seconds = document.at("wall_seconds"),
                       .cpu_seconds = document.at("cpu_seconds")};
     if (document.contains("exit_code")) record.exit_code = document["exit_code"].get<int>();
@@ -92,13 +80,13 @@ std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
 
 void write_stop(const AttemptFolder& folder, StopReason reason) {
     if (!std::filesystem::exists(folder.stop()))
-        exchange::publish_text(folder.stop(), name_of(reason));
+        exchange::publish_text(folder.stop(), words::name_of(reason));
 }
 
 std::optional<StopReason> read_stop(const AttemptFolder& folder) {
     const auto text = text_of(folder.stop());
     if (!text) return std::nullopt;
-    return reason_named(*text);
+    return words::find<StopReason>(*text);
 }
 
 }  // namespace breach::orchestrator

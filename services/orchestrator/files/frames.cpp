@@ -9,6 +9,8 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
+#include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 
 namespace breach::orchestrator {
 
@@ -19,13 +21,12 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "the arrays are sent as they lie in memory");
 
-constexpr const char* extension = ".vtkhdf";
-
 std::string kind_of(const std::string& phase) {
-    return phase == "fem_solver" ? "mesh" : "particles";
+    const phases::Phase* known = phases::named(phase);
+    return known ? known->frames : phases::mpm.frames;
 }
 
-/// The number at the end of "snapshot_0.500000.vtkhdf". Files without one ("final.vtkhdf") repeat a
+/// The number at the end of "snapshot_0.500000.vtkhdf". Files without one (phases::files::final_state) repeat a
 /// numbered frame.
 std::optional<double> time_in(const std::string& name) {
     static const std::regex number(R"(_([0-9]+(\.[0-9]+)?)\.vtkhdf$)");
@@ -35,7 +36,7 @@ std::optional<double> time_in(const std::string& name) {
 }
 
 /// The transfer's only frame: the material points at the beginning of their own clock.
-bool is_transferred(const std::string& name) { return name == "particles.vtkhdf"; }
+bool is_transferred(const std::string& name) { return name == phases::files::particles; }
 
 struct Cloud {
     double time = 0.0;
@@ -154,7 +155,8 @@ std::vector<Frame> frames_in(const std::filesystem::path& output, const std::str
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(output, error)) {
         const std::string name = entry.path().filename();
-        if (entry.path().extension() != extension || !is_frame_name(name)) continue;
+        if (entry.path().extension() != phases::files::snapshot_extension || !is_frame_name(name))
+            continue;
         const auto time = is_transferred(name) ? 0.0 : time_in(name);
         if (time) frames.push_back({*time, name, kind_of(phase)});
     }
@@ -166,7 +168,8 @@ std::vector<Frame> frames_in(const std::filesystem::path& output, const std::str
 std::string FrameReader::points(const std::filesystem::path& file, const std::string& phase,
                                 std::size_t stride) {
     const std::lock_guard lock(mutex_);
-    return packed(kind_of(phase) == "mesh" ? nodes_of(file) : particles_of(file, stride));
+    return packed(kind_of(phase) == phases::fem.frames ? nodes_of(file)
+                                                       : particles_of(file, stride));
 }
 
 }  // namespace breach::orchestrator

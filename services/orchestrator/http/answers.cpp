@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <ctime>
 
+#include "core/exchange/csv.hpp"
+#include "services/orchestrator/records/or_null.hpp"
+
 namespace breach::orchestrator {
 
 using nlohmann::json;
 
 namespace {
-
-template <class T>
-json or_null(const std::optional<T>& value) {
-    return value ? json(*value) : json(nullptr);
-}
 
 json as_json(const Attempt& attempt) {
     return {{"number", attempt.number},
@@ -38,18 +36,6 @@ json seconds_left(const Run& run, double progress) {
     if (strptime(run.started->c_str(), "%Y-%m-%dT%H:%M:%S", &begin) == nullptr) return nullptr;
     const double elapsed = std::difftime(std::time(nullptr), timegm(&begin));
     return std::max(0.0, elapsed) * (1.0 - progress) / progress;
-}
-
-std::string csv_field(const json& value) {
-    if (value.is_null()) return {};
-    if (value.is_array()) return csv_field(codes_of(value));
-    if (!value.is_string()) return value.dump();
-    std::string quoted = "\"";
-    for (const char each : value.get_ref<const std::string&>()) {
-        if (each == '"') quoted += '"';
-        quoted += each;
-    }
-    return quoted + '"';
 }
 
 json schema_of(ColumnKind kind) {
@@ -186,7 +172,8 @@ std::string as_csv(const std::vector<ResultRow>& rows) {
     for (const ResultRow& row : rows) {
         const char* separator = "";
         for (const json& value : row) {
-            text.append(separator).append(csv_field(value));
+            text.append(separator).append(
+                exchange::csv_field(value.is_array() ? json(codes_of(value)) : value));
             separator = ",";
         }
         text += "\r\n";

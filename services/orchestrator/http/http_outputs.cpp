@@ -4,6 +4,7 @@
 #include <memory>
 #include <sstream>
 
+#include "core/phases/files.hpp"
 #include "services/orchestrator/files/telemetry.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
@@ -73,7 +74,8 @@ void telemetry(const Service& service, Call& call) {
                        .stride = call.whole_number("stride", 1, 1, largest_count)};
     std::istringstream names(call.parameter("fields").value_or(""));
     for (std::string name; std::getline(names, name, ',');) wish.fields.push_back(name);
-    reply(call.response, read_telemetry(service.data.output(task) / "telemetry.jsonl", wish));
+    reply(call.response,
+          read_telemetry(service.data.output(task) / phases::files::telemetry, wish));
 }
 
 void frames(const Service& service, Call& call) {

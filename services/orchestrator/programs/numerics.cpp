@@ -1,18 +1,22 @@
 #include "services/orchestrator/programs/numerics.hpp"
 
-#include <array>
 #include <charconv>
 #include <chrono>
 #include <sstream>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/programs/command.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
 
+<<<<<<< HEAD
 constexpr std::array phases{"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"};
+=======
+constexpr auto longest_answer = std::chrono::seconds(20);
+>>>>>>> 15ba336 (Phases are one table for orchestrator and report; csv and nulls are written once; what is drawn is held against the columns; the walks are counted again)
 constexpr std::string_view word = "numerics ";
 
 std::int64_t numerics_of(const std::filesystem::path& program) {
@@ -36,7 +40,8 @@ std::int64_t numerics_of(const std::filesystem::path& program) {
 
 Numerics numerics_of_phases(const std::filesystem::path& bin) {
     Numerics found;
-    for (const char* phase : phases) found[phase] = numerics_of(bin / phase);
+    for (const phases::Phase& each : phases::all)
+        found[each.program] = numerics_of(bin / each.program);
     return found;
 }
 

@@ -1,11 +1,10 @@
 #include "services/orchestrator/programs/plan_question.hpp"
 
-#include <array>
 #include <chrono>
-#include <utility>
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/programs/command.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
@@ -13,11 +12,15 @@ namespace breach::orchestrator {
 
 namespace {
 
+<<<<<<< HEAD
 constexpr std::array<std::pair<const char*, const char*>, 4> phases_by_part{
     {{"lem", "lem_tool"},
      {"fem", "fem_solver"},
      {"transfer", "transfer_tool"},
      {"mpm", "mpm_solver"}}};
+=======
+constexpr auto longest_answer = std::chrono::seconds(20);
+>>>>>>> 15ba336 (Phases are one table for orchestrator and report; csv and nulls are written once; what is drawn is held against the columns; the walks are counted again)
 
 /// What the program prints until it ends.
 std::string answer_of(const std::filesystem::path& program, const std::filesystem::path& scene) {
@@ -43,9 +46,9 @@ nlohmann::json plans_of(const nlohmann::json& scene, const std::filesystem::path
     const ScratchFile file{scratch / (new_run_id() + ".json")};
     exchange::publish_text(file.path, scene.dump());
     nlohmann::json plans = nlohmann::json::object();
-    for (const auto& [part, phase] : phases_by_part) {
-        if (scene.contains(part)) plans[phase] = answer_of(bin / phase, file.path);
-    }
+    for (const phases::Phase& each : phases::all)
+        if (scene.contains(each.part))
+            plans[each.program] = answer_of(bin / each.program, file.path);
     return plans;
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "core/phases/phases.hpp"
+
 namespace breach::orchestrator {
 
 namespace {
@@ -25,10 +27,8 @@ std::string words_for(const std::string& code) {
 }
 
 std::string results_of(const std::string& phase) {
-    if (phase == "mpm_solver") return "runouts";
-    if (phase == "fem_solver") return "FEM results";
-    if (phase == "transfer_tool") return "transfers";
-    return "results of " + phase;
+    const phases::Phase* known = phases::named(phase);
+    return known ? known->results : "results of " + phase;
 }
 
 }  // namespace

@@ -33,14 +33,6 @@ std::string attempt_id(const std::string& task, std::int64_t number) {
     return task + "." + std::to_string(number);
 }
 
-std::string spelt(double time) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.6f", time);
-    return text.data();
-}
-
-std::string snapshot_name(double time) { return "snapshot_" + spelt(time) + ".vtkhdf"; }
-
 std::string utc_now() {
     const std::int64_t now = epoch_ms();
     const std::time_t seconds = now / 1000;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/phases/files.hpp"
+
 namespace breach::orchestrator {
 
 /// 26 characters, ascending in time of creation, unique (48 bits of milliseconds, 80 random bits).
@@ -15,10 +17,8 @@ std::string task_id(const std::string& run, std::size_t ordinal);
 /// "<task>.2"
 std::string attempt_id(const std::string& task, std::int64_t number);
 
-/// "0.500000": how a time is spelt in the names of snapshots and tasks.
-std::string spelt(double time);
-/// "snapshot_0.500000.vtkhdf"
-std::string snapshot_name(double time);
+using phases::files::snapshot_name;
+using phases::files::spelt;
 
 /// Now as "2026-11-21T02:38:53.123Z".
 std::string utc_now();

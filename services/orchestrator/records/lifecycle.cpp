@@ -2,9 +2,70 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
+
+#include "core/words/words.hpp"
 
 namespace breach::orchestrator {
+
+// SQL CHECKs the same words.
+static constexpr auto words_of(TaskState) {
+    using enum TaskState;
+    return words::in_order<TaskState>({{blocked, "blocked"},
+                                       {ready, "ready"},
+                                       {cached, "cached"},
+                                       {starting, "starting"},
+                                       {running, "running"},
+                                       {finalizing, "finalizing"},
+                                       {succeeded, "succeeded"},
+                                       {failed, "failed"},
+                                       {lost, "lost"},
+                                       {retry_wait, "retry_wait"},
+                                       {cancelling, "cancelling"},
+                                       {cancelled, "cancelled"},
+                                       {skipped, "skipped"}});
+}
+
+static constexpr auto words_of(TaskEvent) {
+    using enum TaskEvent;
+    return words::in_order<TaskEvent>({{release, "release"},
+                                       {skip, "skip"},
+                                       {reuse, "reuse"},
+                                       {reuse_breakdown, "reuse_breakdown"},
+                                       {claim, "claim"},
+                                       {start, "start"},
+                                       {exit_well, "exit_well"},
+                                       {exit_badly, "exit_badly"},
+                                       {exit_retryable, "exit_retryable"},
+                                       {interrupt, "interrupt"},
+                                       {vanish, "vanish"},
+                                       {retry, "retry"},
+                                       {give_up, "give_up"},
+                                       {wait_over, "wait_over"},
+                                       {keep_outputs, "keep_outputs"},
+                                       {refuse_outputs, "refuse_outputs"},
+                                       {cancel, "cancel"},
+                                       {stopped, "stopped"},
+                                       {redo, "redo"}});
+}
+
+static constexpr auto words_of(AttemptState) {
+    using enum AttemptState;
+    return words::in_order<AttemptState>({{submitting, "submitting"},
+                                          {submitted, "submitted"},
+                                          {running, "running"},
+                                          {exited, "exited"},
+                                          {lost, "lost"},
+                                          {fenced, "fenced"}});
+}
+
+static constexpr auto words_of(AttemptEvent) {
+    using enum AttemptEvent;
+    return words::in_order<AttemptEvent>({{submit, "submit"},
+                                          {begin, "begin"},
+                                          {exit, "exit"},
+                                          {vanish, "vanish"},
+                                          {fence, "fence"}});
+}
 
 namespace {
 
@@ -70,33 +131,6 @@ constexpr std::array attempt_table{
     AttemptRule{A::lost, B::fence, A::fenced},
 };
 
-constexpr std::array task_states{T::blocked,    T::ready,     T::cached, T::starting, T::running,
-                                 T::finalizing, T::succeeded, T::failed, T::lost,     T::retry_wait,
-                                 T::cancelling, T::cancelled, T::skipped};
-constexpr std::array<std::string_view, 13> task_state_names{
-    "blocked", "ready", "cached",     "starting",   "running",   "finalizing", "succeeded",
-    "failed",  "lost",  "retry_wait", "cancelling", "cancelled", "skipped"};
-
-constexpr std::array task_events{
-    E::release,   E::skip,       E::reuse,          E::reuse_breakdown, E::claim,  E::start,
-    E::exit_well, E::exit_badly, E::exit_retryable, E::interrupt,       E::vanish, E::retry,
-    E::give_up,   E::wait_over,  E::keep_outputs,   E::refuse_outputs,  E::cancel, E::stopped,
-    E::redo};
-constexpr std::array<std::string_view, 19> task_event_names{
-    "release",   "skip",       "reuse",          "reuse_breakdown", "claim",  "start",
-    "exit_well", "exit_badly", "exit_retryable", "interrupt",       "vanish", "retry",
-    "give_up",   "wait_over",  "keep_outputs",   "refuse_outputs",  "cancel", "stopped",
-    "redo"};
-
-constexpr std::array attempt_states{A::submitting, A::submitted, A::running,
-                                    A::exited,     A::lost,      A::fenced};
-constexpr std::array<std::string_view, 6> attempt_state_names{"submitting", "submitted", "running",
-                                                              "exited",     "lost",      "fenced"};
-
-constexpr std::array attempt_events{B::submit, B::begin, B::exit, B::vanish, B::fence};
-constexpr std::array<std::string_view, 5> attempt_event_names{"submit", "begin", "exit", "vanish",
-                                                              "fence"};
-
 template <class Rules, class State, class Event>
 std::optional<State> look_up(const Rules& rules, State from, Event event) {
     const auto found = std::ranges::find_if(
@@ -105,22 +139,14 @@ std::optional<State> look_up(const Rules& rules, State from, Event event) {
     return found->to;
 }
 
-template <class State, std::size_t n>
-State state_named(const std::array<State, n>& states, const std::array<std::string_view, n>& names,
-                  std::string_view name) {
-    const auto found = std::ranges::find(names, name);
-    assert(found != names.end());  // SQL CHECKs the spelling
-    return states[static_cast<std::size_t>(found - names.begin())];
-}
-
 }  // namespace
 
 std::span<const TaskRule> task_rules() { return task_table; }
 std::span<const AttemptRule> attempt_rules() { return attempt_table; }
-std::span<const TaskState> all_task_states() { return task_states; }
-std::span<const TaskEvent> all_task_events() { return task_events; }
-std::span<const AttemptState> all_attempt_states() { return attempt_states; }
-std::span<const AttemptEvent> all_attempt_events() { return attempt_events; }
+std::span<const TaskState> all_task_states() { return words::values<TaskState>; }
+std::span<const TaskEvent> all_task_events() { return words::values<TaskEvent>; }
+std::span<const AttemptState> all_attempt_states() { return words::values<AttemptState>; }
+std::span<const AttemptEvent> all_attempt_events() { return words::values<AttemptEvent>; }
 
 std::optional<TaskState> next(TaskState from, TaskEvent event) {
     return look_up(task_table, from, event);
@@ -140,23 +166,11 @@ bool is_live(AttemptState state) {
     return state == A::submitting || state == A::submitted || state == A::running;
 }
 
-std::string_view name_of(TaskState state) {
-    return task_state_names[static_cast<std::size_t>(state)];
-}
-std::string_view name_of(TaskEvent event) {
-    return task_event_names[static_cast<std::size_t>(event)];
-}
-std::string_view name_of(AttemptState state) {
-    return attempt_state_names[static_cast<std::size_t>(state)];
-}
-std::string_view name_of(AttemptEvent event) {
-    return attempt_event_names[static_cast<std::size_t>(event)];
-}
-TaskState task_state_named(std::string_view name) {
-    return state_named(task_states, task_state_names, name);
-}
-AttemptState attempt_state_named(std::string_view name) {
-    return state_named(attempt_states, attempt_state_names, name);
-}
+std::string_view name_of(TaskState state) { return words::name_of(state); }
+std::string_view name_of(TaskEvent event) { return words::name_of(event); }
+std::string_view name_of(AttemptState state) { return words::name_of(state); }
+std::string_view name_of(AttemptEvent event) { return words::name_of(event); }
+TaskState task_state_named(std::string_view name) { return words::named<TaskState>(name); }
+AttemptState attempt_state_named(std::string_view name) { return words::named<AttemptState>(name); }
 
 }  // namespace breach::orchestrator

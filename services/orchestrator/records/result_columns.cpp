@@ -5,12 +5,18 @@
 #include <cassert>
 #include <set>
 
+#include "core/words/words.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
 using enum ColumnKind;
+
+static constexpr auto words_of(ColumnKind) {
+    return words::in_order<ColumnKind>(
+        {{number, "number"}, {yes_no, "yes_no"}, {word, "word"}, {ColumnKind::flags, "flags"}});
+}
 
 namespace {
 
@@ -54,19 +60,7 @@ constexpr std::array columns{
 
 std::span<const ResultColumn> result_columns() { return columns; }
 
-const char* name_of(ColumnKind kind) {
-    switch (kind) {
-        case number:
-            return "number";
-        case yes_no:
-            return "yes_no";
-        case word:
-            return "word";
-        case ColumnKind::flags:
-            return "flags";
-    }
-    return "";
-}
+const char* name_of(ColumnKind kind) { return words::name_of(kind).data(); }
 
 const json& value_of(const ResultRow& row, std::string_view name) {
     const auto found = std::ranges::find(columns, name, &ResultColumn::name);

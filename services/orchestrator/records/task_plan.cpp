@@ -1,16 +1,21 @@
+#include "core/phases/phases.hpp"
+#include "core/words/words.hpp"
 #include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/records/records.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
 
-namespace {
-
-template <class T>
-json or_null(const std::optional<T>& value) {
-    return value ? json(*value) : json(nullptr);
+static constexpr auto words_of(Release) {
+    using enum Release;
+    return words::in_order<Release>({{at_once, "at_once"},
+                                     {file_exists, "file_exists"},
+                                     {parent_succeeded, "parent_succeeded"}});
 }
+
+namespace {
 
 template <class T>
 std::optional<T> unless_null(const json& value) {
@@ -20,26 +25,13 @@ std::optional<T> unless_null(const json& value) {
 
 }  // namespace
 
-std::string_view name_of(Release release) {
-    switch (release) {
-        case Release::at_once:
-            return "at_once";
-        case Release::file_exists:
-            return "file_exists";
-        case Release::parent_succeeded:
-            break;
-    }
-    return "parent_succeeded";
-}
+std::string_view name_of(Release release) { return words::name_of(release); }
 
-Release release_named(std::string_view name) {
-    if (name == name_of(Release::at_once)) return Release::at_once;
-    if (name == name_of(Release::file_exists)) return Release::file_exists;
-    return Release::parent_succeeded;
-}
+Release release_named(std::string_view name) { return words::named<Release>(name); }
 
 std::string label_of(const TaskPlan& task) {
-    std::string label = task.phase.substr(0, task.phase.find('_'));
+    const phases::Phase* known = phases::named(task.phase);
+    std::string label = known ? known->part : task.phase;
     if (task.transfer_time) label += "_" + spelt(*task.transfer_time);
     if (!task.variant.empty()) label += "_" + task.variant;
     return label;

@@ -5,11 +5,31 @@
 #include <set>
 
 #include "core/telemetry/columns.hpp"
+#include "core/words/words.hpp"
 
 namespace breach::orchestrator {
 
 using fault::Fault;
 using nlohmann::json;
+
+static constexpr auto words_of(TriggerState) {
+    using enum TriggerState;
+    return words::in_order<TriggerState>({{armed, "armed"},
+                                          {holding, "holding"},
+                                          {fired, "fired"},
+                                          {expired, "expired"},
+                                          {disarmed, "disarmed"}});
+}
+
+static constexpr auto words_of(TriggerEvent) {
+    using enum TriggerEvent;
+    return words::in_order<TriggerEvent>({{cross, "cross"},
+                                          {uncross, "uncross"},
+                                          {fire, "fire"},
+                                          {expire, "expire"},
+                                          {disarm, "disarm"},
+                                          {rearm, "rearm"}});
+}
 
 namespace {
 
@@ -29,10 +49,6 @@ constexpr std::array table{
     TriggerRule{S::holding, E::expire, S::expired}, TriggerRule{S::holding, E::disarm, S::disarmed},
     TriggerRule{S::expired, E::rearm, S::armed},    TriggerRule{S::disarmed, E::rearm, S::armed},
 };
-constexpr std::array<std::string_view, 5> states{"armed", "holding", "fired", "expired",
-                                                 "disarmed"};
-constexpr std::array<std::string_view, 6> events{"cross",  "uncross", "fire",
-                                                 "expire", "disarm",  "rearm"};
 
 constexpr double default_within_share = 0.05;    // of the dynamic stages
 constexpr double default_window_shares = 100.0;  // snapshots over the dynamic stages
@@ -121,12 +137,10 @@ std::optional<TriggerState> next(TriggerState from, TriggerEvent event) {
 }
 
 bool is_final(TriggerState state) { return state != S::armed && state != S::holding; }
-std::string_view name_of(TriggerState state) { return states[static_cast<std::size_t>(state)]; }
-std::string_view name_of(TriggerEvent event) { return events[static_cast<std::size_t>(event)]; }
+std::string_view name_of(TriggerState state) { return words::name_of(state); }
+std::string_view name_of(TriggerEvent event) { return words::name_of(event); }
 
-TriggerState trigger_state_named(std::string_view name) {
-    return static_cast<TriggerState>(std::ranges::find(states, name) - states.begin());
-}
+TriggerState trigger_state_named(std::string_view name) { return words::named<TriggerState>(name); }
 
 const std::vector<std::string>& telemetry_fields() {
     static const std::vector<std::string> fields = [] {

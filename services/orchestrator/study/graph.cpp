@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/phases/files.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 
@@ -131,7 +132,7 @@ class Planner {
                   .transfer_time = time,
                   .parent = parent,
                   .release = Release::parent_succeeded,
-                  .input = "particles.vtkhdf",
+                  .input = phases::files::particles,
                   .overrides = {},
                   .recipe = recipes_of_variant_.at("mpm_solver")},
                  *variant_, Sharing::never);

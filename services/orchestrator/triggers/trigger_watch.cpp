@@ -9,6 +9,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -25,7 +26,6 @@ constexpr double slack = 1e-6;  // names of snapshots carry six decimals [s]
 constexpr auto reload_interval = std::chrono::milliseconds(1000);
 constexpr auto look_for_telemetry = std::chrono::milliseconds(20);
 constexpr auto ask_again_after = std::chrono::seconds(1);
-constexpr const char* request_file = "snapshot_request";
 
 bool has_ended(TaskState state) { return is_final(state) || state == TaskState::finalizing; }
 
@@ -143,7 +143,7 @@ void TriggerWatch::load_open_triggers() {
                 has_regular_snapshots(task, json::parse(*store_.scene_of(task.run)));
             Fem fem{.task = std::move(task),
                     .output = output,
-                    .tail = TelemetryTail(output / "telemetry.jsonl"),
+                    .tail = TelemetryTail(output / phases::files::telemetry),
                     .regular = regular};
             found = fems_.emplace(trigger.fem_task, std::move(fem)).first;
         }
@@ -409,9 +409,9 @@ Firing TriggerWatch::firing_of(const Fem& fem, const Armed& armed, const Snapsho
 
 /// Renamed into place. Asked again when nothing came: a FEM that was killed has not answered.
 void TriggerWatch::ask_for_snapshot(Fem& fem) {
-    const auto request = fem.output / request_file;
+    const auto request = fem.output / phases::files::request;
     if (std::filesystem::exists(request) || Clock::now() - fem.asked < ask_again_after) return;
-    const auto draft = fem.output / (std::string(request_file) + ".new");
+    const auto draft = fem.output / (std::string(phases::files::request) + ".new");
     std::ofstream(draft) << utc_now() << "\n";
     std::error_code error;
     std::filesystem::rename(draft, request, error);

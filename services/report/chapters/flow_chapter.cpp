@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/exchange/archive.hpp"
+#include "core/phases/files.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -16,7 +17,7 @@ json gauges_in(const PhaseFolder& mpm) { return mpm.scene.at("mpm").value("gauge
 
 /// Depth or velocity at every gauge against time, of one runout.
 Figure gauge_figure(const PhaseFolder& mpm, const std::string& quantity, const std::string& label) {
-    const Telemetry telemetry(mpm.files / "telemetry.jsonl");
+    const Telemetry telemetry(mpm.files / phases::files::telemetry);
     const std::string of = mpm.transfer_time ? short_number(*mpm.transfer_time) + "s" : "filled";
     Figure figure{
         "gauge_" + quantity + "_" + of,
@@ -59,7 +60,8 @@ Table gauge_table(const Run& run) {
 
 /// Depth of the deposit over x at the end; nothing from an archive without profiles.
 std::optional<Series> deposit_of(const PhaseFolder& mpm) {
-    const auto archive = exchange::read_archive(mpm.files / "history.h5", "mpm_history", 1);
+    const auto archive =
+        exchange::read_archive(mpm.files / phases::files::history, "mpm_history", 1);
     const auto x = archive.reals.find("profile.x"), depths = archive.reals.find("profile.depths");
     if (x == archive.reals.end() || depths == archive.reals.end()) return {};
     const std::size_t columns = x->second.size();

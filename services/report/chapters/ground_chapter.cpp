@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/phases/files.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/particle_figures.hpp"
 #include "services/report/read/verdict.hpp"
@@ -129,7 +130,7 @@ void add_ground(const Material& from, Document& document) {
                     "The same state on different ground, the longest runout on each, drawn on one "
                     "scale."};
     for (const PhaseFolder* each : runouts) {
-        const auto file = exchange::read_particle_state(each->files / "final.vtkhdf");
+        const auto file = exchange::read_particle_state(each->files / phases::files::final_state);
         Figure figure = points_by_material(file.state, "ground_" + each->variant,
                                            "Final geometry, " + of_transfer(*each));
         for (const PhaseFolder* other : runouts) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/motion/read_motion.hpp"
+#include "core/phases/files.hpp"
 #include "services/report/chapters/chapters.hpp"
 
 namespace breach::report {
@@ -23,7 +24,7 @@ struct Found {
 /// where the scene says.
 std::optional<Found> motion_file(const Material& from, const PhaseFolder& fem,
                                  const std::string& named) {
-    const std::filesystem::path kept = fem.files / "motion.csv";
+    const std::filesystem::path kept = fem.files / phases::files::motion;
     if (std::filesystem::is_regular_file(kept)) return Found{kept, Found::As::applied};
     if (!from.choice.motion.empty()) return Found{from.choice.motion, Found::As::recorded};
     const std::filesystem::path file(named);

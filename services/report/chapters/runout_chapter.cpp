@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/phases/files.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/particle_figures.hpp"
 #include "services/report/figures/transfer_figures.hpp"
@@ -139,7 +140,7 @@ std::vector<const PhaseFolder*> chosen_runouts(const Material& from) {
 void add_transfer(const Material& from, Document& document) {
     std::vector<const PhaseFolder*> done;
     for (const PhaseFolder* each : phases_named(from.run, "transfer_tool")) {
-        if (std::filesystem::is_regular_file(each->files / "particles.vtkhdf"))
+        if (std::filesystem::is_regular_file(each->files / phases::files::particles))
             done.push_back(each);
     }
     if (done.empty()) {
@@ -150,7 +151,7 @@ void add_transfer(const Material& from, Document& document) {
     if (const auto runouts = chosen_runouts(from); !runouts.empty())
         wanted = time_of(runouts.back());
     const PhaseFolder* shown = nearest_in_time(done, wanted);
-    const auto file = exchange::read_particle_state(shown->files / "particles.vtkhdf");
+    const auto file = exchange::read_particle_state(shown->files / phases::files::particles);
     Chapter chapter{"Transfer",
                     "What the mesh handed to the material points (" + of_transfer(*shown) + ")."};
     chapter.figures = {points_by_material(file.state, "points_at_transfer",
@@ -180,7 +181,7 @@ void add_runout(const Material& from, Document& document) {
         chapter.figures.push_back(std::move(against));
     }
     for (const PhaseFolder* each : runouts) {
-        const auto file = exchange::read_particle_state(each->files / "final.vtkhdf");
+        const auto file = exchange::read_particle_state(each->files / phases::files::final_state);
         const std::string of =
             each->transfer_time ? short_number(*each->transfer_time) + "s" : "filled";
         Figure geometry = points_by_material(file.state, "final_geometry_" + of,

@@ -4,6 +4,7 @@
 
 #include "core/exchange/archive.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 #include "services/report/read/read_results.hpp"
 
 namespace breach::report {
@@ -16,7 +17,8 @@ namespace {
 std::vector<double> column(const exchange::Archive& curves, const std::string& name, double unit) {
     const auto found = curves.reals.find(name);
     if (found == curves.reals.end()) {
-        throw fault::BadInput("element_tests.h5", {{name, "missing", "run element-test again"}});
+        throw fault::BadInput(phases::files::element_tests,
+                              {{name, "missing", "run element-test again"}});
     }
     std::vector<double> values = found->second;
     for (double& each : values) each /= unit;
@@ -72,9 +74,9 @@ void add_crr(const std::string& test, const json& rows, std::vector<Figure>& fig
 }  // namespace
 
 std::vector<Figure> element_test_figures(const std::filesystem::path& folder) {
-    const json result = read_json(folder / "result.json");
+    const json result = read_json(folder / phases::files::result);
     const exchange::Archive curves =
-        exchange::read_archive(folder / "element_tests.h5", "element_tests", 1);
+        exchange::read_archive(folder / phases::files::element_tests, "element_tests", 1);
     std::vector<Figure> figures;
     try {
         for (const auto& [test, rows] : result.at("tests").items()) {
@@ -93,7 +95,7 @@ std::vector<Figure> element_test_figures(const std::filesystem::path& folder) {
                 add_crr(test, rows, figures);
         }
     } catch (const json::exception& error) {
-        throw fault::BadInput((folder / "result.json").string(),
+        throw fault::BadInput((folder / phases::files::result).string(),
                               {{"/tests", error.what(), "give an element-test folder"}});
     }
     return figures;

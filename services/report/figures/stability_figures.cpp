@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 #include "services/report/read/read_results.hpp"
 
 namespace breach::report {
@@ -69,8 +70,8 @@ Figure section_with_circles(const json& scene, const json& result) {
 }  // namespace
 
 std::vector<Figure> stability_figures(const std::filesystem::path& folder) {
-    const json result = read_json(folder / "result.json");
-    const json scene = read_json(folder / "scene.completed.json");
+    const json result = read_json(folder / phases::files::result);
+    const json scene = read_json(folder / phases::files::scene);
     try {
         std::vector<Figure> figures = {section_with_circles(scene, result)};
         if (result.contains("stages")) figures.push_back(safety_against_depth(result));

@@ -6,6 +6,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 #include "services/report/chart/draw.hpp"
 #include "services/report/figures/mesh_figures.hpp"
 #include "services/report/read/read_results.hpp"
@@ -128,17 +129,17 @@ MeshSnapshot snapshot_of(const std::filesystem::path& folder,
     }
     const std::string wanted =
         provenance.inputs.empty() ? "the snapshot" : provenance.inputs.front().path;
-    throw fault::IoError(wanted + ", from which " + (folder / "particles.vtkhdf").string() +
+    throw fault::IoError(wanted + ", from which " + (folder / phases::files::particles).string() +
                          " was made, is not there any more; put it into " + folder.string());
 }
 
 std::vector<BeforeAndAfter> pairs_of(const std::filesystem::path& folder) {
-    const auto file = exchange::read_particle_state(folder / "particles.vtkhdf");
-    const json scene = read_json(folder / "scene.completed.json");
+    const auto file = exchange::read_particle_state(folder / phases::files::particles);
+    const json scene = read_json(folder / phases::files::scene);
     try {
         return compare(snapshot_of(folder, file.provenance), file.state, layers_of(scene));
     } catch (const json::exception& error) {
-        throw fault::BadInput((folder / "scene.completed.json").string(),
+        throw fault::BadInput((folder / phases::files::scene).string(),
                               {{"/transfer", error.what(), "give a folder of transfer_tool"}});
     }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 #include "services/report/chart/axis.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -166,7 +167,7 @@ Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {
     if (const auto depth = lem ? number_at(lem->result, "critical_depth") : std::nullopt) {
         beside["critical_depth"] = *depth;
     }
-    return Telemetry(fem.files / "telemetry.jsonl", std::move(beside));
+    return Telemetry(fem.files / phases::files::telemetry, std::move(beside));
 }
 
 std::optional<Plateau> plateau_of(const Run& run, const std::string& variant) {

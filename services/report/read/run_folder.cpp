@@ -6,6 +6,8 @@
 #include <tuple>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/read/read_results.hpp"
 
 namespace breach::report {
@@ -15,16 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Kind {
-    const char* prefix;  ///< of the label
-    const char* phase;
-};
-constexpr std::array kinds = {Kind{"lem", "lem_tool"}, Kind{"fem", "fem_solver"},
-                              Kind{"transfer", "transfer_tool"}, Kind{"mpm", "mpm_solver"}};
-
 std::size_t rank_of(const std::string& phase) {
-    const auto found = std::ranges::find_if(kinds, [&](const Kind& k) { return k.phase == phase; });
-    return static_cast<std::size_t>(found - kinds.begin());
+    const auto found = std::ranges::find(phases::all, phase, &phases::Phase::program);
+    return static_cast<std::size_t>(found - phases::all.begin());
 }
 
 json read_if_there(const fs::path& file) {
@@ -61,14 +56,13 @@ std::string phase_of(const std::string& label, const json& task, const json& res
     for (const json& each : {task, result}) {
         if (each.is_object() && each.contains("phase")) return each.at("phase");
     }
-    for (const Kind& each : kinds) {
-        if (label.starts_with(each.prefix)) return each.phase;
-    }
+    for (const phases::Phase& each : phases::all)
+        if (label.starts_with(each.part)) return each.program;
     return {};
 }
 
 std::string fault_of(const fs::path& files, const json& task) {
-    if (const json fault = read_if_there(files / "fault.json"); fault.is_object()) {
+    if (const json fault = read_if_there(files / phases::files::fault); fault.is_object()) {
         return fault.value("summary", "");
     }
     if (task.is_object() && task.contains("fault") && task.at("fault").is_object()) {
@@ -84,11 +78,11 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
                       .variant = {},
                       .transfer_time = {},
                       .files = files,
-                      .scene = read_json(files / "scene.completed.json"),
-                      .result = read_if_there(files / "result.json"),
+                      .scene = read_json(files / phases::files::scene),
+                      .result = read_if_there(files / phases::files::result),
                       .fault = {}};
     phase.phase = phase_of(phase.label, task, phase.result);
-    if (rank_of(phase.phase) == kinds.size()) return {};
+    if (rank_of(phase.phase) == phases::all.size()) return {};
     take_apart(phase.label, phase);
     if (task.is_object()) {
         phase.variant = task.value("variant", phase.variant);
@@ -105,10 +99,10 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
 std::vector<fs::path> phase_folders(const fs::path& folder) {
     std::vector<fs::path> found;
     fs::recursive_directory_iterator it(folder);
-    if (fs::is_regular_file(folder / "scene.completed.json")) found.push_back(folder);
+    if (fs::is_regular_file(folder / phases::files::scene)) found.push_back(folder);
     for (; it != fs::recursive_directory_iterator(); ++it) {
         if (it.depth() >= 2) it.disable_recursion_pending();
-        if (it->is_directory() && fs::is_regular_file(it->path() / "scene.completed.json")) {
+        if (it->is_directory() && fs::is_regular_file(it->path() / phases::files::scene)) {
             found.push_back(it->path());
         }
     }
@@ -168,7 +162,7 @@ const PhaseFolder* phase_named(const Run& run, const std::string& phase) {
 }
 
 bool has_telemetry(const PhaseFolder& phase) {
-    return fs::is_regular_file(phase.files / "telemetry.jsonl");
+    return fs::is_regular_file(phase.files / phases::files::telemetry);
 }
 
 std::vector<TimedFile> timed_files(const fs::path& folder, const std::string& prefix) {

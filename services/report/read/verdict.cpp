@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "core/phases/phases.hpp"
 #include "services/report/chart/axis.hpp"
 
 namespace breach::report {
@@ -106,18 +107,11 @@ std::size_t count_of(const Run& run, const std::string& phase) {
 
 /// "12 of 51 runouts", "the FEM".
 std::string whose(const Run& run, const std::string& phase, std::size_t count) {
-    struct Name {
-        const char *phase, *one, *many;
-    };
-    constexpr std::array names = {Name{"lem_tool", "the limit equilibrium", "stability analyses"},
-                                  Name{"fem_solver", "the FEM", "FEM analyses"},
-                                  Name{"transfer_tool", "the transfer", "transfers"},
-                                  Name{"mpm_solver", "the runout", "runouts"}};
-    const auto name = std::ranges::find_if(names, [&](const Name& n) { return phase == n.phase; });
+    const phases::Phase* known = phases::named(phase);
     const std::size_t all = count_of(run, phase);
-    if (all == 1) return name == names.end() ? phase : name->one;
+    if (all == 1) return known ? known->one : phase;
     return std::to_string(count) + " of " + std::to_string(all) + " " +
-           (name == names.end() ? phase : name->many);
+           (known ? known->analyses : phase);
 }
 
 std::string capital(std::string text) {
@@ -135,7 +129,8 @@ std::string sentence_of(const Run& run, const Finding& finding) {
 
 /// What phases without a result, and with one of an earlier version, leave open.
 void add_what_is_not_known(const Run& run, Verdict& verdict) {
-    for (const char* kind : {"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"}) {
+    for (const char* kind : {phases::lem.program, phases::fem.program, phases::transfer.program,
+                             phases::mpm.program}) {
         std::size_t without = 0;
         std::string why;
         for (const PhaseFolder* each : phases_named(run, kind)) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::mpm {
+namespace breach::grid {
 namespace {
 
 constexpr WallRows walls{.low = 1, .high = 7};
@@ -99,4 +99,4 @@ TEST(Kernel, GimpInTheInteriorIsBardenhagenAndKobers) {
 }
 
 }  // namespace
-}  // namespace breach::mpm
+}  // namespace breach::grid

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <set>
 
+#include "core/phases/files.hpp"
 #include "fem_solver/run.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
@@ -49,12 +50,12 @@ TEST(SnapshotRequest, IsAnsweredAtTheEndOfTheNextStepAndChangesNoStep) {
     const auto plain = folder.path() / "plain", asked = folder.path() / "asked";
     const std::string undisturbed = telemetry_of(falling_column(), plain);
     std::filesystem::create_directories(asked);
-    std::ofstream(asked / request_file) << "anything";
+    std::ofstream(asked / phases::files::request) << "anything";
     EXPECT_EQ(telemetry_of(falling_column(), asked), undisturbed);
     EXPECT_EQ(snapshots_in(plain), (std::set<std::string>{snapshot_name(0.1)}));
     EXPECT_EQ(snapshots_in(asked),
               (std::set<std::string>{snapshot_name(time_step), snapshot_name(0.1)}));
-    EXPECT_FALSE(std::filesystem::exists(asked / request_file));
+    EXPECT_FALSE(std::filesystem::exists(asked / phases::files::request));
     EXPECT_FALSE(std::filesystem::exists(asked / "snapshot_request.taken"));
     const auto snapshot = exchange::read_mesh_snapshot(asked / snapshot_name(time_step)).snapshot;
     EXPECT_DOUBLE_EQ(snapshot.time, time_step);
