@@ -96,7 +96,7 @@ class Probe {
             return none;
         }
         const Bishop result =
-            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h);
+            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h, model_.m_alpha);
         if (result.balance != Balance::found) {
             ++tally_.no_answer;
             return none;
