@@ -18,7 +18,12 @@ constexpr double none = std::numeric_limits<double>::infinity();
 constexpr double first_step = 0.1;    // of the surface's width
 constexpr double last_step = 5e-4;    // of the surface's width
 constexpr double least_gain = 1e-4;   // relative, of one round: smaller steps from there
-constexpr double least_piece = 1e-3;  // of the surface's width
+constexpr double least_piece = 0.25;  // of the mean piece's width
+/// At a kink the mass has to shear within itself, which costs strength that no interslice force of
+/// one inclination brings in: surfaces with sharper ones have too low a factor of safety.
+constexpr double sharpest_kink = M_PI / 6.0;
+/// No base rises more steeply against the slide: a passive wedge of soil without friction does not.
+constexpr double steepest_rise = M_PI / 4.0;
 
 /// Points of the arc (or of the floor where that is higher) at equal angles.
 Points points_of(const Strata& strata, const Surface& surface, int count) {
@@ -72,6 +77,24 @@ void refine(Points& points, std::size_t count) {
     }
 }
 
+struct Shape {
+    double kink;  ///< sharpest, between two pieces [rad]
+    double rise;  ///< steepest, against the slide [rad]
+};
+
+Shape shape_of(const Points& points, bool upper_left) {
+    Shape shape{0.0, 0.0};
+    double before = 0.0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vec2 piece = points[i + 1] - points[i];
+        const double angle = std::atan2(piece.y(), piece.x());
+        shape.rise = std::max(shape.rise, upper_left ? angle : -angle);
+        if (i > 0) shape.kink = std::max(shape.kink, angle - before);
+        before = angle;
+    }
+    return shape;
+}
+
 /// One surface on its way down.
 class Descent {
   public:
@@ -85,10 +108,16 @@ class Descent {
     std::int64_t analysed() const { return analysed_; }
     const Points& points() const { return points_; }
 
+    /// What the circle itself does is allowed.
     void start(const Points& points) {
         points_ = points;
+        const Shape shape = shape_of(points, upper_left_);
+        allowed_ = {std::max(sharpest_kink, shape.kink), std::max(steepest_rise, shape.rise)};
         value_ = factor_of(points_);
     }
+
+    /// Interslice forces that lift the mass are no better than the circle's.
+    void hold_theta(double of_circle) { least_theta_ = std::min(0.0, of_circle) - 1e-6; }
 
     void refine_to(std::size_t count) {
         refine(points_, count);
@@ -119,6 +148,7 @@ class Descent {
         const auto found = analyse(model_, polyline, slices_);
         if (!found || found->depth < room_.minimum_depth) return none;
         if (found->spencer.m_alpha < model_.m_alpha.least) return none;
+        if (found->spencer.theta < least_theta_) return none;
         return found->spencer.factor_of_safety;
     }
 
@@ -140,11 +170,14 @@ class Descent {
         };
         place(upper_left_ ? points.front() : points.back(), SurfaceEnd::upper, room_.upper);
         place(upper_left_ ? points.back() : points.front(), SurfaceEnd::lower, room_.lower);
+        const double mean =
+            (points.back().x() - points.front().x()) / static_cast<double>(points.size() - 1);
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            if (points[i + 1].x() - points[i].x() < least_piece * width()) return false;
+            if (points[i + 1].x() - points[i].x() < least_piece * mean) return false;
         }
         make_convex(points);
-        return true;
+        const Shape shape = shape_of(points, upper_left_);
+        return shape.kink <= allowed_.kink && shape.rise <= allowed_.rise;
     }
 
     /// Every vertex a step in every direction: alone, and with its neighbours following.
@@ -194,6 +227,8 @@ class Descent {
     Slices slices_;
     Points points_;
     double value_ = none;
+    double least_theta_ = -none;
+    Shape allowed_{sharpest_kink, steepest_rise};
     std::int64_t analysed_ = 0;
 };
 
@@ -230,12 +265,13 @@ std::optional<Optimised> optimise(const Model& model, const Room& room, const Su
     const double start = descent.value();
     if (start == none) return std::nullopt;
     const Points fine = descent.points();
+    Slices slices = make_slices(model.strata, model.slices);
+    descent.hold_theta(analyse(model, descent.surface(), slices)->spencer.theta);
     descent.start(points_of(model.strata, circle, std::max(4, room.vertices / 2)));
     descent.settle();
     descent.refine_to(static_cast<std::size_t>(room.vertices));
     if (!(descent.value() < start)) descent.start(fine);
     descent.settle();
-    Slices slices = make_slices(model.strata, model.slices);
     auto best = analyse(model, descent.surface(), slices);
     if (!best) return std::nullopt;
     return Optimised{*best, start, descent.analysed()};
