@@ -235,6 +235,8 @@ process::Outcome run(process::Session& session) {
         result["given_polyline"] = given_polyline(scene, model);
     if (lem.non_circular && lem.non_circular->vertices > 0)
         result["non_circular"] = optimised_polyline(scene, model, found.critical->surface);
+    for (fault::Flag& each : flags_of_polyline(result.value("non_circular", json())))
+        session.flag(std::move(each));
     result["surfaces"] = facts_of(found.tally);
     result["surfaces_analysed"] = found.tally.analysed;
     write_surfaces(session, found.pairs, slices);

@@ -15,6 +15,9 @@ namespace {
 /// Ends of a given surface may be so far off the ground, of the model's height: drawings are.
 constexpr double loose_end = 2e-3;
 
+/// By less an optimised surface may always be lower than its circle.
+constexpr double telling_fall = 0.03;
+
 json facts_of(const Bent& bent) {
     json points = json::array();
     for (const scene::Vec2& p : bent.surface.points) points.push_back({p.x(), p.y()});
@@ -23,6 +26,7 @@ json facts_of(const Bent& bent) {
             {"interslice_inclination", bent.spencer.theta},
             {"least_m_alpha", bent.spencer.m_alpha},
             {"sliding_depth", bent.depth},
+            {"frictionless_share", bent.frictionless},
             {"points", points}};
 }
 
@@ -90,6 +94,20 @@ json optimised_polyline(const scene::Scene& scene, const Model& model, const Sur
     facts["start_factor_of_safety"] = found->start;
     facts["surfaces_analysed"] = found->analysed;
     return facts;
+}
+
+std::vector<fault::Flag> flags_of_polyline(const json& optimised) {
+    if (optimised.is_null() || optimised.at("frictionless_share") < 0.5) return {};
+    const double F = optimised.at("factor_of_safety");
+    const double start = optimised.at("start_factor_of_safety");
+    if (F > start * (1.0 - telling_fall)) return {};
+    std::ostringstream words;
+    words.precision(3);
+    words << "the optimised surface has a factor of safety of " << F << ", its circle " << start
+          << ": most of its base is without friction, where a kinked mass shears within itself and "
+             "Spencer's method does not see the strength that this takes; believe the circle";
+    return {{"kinked_without_friction", fault::Severity::warning, words.str(),
+             "/lem/non_circular/vertices"}};
 }
 
 }  // namespace breach::lem

@@ -17,4 +17,7 @@ nlohmann::json given_polyline(const scene::Scene& scene, const Model& model);
 nlohmann::json optimised_polyline(const scene::Scene& scene, const Model& model,
                                   const Surface& circle);
 
+/// What a reader of the optimised surface must know.
+std::vector<fault::Flag> flags_of_polyline(const nlohmann::json& optimised);
+
 }  // namespace breach::lem

@@ -105,6 +105,7 @@ class Descent {
           slices_(make_slices(model.strata, model.slices)) {}
 
     double value() const { return value_; }
+    double least_depth() const { return least_depth_; }
     std::int64_t analysed() const { return analysed_; }
     const Points& points() const { return points_; }
 
@@ -113,14 +114,19 @@ class Descent {
         points_ = points;
         const Shape shape = shape_of(points, upper_left_);
         allowed_ = {std::max(sharpest_kink, shape.kink), std::max(steepest_rise, shape.rise)};
+        // chords cut a little off the arc's depth
+        const auto found = analyse(model_, surface(), slices_);
+        least_depth_ = std::min(room_.minimum_depth, found ? found->depth : 0.0);
         value_ = factor_of(points_);
     }
 
     /// Interslice forces that lift the mass are no better than the circle's.
     void hold_theta(double of_circle) { least_theta_ = std::min(0.0, of_circle) - 1e-6; }
 
-    void refine_to(std::size_t count) {
+    /// More vertices on the same surface; it counts only if it is as deep as the finer start.
+    void refine_to(std::size_t count, double least_depth) {
         refine(points_, count);
+        least_depth_ = least_depth;
         value_ = factor_of(points_);
     }
 
@@ -146,7 +152,7 @@ class Descent {
         polyline.points = points;
         ++analysed_;
         const auto found = analyse(model_, polyline, slices_);
-        if (!found || found->depth < room_.minimum_depth) return none;
+        if (!found || found->depth < least_depth_ * (1.0 - 1e-9)) return none;
         if (found->spencer.m_alpha < model_.m_alpha.least) return none;
         if (found->spencer.theta < least_theta_) return none;
         return found->spencer.factor_of_safety;
@@ -228,9 +234,20 @@ class Descent {
     Points points_;
     double value_ = none;
     double least_theta_ = -none;
+    double least_depth_ = 0.0;
     Shape allowed_{sharpest_kink, steepest_rise};
     std::int64_t analysed_ = 0;
 };
+
+double frictionless_share(const Slices& slices) {
+    double all = 0.0;
+    double without = 0.0;
+    for (std::size_t i = 0; i < slices.count; ++i) {
+        all += slices.length[i];
+        if (slices.tan_phi[i] == 0.0) without += slices.length[i];
+    }
+    return without / all;
+}
 
 }  // namespace
 
@@ -242,7 +259,7 @@ std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices
     const auto found =
         spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h);
     if (!found) return std::nullopt;
-    return Bent{polyline, *found, slices.depth};
+    return Bent{polyline, *found, slices.depth, frictionless_share(slices)};
 }
 
 Room room_of(const scene::Lem& lem, const Strata& strata) {
@@ -265,11 +282,12 @@ std::optional<Optimised> optimise(const Model& model, const Room& room, const Su
     const double start = descent.value();
     if (start == none) return std::nullopt;
     const Points fine = descent.points();
+    const double depth = descent.least_depth();
     Slices slices = make_slices(model.strata, model.slices);
     descent.hold_theta(analyse(model, descent.surface(), slices)->spencer.theta);
     descent.start(points_of(model.strata, circle, std::max(4, room.vertices / 2)));
     descent.settle();
-    descent.refine_to(static_cast<std::size_t>(room.vertices));
+    descent.refine_to(static_cast<std::size_t>(room.vertices), depth);
     if (!(descent.value() < start)) descent.start(fine);
     descent.settle();
     auto best = analyse(model, descent.surface(), slices);

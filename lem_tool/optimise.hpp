@@ -15,7 +15,8 @@ namespace breach::lem {
 struct Bent {
     Polyline surface;
     Spencer spencer;
-    double depth;  ///< greatest vertical depth of the mass [m]
+    double depth;         ///< greatest vertical depth of the mass [m]
+    double frictionless;  ///< share of the base's length without friction [-]
 };
 
 /// Spencer's method on a given polyline; it slides towards its lower end. Empty where the polyline

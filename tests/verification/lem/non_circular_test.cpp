@@ -182,6 +182,16 @@ TEST(Optimised, IsConvexLowerThanItsCircleAndTheSameAgain) {
     EXPECT_NEAR(given(text), facts.at("factor_of_safety").get<double>(), 1e-9);
 }
 
+TEST(Optimised, IsAsDeepAsItsCircleHasToBe) {
+    // the critical circle lies on the edge of the least depth, its chords a little above it
+    json text = small::two_layers(small::some_search());
+    text["lem"]["search"]["minimum_depth"] = 9.0;
+    const json facts = optimised(text);
+    ASSERT_TRUE(facts.contains("factor_of_safety")) << facts.dump();
+    EXPECT_LT(facts.at("factor_of_safety"), facts.at("start_factor_of_safety"));
+    EXPECT_GE(facts.at("sliding_depth"), 9.0 * 0.98);
+}
+
 TEST(Optimised, DoesNotNeedTheSameVerticesForTheSameFactor) {
     const json text = small::two_layers(small::some_search());
     const double F = optimised(text, 13).at("factor_of_safety");
