@@ -10,6 +10,7 @@
 #include "core/exchange/archive.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/limit_scene.hpp"
+#include "lem_tool/non_circular.hpp"
 #include "lem_tool/search.hpp"
 #include "lem_tool/stages.hpp"
 #include "lem_tool/variation.hpp"
@@ -33,11 +34,22 @@ std::vector<double> first(const std::vector<double>& array, std::size_t count) {
     return {array.begin(), array.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
+void add_polylines(const json& result, exchange::Archive& archive) {
+    for (const char* name : {"given_polyline", "non_circular"}) {
+        if (!result.contains(name) || result.at(name).is_null()) continue;
+        for (const json& point : result.at(name).at("points")) {
+            archive.reals[std::string(name) + "_x"].push_back(point[0]);
+            archive.reals[std::string(name) + "_y"].push_back(point[1]);
+        }
+    }
+}
+
 void write_surfaces(process::Session& session, const std::vector<PairBest>& pairs,
                     const Slices& slices) {
     exchange::Archive archive;
     archive.kind = "lem_surfaces";
     auto& reals = archive.reals;
+    add_polylines(session.result(), archive);
     for (const PairBest& pair : pairs) {
         reals["pair_entry_x"].push_back(pair.entry);
         reals["pair_exit_x"].push_back(pair.exit);
@@ -119,6 +131,13 @@ void say(const json& result) {
                  place(result.at("circle").at("center")),
                  result.at("circle").at("radius").get<double>(), place(result.at("entry")),
                  place(result.at("exit")), place(result.at("lowest_point")));
+    for (const auto& [name, what] : {std::pair{"given_polyline",
+                                               "the given surface of straight "
+                                               "pieces"},
+                                     {"non_circular", "the optimised surface of straight pieces"}})
+        if (result.contains(name) && !result.at(name).is_null())
+            spdlog::info("{}: factor of safety {:.3f} (Spencer)", what,
+                         result.at(name).at("factor_of_safety").get<double>());
     if (!result.contains("stages")) return;
     for (const json& stage : result.at("stages"))
         spdlog::info("liquefied to {:.4g} m: factor of safety {:.3f}",
@@ -151,6 +170,9 @@ process::Plan plan(const scene::Scene& whole) {
         {"water", use(lem.water.has_value()),
          lem.water ? "hydrostatic below the line, free water above ground" : "no line is given",
          "/lem/water"},
+        {"piezometric lines", use(!lem.piezometric_lines.empty()),
+         std::to_string(lem.piezometric_lines.size()) + " lines for regions of their own",
+         "/lem/piezometric_lines"},
         {"pore pressure ratio", use(!lem.pore_pressure_ratios.empty()),
          std::to_string(lem.pore_pressure_ratios.size()) + " regions have one",
          "/lem/pore_pressure_ratios"},
@@ -159,6 +181,11 @@ process::Plan plan(const scene::Scene& whole) {
         {"tension crack", use(lem.tension_crack.has_value()),
          lem.tension_crack ? "surfaces end at its foot" : "no crack is given",
          "/lem/tension_crack"},
+        {"non-circular surfaces", use(lem.non_circular.has_value()),
+         lem.non_circular ? "straight pieces, by Spencer's method" : "circles only",
+         "/lem/non_circular"},
+        {"limit on m_alpha", use(lem.m_alpha.least > 0.0),
+         "surfaces below " + spelt("%.3g", lem.m_alpha.least) + " do not count", "/lem/m_alpha"},
         {"undrained strength", use(!lem.undrained.empty()),
          std::to_string(lem.undrained.size()) + " regions fail undrained", "/lem/undrained"},
         {"seismic coefficient", use(lem.seismic_coefficient > 0.0),
@@ -204,6 +231,12 @@ process::Outcome run(process::Session& session) {
         result.update(facts_of(model, *found.critical, slices));
         flag_edges(session, model.strata, *lem.search, result);
     }
+    if (lem.non_circular && !lem.non_circular->given.empty())
+        result["given_polyline"] = given_polyline(scene, model);
+    if (lem.non_circular && lem.non_circular->vertices > 0)
+        result["non_circular"] = optimised_polyline(scene, model, found.critical->surface);
+    for (fault::Flag& each : flags_of_polyline(result.value("non_circular", json())))
+        session.flag(std::move(each));
     result["surfaces"] = facts_of(found.tally);
     result["surfaces_analysed"] = found.tally.analysed;
     write_surfaces(session, found.pairs, slices);

@@ -41,13 +41,22 @@ std::string because(Cut cut) {
     return "cuts nothing off";
 }
 
-std::string because(Balance balance) {
-    switch (balance) {
+/// A small m_alpha is reported, not refused, unless the scene says otherwise: this circle was asked
+/// for.
+bool is_answer(const Bishop& result, const scene::MAlphaLimit& limit) {
+    return result.balance == Balance::found || (result.balance == Balance::small_m_alpha &&
+                                                limit.given_circle == scene::SmallMAlpha::answered);
+}
+
+std::string because(const Bishop& result, const scene::MAlphaLimit& limit) {
+    switch (result.balance) {
         case Balance::no_driving_moment:
             return "cuts off a mass that its weight does not drive";
         case Balance::not_converged:
             return "has a factor of safety on which the iteration does not settle";
         case Balance::small_m_alpha:
+            return "has a slice with m_alpha = " + std::to_string(result.m_alpha) +
+                   ", below /lem/m_alpha/least = " + std::to_string(limit.least);
         case Balance::found:
             break;
     }
@@ -78,7 +87,8 @@ json facts_of(const Model& model, const Critical& critical, Slices& slices) {
                {"ordinary", nullptr},
                {"spencer", nullptr}};
     if (const auto F = ordinary(slices, s.circle, slide, model.k_h)) {
-        facts["ordinary"] = {{"factor_of_safety", *F}};
+        facts["ordinary"] = {{"factor_of_safety", F->factor_of_safety},
+                             {"conventional", F->conventional}};
     }
     if (const auto rigorous = spencer(slices, s.circle, slide, model.k_h)) {
         facts["spencer"] = {{"factor_of_safety", rigorous->factor_of_safety},
@@ -103,10 +113,9 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
             why = because(verdict);
             continue;
         }
-        const Bishop result = bishop(slices, slide_of(slices), model.k_h);
-        // a small m_alpha is reported, not refused: this circle was asked for
-        if (result.balance != Balance::found && result.balance != Balance::small_m_alpha) {
-            why = because(result.balance);
+        const Bishop result = bishop(slices, slide_of(slices), model.k_h, model.m_alpha);
+        if (!is_answer(result, model.m_alpha)) {
+            why = because(result, model.m_alpha);
             continue;
         }
         if (!best || result.factor_of_safety < best->bishop.factor_of_safety) {

@@ -78,6 +78,14 @@ std::vector<scene::UndrainedRegion> entries_for(const std::vector<scene::Undrain
     return result;
 }
 
+/// Regions become their parts.
+void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
+    std::vector<std::size_t> parts;
+    for (const std::size_t region : regions)
+        parts.insert(parts.end(), places[region].begin(), places[region].end());
+    regions = std::move(parts);
+}
+
 }  // namespace
 
 scene::Scene limit_scene(const scene::Scene& scene) {
@@ -102,6 +110,8 @@ scene::Scene limit_scene(const scene::Scene& scene) {
                           "give levels within the region that do not overlap; a layer that is cut "
                           "by another's levels must name its own"}});
     }
+    if (lem.water) rename_regions(places, lem.water->regions);
+    for (scene::Water& each : lem.piezometric_lines) rename_regions(places, each.regions);
     lem.pore_pressure_ratios.clear();
     for (const scene::PorePressureRatio& each : scene.lem->pore_pressure_ratios) {
         for (const std::size_t place : places[each.region]) {

@@ -17,18 +17,23 @@ namespace {
 constexpr double none = std::numeric_limits<double>::infinity();
 constexpr std::size_t valleys_followed = 12;
 constexpr double least_gain = 1e-5;  // relative: a tenth of what 50 slices resolve
+constexpr double least_gain_polished = 1e-7;
 /// Flatter arcs are an infinite slope in all but name, and radii beyond 100 chords cost digits.
 constexpr double flattest = 1e-3;  // sagitta over chord
 
-/// A point of the search: entry and exit as shares of their ranges, depth either as a share of the
-/// deepest arc or as "touching this boundary". The latter follows the kink that a weak layer or a
-/// hard floor makes in F.
+/// How deep the arc between two ends is. Touching a boundary follows the kink that a weak layer or
+/// a hard floor makes in F; as shallow as minimum_depth allows, the edge on which soil without
+/// cohesion has its critical surface.
+enum class Sag { share_of_deepest, touching, shallowest };
+
+/// A point of the search: entry and exit as shares of their ranges, and the arc between them.
 struct Place {
     double entry;
     double exit;
-    double depth;
-    int touches = -1;  ///< index of a boundary line; -1: depth counts
-    int which = 0;     ///< which of the two touching circles
+    double depth;  ///< share of the deepest arc
+    Sag sag = Sag::share_of_deepest;
+    int line = 0;   ///< touching: index of a boundary line
+    int which = 0;  ///< touching: which of the two circles
 };
 
 /// All straight boundaries below ground, each once.
@@ -73,21 +78,18 @@ class Probe {
     double entry_of(const Place& place) const { return at(ranges_.entry, place.entry); }
     double exit_of(const Place& place) const { return at(ranges_.exit, place.exit); }
 
+    /// The best surface's place, its depth as a share: free to leave the boundary it was found on.
+    const Place& best_place() const { return best_place_; }
+
     /// F at a place, infinite where there is no valid surface.
     double try_at(const Place& place) {
         const auto ends = ends_of(place);
         if (!ends) return none;
-        double sagitta = place.depth * ends->largest_sagitta();
-        if (place.touches >= 0) {
-            const Touching circles = touching(*ends, boundaries_[place.touches]);
-            if (place.which >= circles.count) return none;
-            sagitta = circles.sagitta[place.which] * (1.0 - 1e-9);  // touches, does not cut
-        }
-        sagitta = std::max(sagitta, flattest * 2.0 * ends->half_chord());
         const bool to_left = entry_of(place) > exit_of(place);
-        const auto surface = with_crack(model_.strata, surface_through(*ends, sagitta),
-                                        to_left ? UpperEnd::right : UpperEnd::left);
-        if (!surface || cut(model_.strata, model_.soils, *surface, wanted_, slices_) != Cut::done) {
+        const double sagitta =
+            std::max(sagitta_at(place, *ends, to_left), flattest * 2.0 * ends->half_chord());
+        if (sagitta == none) return none;
+        if (!cut_at(*ends, sagitta, to_left)) {
             ++tally_.not_a_surface;
             return none;
         }
@@ -96,18 +98,54 @@ class Probe {
             return none;
         }
         const Bishop result =
-            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h);
+            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h, model_.m_alpha);
         if (result.balance != Balance::found) {
             ++tally_.no_answer;
             return none;
         }
         ++tally_.analysed;
-        last_ = {*surface, result};
-        if (!best_ || result.factor_of_safety < best_->bishop.factor_of_safety) best_ = last_;
+        last_ = {surface_, result};
+        if (!best_ || result.factor_of_safety < best_->bishop.factor_of_safety) {
+            best_ = last_;
+            best_place_ = {place.entry, place.exit, sagitta / ends->largest_sagitta()};
+        }
         return result.factor_of_safety;
     }
 
   private:
+    /// Cuts the mass on the arc between the ends into slices.
+    bool cut_at(const Ends& ends, double sagitta, bool to_left) {
+        const auto surface = with_crack(model_.strata, surface_through(ends, sagitta),
+                                        to_left ? UpperEnd::right : UpperEnd::left);
+        if (!surface) return false;
+        surface_ = *surface;
+        return cut(model_.strata, model_.soils, surface_, wanted_, slices_) == Cut::done;
+    }
+
+    /// Infinite where there is no such arc.
+    double sagitta_at(const Place& place, const Ends& ends, bool to_left) {
+        if (place.sag == Sag::share_of_deepest) return place.depth * ends.largest_sagitta();
+        if (place.sag == Sag::shallowest) return shallowest(ends, to_left);
+        const Touching circles = touching(ends, boundaries_[place.line]);
+        if (place.which >= circles.count) return none;
+        return circles.sagitta[place.which] * (1.0 - 1e-9);  // touches, does not cut
+    }
+
+    /// The arc whose mass is as deep as minimum_depth. Depth grows with the sagitta, nearly in
+    /// proportion.
+    double shallowest(const Ends& ends, bool to_left) {
+        const double wanted = ranges_.minimum_depth * (1.0 + 1e-9);
+        double sagitta = std::min(wanted, ends.largest_sagitta());
+        for (int n = 0; n < 8; ++n) {
+            if (!cut_at(ends, sagitta, to_left) || slices_.depth <= 0.0) return none;
+            if (slices_.depth >= ranges_.minimum_depth && slices_.depth <= wanted * (1.0 + 1e-6))
+                return sagitta;
+            sagitta *= wanted / slices_.depth;
+            if (sagitta > ends.largest_sagitta()) return none;
+        }
+        return none;
+    }
+
     static double at(const std::array<double, 2>& range, double share) {
         return range[0] + share * (range[1] - range[0]);
     }
@@ -130,8 +168,10 @@ class Probe {
     const std::vector<Line>& boundaries_;
     int wanted_;
     Slices slices_;
+    Surface surface_{};
     Critical last_{};
     std::optional<Critical> best_;
+    Place best_place_{};
     Tally tally_;
 };
 
@@ -149,8 +189,10 @@ class Search {
         std::vector<Probe> probes;
         probes.reserve(starts.size());
         for (std::size_t i = 0; i < starts.size(); ++i) probes.push_back(probe(model_.slices));
-        numerics::run_blocks(starts.size(), threads_,
-                             [&](std::size_t i) { follow(starts[i], probes[i]); });
+        numerics::run_blocks(starts.size(), threads_, [&](std::size_t i) {
+            follow(starts[i], probes[i], grid_step(), least_gain);
+        });
+        numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) { polish(probes[i]); });
         for (const Probe& each : probes) {
             result_.tally += each.tally();
             const bool lower =
@@ -203,8 +245,10 @@ class Search {
             consider({entry, exit, static_cast<double>(k) / ranges_.depths});
         }
         for (int line = 0; line < static_cast<int>(boundaries_.size()); ++line) {
-            for (int which = 0; which < 2; ++which) consider({entry, exit, 0.5, line, which});
+            for (int which = 0; which < 2; ++which)
+                consider({entry, exit, 0.5, Sag::touching, line, which});
         }
+        if (ranges_.minimum_depth > 0.0) consider({entry, exit, 0.5, Sag::shallowest});
         return pair;
     }
 
@@ -228,15 +272,31 @@ class Search {
         return starts;
     }
 
-    void follow(const Place& start, Probe& here) const {
-        const double depth_step = start.touches < 0 ? 1.0 / ranges_.depths : 0.0;
+    std::array<double, 3> grid_step() const {
+        return {1.0 / (ranges_.entry_points - 1), 1.0 / (ranges_.exit_points - 1),
+                1.0 / ranges_.depths};
+    }
+
+    void follow(const Place& start, Probe& here, std::array<double, 3> step, double gain) const {
+        if (start.sag != Sag::share_of_deepest) step[2] = 0.0;
         const auto value = [&](const std::array<double, 3>& at) {
-            return here.try_at({at[0], at[1], at[2], start.touches, start.which});
+            return here.try_at({at[0], at[1], at[2], start.sag, start.line, start.which});
         };
         const std::array<double, 3> at{start.entry, start.exit, start.depth};
-        descend(value, {at, value(at)},
-                {1.0 / (ranges_.entry_points - 1), 1.0 / (ranges_.exit_points - 1), depth_step},
-                least_gain);
+        descend(value, {at, value(at)}, step, gain);
+    }
+
+    /// From where a descent ended, in small steps, free of its boundary and along the edge of
+    /// minimum_depth: what a flat valley still holds.
+    void polish(Probe& here) const {
+        if (!here.best()) return;
+        std::array<double, 3> step = grid_step();
+        for (double& each : step) each *= 0.25;
+        follow(here.best_place(), here, step, least_gain_polished);
+        if (ranges_.minimum_depth <= 0.0) return;
+        Place edge = here.best_place();
+        edge.sag = Sag::shallowest;
+        follow(edge, here, step, least_gain_polished);
     }
 
     const Model& model_;

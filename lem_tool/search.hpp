@@ -18,6 +18,7 @@ struct Model {
     std::vector<Soil> soils;  ///< by region
     int slices;
     double k_h = 0.0;  ///< horizontal seismic coefficient [-]
+    scene::MAlphaLimit m_alpha{};
 };
 Model make_model(const scene::Scene& scene);
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/mechanics/atmosphere.hpp"
@@ -34,19 +35,25 @@ Meeting meet(const scene::Circle& circle, const Line& line, double from, double 
 
 /// Strength of a region as limit equilibrium sees it: c + coefficient (sigma'_v0 / p_a)^exponent.
 struct Soil {
-    double c;        ///< [Pa]
-    double tan_phi;  ///< [-]
-    double r_u;  ///< pore pressure over the soil's vertical stress, where no water line counts [-]
     enum class Passage {
         open,
         /// Closed: stronger than any surface (linear elastic)
         closed
-    } passage;
-    double coefficient = 0.0;  ///< undrained strength at sigma'_v0 = p_a [Pa]
-    double exponent = 1.0;     ///< [-]
+    };
+    double c;          ///< [Pa]
+    double tan_phi;    ///< [-]
+    double r_u = 0.0;  ///< u over the soil's vertical stress, where no water reaches [-]
+    Passage passage = Passage::open;
+    double coefficient = 0.0;           ///< undrained strength at sigma'_v0 = p_a [Pa]
+    double exponent = 1.0;              ///< [-]
+    std::optional<std::size_t> line{};  ///< whose water fills it, of Strata::lines; none: dry
 };
 
 inline constexpr double p_a = mechanics::standard_atmosphere;  // [Pa]
+
+/// What a slice stands on: the arc, square to its radius, or a straight piece (a floor, a polyline)
+/// that is not.
+enum class Base { arc, straight };
 
 /// Slices from left to right, one array per quantity; `resize`d once, then only `count` changes.
 struct Slices {
@@ -62,8 +69,12 @@ struct Slices {
     std::vector<double> u;            ///< pore pressure at the base [Pa]
     std::vector<double> soil_weight;  ///< the soil's part of it [N/m]
     std::vector<double> push;  ///< horizontal load of free water and line loads, to the left [N/m]
-    std::vector<double> driving;  ///< what the loads turn, over R: on the arc their moment about
-                                  ///< the centre, on a floor W h tan a and horizontal moments [N/m]
+    std::vector<double> water_push;  ///< the water's part of it [N/m]
+    std::vector<Base> stands_on;
+    std::vector<double>
+        driving;  ///< what the loads turn, over R: on the arc their moment about the
+                  ///< centre, on a straight base W h tan a and horizontal moments
+                  ///< [N/m]
     std::vector<double> shaking;  ///< moment of the soil's weight, put horizontal, over R [N/m]
     std::vector<double> lever;  ///< arm of the base's shear in Bishop's moment over R: 1 on the arc
     /// (c l cos a + (W - u l cos a) tan phi) lever: Bishop's numerator [N/m]
@@ -72,7 +83,7 @@ struct Slices {
     std::vector<double> tan_phi;    ///< [-]
     std::vector<double> crossings;  ///< scratch of the cutting
 
-    void reserve(std::size_t slices, std::size_t most_layers);
+    void reserve(std::size_t slices, std::size_t most_crossings);
     std::size_t capacity() const { return left.size(); }
 };
 

@@ -55,16 +55,18 @@ double base_level(const Strata& strata, const Surface& surface, double x) {
 }
 
 std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, UpperEnd upper) {
-    if (strata.crack.depth == 0.0) return surface;
+    if (strata.crack.reach == Crack::Reach::none) return surface;
     const bool from_left = upper == UpperEnd::left;
     std::size_t i = strip_at(strata, from_left ? surface.left : surface.right);
     while (true) {
         const Strip& strip = strata.strips[i];
         const double low = std::max(strip.from, surface.left);
         const double high = std::min(strip.to, surface.right);
-        const Line feet{strata.ground(strip).level - strata.crack.depth,
-                        strata.ground(strip).slope};
+        const Line feet = strata.crack_foot(strip);
         const double start = from_left ? low : high;
+        const bool at_end = start == (from_left ? surface.left : surface.right);
+        if (at_end && high > low && feet.at(start) >= strata.ground(strip).at(start))
+            return surface;
         std::optional<double> found;
         if (high > low && surface.level(start) <= feet.at(start)) found = start;
         const Meeting meeting = meet(surface.circle, feet, low, high);

@@ -10,14 +10,20 @@ namespace {
 
 /// A slice turned so that the mass slides to the left.
 struct Block {
-    double alpha;  ///< base inclination, positive where the base falls with the slide [rad]
+    double sin_a;  ///< base inclination, positive where the base falls with the slide [-]
+    double cos_a;  ///< [-]
     double V;      ///< vertical load [N/m]
     double H;      ///< horizontal load towards the slide [N/m]
+    double H_dry;  ///< without the water's part [N/m]
     double r;      ///< arm of the shear about the centre over R [-]
     double f;      ///< arm of the normal force over R [-]
     double c_l;    ///< [N/m]
     double u_l;    ///< [N/m]
+    double u_b;    ///< [N/m]
     double tan_phi;
+    double normal;      ///< across the base without interslice forces [N/m]
+    double along;       ///< and along it, down [N/m]
+    double resistance;  ///< c l + (normal - u l) tan phi [N/m]
 };
 
 struct Mass {
@@ -28,13 +34,14 @@ struct Mass {
 Mass mass_of(const Slices& slices, const scene::Circle& circle, Slide slide, double k_h) {
     const double sense = slide == Slide::to_left ? 1.0 : -1.0;
     Mass mass;
+    mass.blocks.reserve(slices.count);
     for (std::size_t i = 0; i < slices.count; ++i) {
         const double sin_a = sense * slices.sin_a[i];
         const double cos_a = slices.cos_a[i];
         double r = 1.0;
         double f = 0.0;
         double driving = sense * slices.driving[i] + k_h * slices.shaking[i];
-        if (slices.lever[i] != 1.0) {  // on a floor: the loads' own moment, see cut()
+        if (slices.stands_on[i] == Base::straight) {  // the loads' own moment, see cut()
             const double d = sense * (slices.left[i] + 0.5 * slices.width[i] - circle.center.x()) /
                              circle.radius;
             const double h = (circle.center.y() - slices.base[i]) / circle.radius;
@@ -43,91 +50,145 @@ Mass mass_of(const Slices& slices, const scene::Circle& circle, Slide slide, dou
             driving += slices.weight[i] * (d - h * sin_a / cos_a);
         }
         mass.driving += driving;
-        mass.blocks.push_back({std::atan2(sin_a, cos_a), slices.weight[i],
-                               sense * slices.push[i] + k_h * slices.soil_weight[i], r, f,
-                               slices.c[i] * slices.length[i], slices.u[i] * slices.length[i],
-                               slices.tan_phi[i]});
+        const double V = slices.weight[i];
+        const double H = sense * slices.push[i] + k_h * slices.soil_weight[i];
+        const double u_l = slices.u[i] * slices.length[i];
+        const double c_l = slices.c[i] * slices.length[i];
+        const double normal = V * cos_a - H * sin_a;
+        mass.blocks.push_back({sin_a, cos_a, V, H, H - sense * slices.water_push[i], r, f, c_l, u_l,
+                               slices.u[i] * slices.width[i], slices.tan_phi[i], normal,
+                               V * sin_a + H * cos_a, c_l + (normal - u_l) * slices.tan_phi[i]});
     }
     return mass;
 }
 
+/// All interslice forces have this direction.
+struct Direction {
+    explicit Direction(double theta) : sine(std::sin(theta)), cosine(std::cos(theta)) {}
+    double sine;
+    double cosine;
+    double cos_turn(const Block& b) const { return b.cos_a * cosine + b.sin_a * sine; }
+    double sin_turn(const Block& b) const { return b.sin_a * cosine - b.cos_a * sine; }
+};
+
 /// Resultant of the interslice forces on a block, inclined by theta, for equilibrium along and
 /// across its base.
-double resultant(const Block& b, double F, double theta) {
-    const double turn = b.alpha - theta;
-    const double normal = b.V * std::cos(b.alpha) - b.H * std::sin(b.alpha);
-    const double along = b.V * std::sin(b.alpha) + b.H * std::cos(b.alpha);
-    return (along - (b.c_l + (normal - b.u_l) * b.tan_phi) / F) /
-           (std::cos(turn) + std::sin(turn) * b.tan_phi / F);
+double resultant(const Block& b, double F, const Direction& theta) {
+    return (F * b.along - b.resistance) / (F * theta.cos_turn(b) + theta.sin_turn(b) * b.tan_phi);
 }
 
-double sum_of_resultants(const Mass& mass, double F, double theta) {
-    double sum = 0.0;
-    for (const Block& b : mass.blocks) sum += resultant(b, F, theta);
+/// The sum of the resultants, and its derivative to F.
+struct Sum {
+    double value = 0.0;
+    double slope = 0.0;
+};
+
+Sum sum_of_resultants(const Mass& mass, double F, const Direction& theta) {
+    Sum sum;
+    for (const Block& b : mass.blocks) {
+        const double turn = theta.cos_turn(b);
+        const double inverse = 1.0 / (F * turn + theta.sin_turn(b) * b.tan_phi);
+        const double Q = (F * b.along - b.resistance) * inverse;
+        sum.value += Q;
+        sum.slope += (b.along - Q * turn) * inverse;
+    }
     return sum;
 }
 
 /// F at which the resultants sum to zero; the sum grows with F above the last pole.
-std::optional<double> force_balance(const Mass& mass, double theta) {
+std::optional<double> force_balance(const Mass& mass, const Direction& theta) {
     double low = 1e-6;
     for (const Block& b : mass.blocks) {
-        const double turn = b.alpha - theta;
-        if (std::cos(turn) <= 1e-3) return std::nullopt;
-        low = std::max(low, -std::tan(turn) * b.tan_phi * (1.0 + 1e-9));
+        const double cos_turn = theta.cos_turn(b);
+        if (cos_turn <= 1e-3) return std::nullopt;
+        low = std::max(low, -theta.sin_turn(b) / cos_turn * b.tan_phi * (1.0 + 1e-9));
     }
     double high = 2.0 * low + 1.0;
-    while (sum_of_resultants(mass, high, theta) <= 0.0) {
+    while (sum_of_resultants(mass, high, theta).value <= 0.0) {
         high *= 2.0;
         if (high > 1e6) return std::nullopt;
     }
-    if (sum_of_resultants(mass, low * (1.0 + 1e-6), theta) >= 0.0) return std::nullopt;
+    if (sum_of_resultants(mass, low * (1.0 + 1e-6), theta).value >= 0.0) return std::nullopt;
+    double F = high;
     for (int n = 0; n < 200 && high - low > 1e-13 * high; ++n) {
-        const double F = 0.5 * (low + high);
-        (sum_of_resultants(mass, F, theta) > 0.0 ? high : low) = F;
+        const Sum sum = sum_of_resultants(mass, F, theta);
+        (sum.value > 0.0 ? high : low) = F;
+        const double newton = F - sum.value / sum.slope;
+        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+        if (std::abs(next - F) <= 1e-13 * F) return next;
+        F = next;
     }
-    return 0.5 * (low + high);
+    return F;
 }
 
 /// Moment about the centre that is left over when the forces balance.
-std::optional<double> moment_left(const Mass& mass, double theta) {
+std::optional<double> moment_left(const Mass& mass, double inclination) {
+    const Direction theta(inclination);
     const auto F = force_balance(mass, theta);
     if (!F) return std::nullopt;
     double left = mass.driving;
     for (const Block& b : mass.blocks) {
         const double Q = resultant(b, *F, theta);
-        const double S =
-            b.V * std::sin(b.alpha) + b.H * std::cos(b.alpha) - Q * std::cos(b.alpha - theta);
-        const double N =
-            b.V * std::cos(b.alpha) - b.H * std::sin(b.alpha) + Q * std::sin(b.alpha - theta);
+        const double S = b.along - Q * theta.cos_turn(b);
+        const double N = b.normal + Q * theta.sin_turn(b);
         left -= S * b.r + N * b.f;
     }
     return left;
 }
 
-double bisected(const Mass& mass, double low, double high, double at_low) {
-    for (int n = 0; n < 60 && high - low > 1e-13; ++n) {
-        const double theta = 0.5 * (low + high);
+/// The inclination without a moment left between two with opposite ones. False position with the
+/// weight of an end halved that stays twice (Illinois).
+double balanced(const Mass& mass, double a, double at_a, double b, double at_b) {
+    for (int n = 0; n < 60 && std::abs(b - a) > 1e-12; ++n) {
+        const double theta = (a * at_b - b * at_a) / (at_b - at_a);
         const auto left = moment_left(mass, theta);
-        if (!left) break;
-        (*left > 0.0) == (at_low > 0.0) ? low = theta : high = theta;
+        if (!left || *left == 0.0) return theta;
+        if ((*left > 0.0) != (at_b > 0.0)) {
+            a = b;
+            at_a = at_b;
+        } else {
+            at_a *= 0.5;
+        }
+        if (std::abs(theta - b) <= 1e-12) return theta;
+        b = theta;
+        at_b = *left;
     }
-    return 0.5 * (low + high);
+    return b;
+}
+
+std::optional<Spencer> answer(const Mass& mass, double inclination) {
+    const Direction theta(inclination);
+    const auto F = force_balance(mass, theta);
+    if (!F) return std::nullopt;
+    double m_alpha = 1.0;
+    for (const Block& b : mass.blocks) {
+        if (b.tan_phi == 0.0) continue;
+        m_alpha = std::min(m_alpha, theta.cos_turn(b) + theta.sin_turn(b) * b.tan_phi / *F);
+    }
+    return Spencer{*F, inclination, m_alpha};
 }
 
 }  // namespace
 
-std::optional<double> ordinary(const Slices& slices, const scene::Circle& circle, Slide slide,
-                               double k_h) {
+std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circle, Slide slide,
+                                 double k_h) {
     const Mass mass = mass_of(slices, circle, slide, k_h);
-    double resisting = 0.0;
-    double driving = mass.driving;
-    for (const Block& b : mass.blocks) {
-        const double N = b.V * std::cos(b.alpha) - b.H * std::sin(b.alpha);
-        resisting += (b.c_l + (N - b.u_l) * b.tan_phi) * b.r;
-        driving -= N * b.f;
-    }
-    if (driving <= 0.0) return std::nullopt;
-    return resisting / driving;
+    const auto factor = [&](const auto& effective_normal) -> std::optional<double> {
+        double resisting = 0.0;
+        double driving = mass.driving;
+        for (const Block& b : mass.blocks) {
+            const double N = effective_normal(b);
+            resisting += (b.c_l + N * b.tan_phi) * b.r;
+            driving -= (N + b.u_l) * b.f;
+        }
+        if (driving <= 0.0) return std::nullopt;
+        return resisting / driving;
+    };
+    const auto F =
+        factor([](const Block& b) { return (b.V - b.u_b) * b.cos_a - b.H_dry * b.sin_a; });
+    const auto conventional = factor([](const Block& b) { return b.normal - b.u_l; });
+    if (!F || !conventional) return std::nullopt;
+    return Ordinary{*F, *conventional};
 }
 
 std::optional<Spencer> spencer(const Slices& slices, const scene::Circle& circle, Slide slide,
@@ -144,11 +205,7 @@ std::optional<Spencer> spencer(const Slices& slices, const scene::Circle& circle
             const auto then = moment_left(mass, next);
             if (!then) break;
             if ((*left > 0.0) != (*then > 0.0)) {
-                const double low = std::min(theta, next);
-                const double found = bisected(mass, low, low + step, sense > 0.0 ? *left : *then);
-                const auto F = force_balance(mass, found);
-                if (!F) return std::nullopt;
-                return Spencer{*F, found};
+                return answer(mass, balanced(mass, theta, *left, next, *then));
             }
             theta = next;
             left = then;

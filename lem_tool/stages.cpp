@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "lem_tool/facts.hpp"
+#include "lem_tool/non_circular.hpp"
 
 namespace breach::lem {
 
@@ -63,6 +64,8 @@ void add_stages(const scene::Scene& scene, const Model& sound, const SearchResul
         stage["liquefied_depth"] =
             count == 0 ? 0.0 : top - bottom_of(regions[layers[count - 1].region]);
         stage["lowest_point_depth"] = top - stage.at("lowest_point")[1].get<double>();
+        if (scene.lem->non_circular && scene.lem->non_circular->vertices > 0)
+            stage["non_circular"] = optimised_polyline(scene, model, found.critical->surface);
         analysed += found.tally.analysed;
         stages.push_back(stage);
     }

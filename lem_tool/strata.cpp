@@ -56,6 +56,15 @@ std::vector<double> breaks_of(const Path& line, const scene::Section& section) {
     return xs;
 }
 
+/// All phreatic lines, from side to side.
+std::vector<Path> water_paths(const scene::Lem& lem, double from, double to) {
+    std::vector<Path> paths;
+    if (lem.water) paths.push_back(prolonged(lem.water->line, from, to));
+    for (const scene::Water& each : lem.piezometric_lines)
+        paths.push_back(prolonged(each.line, from, to));
+    return paths;
+}
+
 /// Abscissae between which everything is straight.
 std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
     const scene::Section& section = scene.section;
@@ -77,20 +86,23 @@ std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
         if (x > from && x < to) xs.push_back(x);
     };
     extent = {to - from, high - low};
-    Path water;
-    if (lem.water) {
-        water = prolonged(lem.water->line, from, to);
+    const std::vector<Path> waters = water_paths(lem, from, to);
+    for (const Path& water : waters) {
         for (const double x : breaks_of(water, section)) add(x);
     }
     if (!lem.floor.empty()) {
         const Path floor = prolonged(lem.floor, from, to);
         std::vector<double> breaks = breaks_of(floor, section);
-        add_crossings(floor, water, breaks);
+        for (const Path& water : waters) add_crossings(floor, water, breaks);
         for (const double x : breaks) add(x);
     }
     for (const scene::Surcharge& load : lem.surcharge) {
         add(load.from);
         add(load.to);
+    }
+    if (lem.tension_crack && lem.tension_crack->level) {
+        const double level = *lem.tension_crack->level;
+        for (const double x : breaks_of({{from, level}, {to, level}}, section)) add(x);
     }
     if (lem.search && lem.search->lowest_level) {
         const double level = *lem.search->lowest_level;
@@ -151,15 +163,31 @@ Line water_over(const scene::Lem& lem, double middle) {
     return lem.water ? part_over(lem.water->line, middle) : nowhere;
 }
 
-/// gamma_w, times cos^2 of a phreatic line's inclination where the scene says so. A free surface is
-/// level and has no correction.
-double gamma_u_of(const scene::Scene& scene, const Line& water, const Line& ground, double middle) {
+/// cos^2 of the line's inclination, where the scene asks for it, on the depth below line and ground
+/// alike: a line on the ground (a seepage face) is corrected whichever of the two a rounding puts
+/// on top. What stands above the ground is free water.
+PorePressure pressure_below(const Line& line, const Line& ground, double gamma_w, double middle,
+                            scene::PhreaticCorrection correction) {
+    const bool corrected = correction == scene::PhreaticCorrection::cos2;
+    const double gamma = corrected ? gamma_w / (1.0 + line.slope * line.slope) : gamma_w;
+    if (line.at(middle) <= ground.at(middle)) return {line, {0.0, 0.0}, gamma};
+    return {ground,
+            {gamma_w * (line.level - ground.level), gamma_w * (line.slope - ground.slope)},
+            gamma};
+}
+
+/// One for each phreatic line of the scene. A piezometric line is no free water: it is hydrostatic
+/// from its own level down.
+void add_pressures(const scene::Scene& scene, const Line& ground, double middle, Strata& strata) {
     const scene::Lem& lem = scene::lem_of(scene);
-    if (!lem.water) return 0.0;
-    const double gamma_w = lem.water->density * scene.gravity;
-    const bool corrected = lem.water->correction == scene::PhreaticCorrection::cos2 &&
-                           water.at(middle) < ground.at(middle);
-    return corrected ? gamma_w / (1.0 + water.slope * water.slope) : gamma_w;
+    const auto add = [&](const scene::Water& water, bool stands_free) {
+        const Line line = part_over(water.line, middle);
+        strata.pressures.push_back(pressure_below(line, stands_free ? ground : line,
+                                                  water.density * scene.gravity, middle,
+                                                  water.correction));
+    };
+    if (lem.water) add(*lem.water, true);
+    for (const scene::Water& each : lem.piezometric_lines) add(each, false);
 }
 
 double surcharge_on(const scene::Lem& lem, double middle) {
@@ -191,7 +219,6 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
         return p.top.at(middle) > q.top.at(middle);
     });
     const scene::Lem& lem = scene::lem_of(scene);
-    const Line water = water_over(lem, middle);
     Line bottom = pieces.back().bottom;
     if (lem.search && lem.search->lowest_level && *lem.search->lowest_level > bottom.at(middle)) {
         bottom = {*lem.search->lowest_level, 0.0};
@@ -202,9 +229,10 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
                 0,
                 bottom,
                 part_over(lem.floor, middle),
-                water,
-                gamma_u_of(scene, water, pieces.front().top, middle),
-                surcharge_on(lem, middle)};
+                water_over(lem, middle),
+                surcharge_on(lem, middle),
+                strata.pressures.size()};
+    add_pressures(scene, pieces.front().top, middle, strata);
     Line weight{0.0, 0.0};
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
@@ -236,17 +264,35 @@ void add_loads(const scene::Scene& scene, const Extent& extent, Strata& strata) 
         const Thrust push =
             thrust(strata.gamma_w, water, std::min(left, right), std::max(left, right));
         if (push.force > 0.0) {
-            strata.loads.push_back({x, push.level, 0.0, faces_left ? -push.force : push.force});
+            strata.loads.push_back(
+                {x, push.level, 0.0, faces_left ? -push.force : push.force, PointLoad::Of::water});
         }
     }
     for (const scene::LineLoad& load : scene::lem_of(scene).line_loads) {
         const double level = std::max(ground_level(strata, load.x, From::left),
                                       ground_level(strata, load.x, From::right));
-        strata.loads.push_back({load.x, level, load.down, -load.right});
+        strata.loads.push_back({load.x, level, load.down, -load.right, PointLoad::Of::line_load});
     }
 }
 
+Crack crack_of(const scene::Scene& scene) {
+    const scene::Lem& lem = scene::lem_of(scene);
+    if (!lem.tension_crack) return {};
+    const auto& [depth, level, filled] = *lem.tension_crack;
+    const double gamma_w = (lem.water ? lem.water->density : 1000.0) * scene.gravity;
+    if (depth) return {Crack::Reach::depth, *depth, filled, gamma_w};
+    return {Crack::Reach::level, *level, filled, gamma_w};
+}
+
 }  // namespace
+
+Line Strata::crack_foot(const Strip& strip) const {
+    const Line& top = ground(strip);
+    if (crack.reach == Crack::Reach::none) return top;
+    if (crack.reach == Crack::Reach::depth) return {top.level - crack.foot, top.slope};
+    // strips end where the level meets the ground: one of the two is lower all over
+    return top.at(0.5 * (strip.from + strip.to)) > crack.foot ? Line{crack.foot, 0.0} : top;
+}
 
 Thrust thrust(double gamma_w, double water, double low, double high) {
     if (!(water > low) || !(high > low)) return {0.0, low};
@@ -265,13 +311,11 @@ Strata make_strata(const scene::Scene& scene) {
     Strata strata;
     const scene::Lem& lem = scene::lem_of(scene);
     if (lem.water) strata.gamma_w = lem.water->density * scene.gravity;
+    strata.lines = (lem.water ? 1 : 0) + lem.piezometric_lines.size();
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
         add_strip(scene, borders[i], borders[i + 1], extent, strata);
     }
-    if (lem.tension_crack) {
-        const double gamma_w = (lem.water ? lem.water->density : 1000.0) * scene.gravity;
-        strata.crack = {lem.tension_crack->depth, lem.tension_crack->filled, gamma_w};
-    }
+    strata.crack = crack_of(scene);
     add_loads(scene, extent, strata);
     return strata;
 }

@@ -30,38 +30,59 @@ struct Strip {
     double to;          ///< [m]
     std::size_t first;  ///< layers first .. last - 1, from the ground down
     std::size_t last;
-    Line bottom;  ///< lower border of the model, or lowest level of the search if higher [m]
-    Line floor;   ///< no surface goes below; -inf: none [m]
-    Line water;  ///< phreatic level, or the free water's where it lies above ground; -inf: none [m]
-    double gamma_u;    ///< pore pressure per depth below the water line [N/m3]
+    Line bottom;       ///< lower border of the model, or lowest level of the search if higher [m]
+    Line floor;        ///< no surface goes below; -inf: none [m]
+    Line water;        ///< level of /lem/water, below ground or free above it; -inf: none [m]
     double surcharge;  ///< vertical pressure on the ground [Pa]
+    std::size_t pressures;  ///< its first one in Strata::pressures
+};
+
+/// Pore pressure of one phreatic line within a strip: at_top + gamma (top - y) below `top`, none
+/// above it. Free water stands on the ground, so that `top` is the ground there.
+struct PorePressure {
+    Line top;      ///< [m]
+    Line at_top;   ///< [Pa]
+    double gamma;  ///< increase with depth [N/m3]
+
+    double at(double x, double y) const {
+        const double below = top.at(x) - y;
+        return below > 0.0 ? at_top.at(x) + gamma * below : 0.0;
+    }
 };
 
 /// A force on one vertical: a line load on the ground, or free water against a vertical face.
 struct PointLoad {
+    enum class Of { line_load, water };
     double x;      ///< [m]
     double level;  ///< [m]
     double down;   ///< [N/m]
     double left;   ///< towards the left [N/m]
+    Of of;
 };
 
 /// Vertical crack at the upper end of every surface.
 struct Crack {
-    double depth = 0.0;    ///< below ground; 0: none [m]
-    double filled = 0.0;   ///< share of the depth under water [-]
+    enum class Reach { none, depth, level };
+    Reach reach = Reach::none;
+    double foot = 0.0;     ///< depth below ground, or level [m]
+    double filled = 0.0;   ///< share of its height under water [-]
     double gamma_w = 0.0;  ///< [N/m3]
 };
 
 struct Strata {
     std::vector<Strip> strips;  ///< left to right, without gaps
     std::vector<Layer> layers;
+    std::vector<PorePressure> pressures;  ///< `lines` of each strip: /lem/water, piezometric_lines
+    std::size_t lines = 0;
     std::vector<PointLoad> loads;
     Crack crack;
-    double gamma_w = 0.0;  ///< unit weight of water [N/m3]; 0 in a scene without water
+    double gamma_w = 0.0;  ///< unit weight of free water [N/m3]; 0 in a scene without /lem/water
 
     double left() const { return strips.front().from; }
     double right() const { return strips.back().to; }
     const Line& ground(const Strip& strip) const { return layers[strip.first].top; }
+    /// Where a crack would end; the ground where it does not reach below it.
+    Line crack_foot(const Strip& strip) const;
 };
 
 /// Water at rest against a vertical face between `low` and `high`.

@@ -96,7 +96,7 @@ class Variations {
         }
         Slices slices = make_slices(model.strata, model.slices);
         cut(model.strata, model.soils, base_.surface, model.slices, slices);
-        const Bishop result = bishop(slices, slide_, model.k_h);
+        const Bishop result = bishop(slices, slide_, model.k_h, model.m_alpha);
         const bool answered =
             result.balance == Balance::found || result.balance == Balance::small_m_alpha;
         return answered ? result.factor_of_safety : stable;

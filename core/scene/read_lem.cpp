@@ -1,4 +1,6 @@
 // What lem_tool does with the scene: /lem.
+#include <algorithm>
+
 #include "core/scene/checks.hpp"
 
 namespace breach::scene {
@@ -43,11 +45,84 @@ void read_loads(Reader& reader, const Scene& scene, const json& lem, Lem& result
         const auto region = region_named(reader, scene, each.at("region"), pointer);
         if (region) result.pore_pressure_ratios.push_back({*region, each.at("r_u")});
     }
-    if (lem.contains("water")) {
-        const json& water = lem.at("water");
-        result.water = Water{line_from(reader, water.at("line"), "/lem/water/line"),
-                             water.at("density"), word_at<PhreaticCorrection>(water, "correction")};
+}
+
+Water water_from(Reader& reader, const Scene& scene, const json& water,
+                 const std::string& pointer) {
+    Water result{
+        line_from(reader, water.at("line"), pointer + "/line"),
+        water.at("density"),
+        word_at<PhreaticCorrection>(water, "correction"),
+        {}};
+    if (!water.contains("regions")) return result;
+    for (std::size_t i = 0; i < water.at("regions").size(); ++i) {
+        const auto region = region_named(reader, scene, water.at("regions")[i],
+                                         pointer + "/regions/" + std::to_string(i));
+        if (region) result.regions.push_back(*region);
     }
+    return result;
+}
+
+/// A region has one phreatic line.
+void check_lines(Reader& reader, const Lem& lem) {
+    std::vector<std::size_t> named;
+    const auto check = [&](const Water& water, const std::string& pointer) {
+        for (std::size_t i = 0; i < water.regions.size(); ++i) {
+            if (std::find(named.begin(), named.end(), water.regions[i]) != named.end())
+                reader.add(pointer + "/regions/" + std::to_string(i), "is named twice",
+                           "give every region one line");
+            named.push_back(water.regions[i]);
+        }
+    };
+    if (lem.water) check(*lem.water, "/lem/water");
+    for (std::size_t i = 0; i < lem.piezometric_lines.size(); ++i)
+        check(lem.piezometric_lines[i], "/lem/piezometric_lines/" + std::to_string(i));
+}
+
+void read_water(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
+    if (lem.contains("water"))
+        result.water = water_from(reader, scene, lem.at("water"), "/lem/water");
+    for (const json& line : lem.at("piezometric_lines")) {
+        const std::string pointer =
+            "/lem/piezometric_lines/" + std::to_string(result.piezometric_lines.size());
+        result.piezometric_lines.push_back(water_from(reader, scene, line, pointer));
+    }
+    check_lines(reader, result);
+}
+
+std::optional<double> number_in(const json& part, const char* key) {
+    if (!part.contains(key)) return std::nullopt;
+    return part.at(key).get<double>();
+}
+
+TensionCrack crack_from(Reader& reader, const json& crack) {
+    TensionCrack result{number_in(crack, "depth"), number_in(crack, "level"), crack.at("filled")};
+    if (result.depth.has_value() == result.level.has_value())
+        reader.add("/lem/tension_crack",
+                   result.depth ? "has a depth and a level" : "has neither a depth nor a level",
+                   "give one of them");
+    return result;
+}
+
+MAlphaLimit m_alpha_from(const json& limit) {
+    return {
+        limit.at("least"),
+        limit.at("slices") == "all" ? MAlphaSlices::all : MAlphaSlices::frictional,
+        limit.at("given_circle") == "refused" ? SmallMAlpha::refused : SmallMAlpha::answered,
+    };
+}
+
+NonCircular non_circular_from(Reader& reader, const json& part) {
+    NonCircular result{{}, part.at("vertices")};
+    const std::string pointer = "/lem/non_circular";
+    if (part.contains("given"))
+        result.given = line_from(reader, part.at("given"), pointer + "/given");
+    if (result.vertices > 0 && result.vertices < 4)
+        reader.add(pointer + "/vertices", "are too few for a surface that can bend",
+                   "give 4 or more, or 0 to optimise nothing");
+    if (result.given.empty() && result.vertices == 0)
+        reader.add(pointer, "has neither a given surface nor vertices", "give one of them");
+    return result;
 }
 
 /// Where the entry of /lem/<list> keeps the parts of its strength.
@@ -194,11 +269,14 @@ void read_lem(Reader& reader, Scene& scene) {
     result.slices = lem.at("slices");
     result.seismic_coefficient = lem.at("seismic_coefficient");
     read_loads(reader, scene, lem, result);
+    read_water(reader, scene, lem, result);
     if (lem.contains("floor")) result.floor = line_from(reader, lem.at("floor"), "/lem/floor");
     if (lem.contains("tension_crack")) {
-        result.tension_crack =
-            TensionCrack{lem.at("tension_crack").at("depth"), lem.at("tension_crack").at("filled")};
+        result.tension_crack = crack_from(reader, lem.at("tension_crack"));
     }
+    result.m_alpha = m_alpha_from(lem.at("m_alpha"));
+    if (lem.contains("non_circular"))
+        result.non_circular = non_circular_from(reader, lem.at("non_circular"));
     result.undrained = undrained_from(reader, scene, lem,
                                       {"undrained", "strength_kPa", "coefficient_kPa", "exponent"});
     result.liquefaction = undrained_from(

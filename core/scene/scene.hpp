@@ -83,10 +83,28 @@ struct SlipSearch {
     std::optional<double> lowest_level{};  ///< no surface reaches below [m]
 };
 
-/// Vertical crack at the upper end of every surface.
+/// Vertical crack at the upper end of every surface: as deep as `depth`, or down to `level`.
 struct TensionCrack {
-    double depth;   ///< below ground [m]
-    double filled;  ///< share of the depth under water [-]
+    std::optional<double> depth;  ///< below ground [m]
+    std::optional<double> level;  ///< y of its foot [m]
+    double filled;                ///< share of its height under water [-]
+};
+
+/// Which slices the limit on m_alpha is about, and what becomes of a given circle below it.
+enum class MAlphaSlices { frictional, all };
+enum class SmallMAlpha { answered, refused };
+
+/// m_alpha = cos a + sin a tan phi / F of a slice must not be below `least`.
+struct MAlphaLimit {
+    double least = 0.2;  ///< Whitman & Bailey (1967) [-]
+    MAlphaSlices slices = MAlphaSlices::frictional;
+    SmallMAlpha given_circle = SmallMAlpha::answered;
+};
+
+/// Surfaces of straight pieces, by Spencer's method.
+struct NonCircular {
+    std::vector<Vec2> given;  ///< ascending in x; empty: none [m]
+    int vertices;             ///< of the optimised surface; 0: nothing is optimised
 };
 
 /// u below the phreatic line: gamma_w times the depth, or that times cos^2 of its inclination.
@@ -97,6 +115,8 @@ struct Water {
     std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
     double density;          ///< [kg/m3]
     PhreaticCorrection correction;
+    std::vector<std::size_t> regions;  ///< whose pores it fills, indices into the section's; empty:
+                                       ///< all that no other line names
 };
 
 struct PorePressureRatio {
@@ -171,12 +191,15 @@ struct Lem {
     std::optional<SlipSearch> search;
     int slices;
     std::optional<Water> water;
+    std::vector<Water> piezometric_lines;  ///< pore pressure of their regions; never free water
     std::vector<PorePressureRatio> pore_pressure_ratios;
     double seismic_coefficient;  ///< k_h, towards the slide [-]
     std::vector<Surcharge> surcharge;
     std::vector<LineLoad> line_loads;
     std::vector<Vec2> floor;  ///< ascending in x, level beyond its ends; empty: none [m]
     std::optional<TensionCrack> tension_crack;
+    MAlphaLimit m_alpha;
+    std::optional<NonCircular> non_circular;
     std::vector<UndrainedRegion> undrained;
     std::vector<UndrainedRegion> liquefaction;  ///< from the top down, one more per stage
     std::optional<Sensitivity> sensitivity;

@@ -47,6 +47,22 @@ Series arc(const json& facts, const std::string& name) {
     return s;
 }
 
+/// The optimised surface of straight pieces, where there is one.
+void add_polyline(const json& facts, const std::string& name, Chart& chart) {
+    const json polyline = facts.value("non_circular", json());
+    if (polyline.is_null()) return;
+    Series s{
+        name + ", FS " +
+            short_number(std::round(1e3 * polyline.at("factor_of_safety").get<double>()) / 1e3),
+        {},
+        {}};
+    for (const json& point : polyline.at("points")) {
+        s.x.push_back(point.at(0));
+        s.y.push_back(point.at(1));
+    }
+    chart.series.push_back(s);
+}
+
 Figure section_with_circles(const json& scene, const json& result) {
     Chart chart{"Section and critical surfaces", {"x [m]"}, {"y [m]"}, {}, {}, Aspect::equal};
     for (const json& region : scene.at("section").at("regions")) {
@@ -57,12 +73,16 @@ Figure section_with_circles(const json& scene, const json& result) {
         }
         chart.series.push_back(s);
     }
-    if (!result.contains("stages")) chart.series.push_back(arc(result, "critical"));
+    if (!result.contains("stages")) {
+        chart.series.push_back(arc(result, "critical"));
+        add_polyline(result, "non-circular", chart);
+    }
     for (const json& stage : result.value("stages", json::array())) {
         chart.series.push_back(arc(
             stage,
             short_number(stage.at("liquefied_depth")) + " m liquefied, FS " +
                 short_number(std::round(1e3 * stage.at("factor_of_safety").get<double>()) / 1e3)));
+        add_polyline(stage, short_number(stage.at("liquefied_depth")) + " m, non-circular", chart);
     }
     return {"section_with_critical_surfaces", chart};
 }

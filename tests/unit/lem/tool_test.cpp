@@ -66,6 +66,35 @@ TEST_F(LemTool, GivesTheSameResultOnTwoThreads) {
     }
 }
 
+TEST_F(LemTool, WritesTheSurfacesOfStraightPieces) {
+    const std::string set =
+        " --set '/lem/non_circular={\"given\":[[15,10],[20,3.5],[25,1],[30,0]],\"vertices\":9}'";
+    ASSERT_EQ(run("--progress none --output " + folder_.string() + set), 0) << printed();
+    const json facts = result();
+    EXPECT_EQ(facts.at("given_polyline").at("points").size(), 4u);
+    const json& optimised = facts.at("non_circular");
+    EXPECT_EQ(optimised.at("points").size(), 9u);
+    EXPECT_LT(optimised.at("factor_of_safety"), optimised.at("start_factor_of_safety"));
+    EXPECT_NE(printed().find("(Spencer)"), std::string::npos);
+}
+
+TEST_F(LemTool, FlagsAKinkedSurfaceWithoutFriction) {
+    const std::string set =
+        " --set /lem/non_circular/vertices=9 --set /lem/undrained/0/region=base --set "
+        "/lem/undrained/0/strength_kPa=30 --set /lem/undrained/1/region=slope --set "
+        "/lem/undrained/1/strength_kPa=30";
+    ASSERT_EQ(run("--progress none --output " + folder_.string() + set), 0) << printed();
+    const json facts = result();
+    EXPECT_NE(facts.at("flags").dump().find("kinked_without_friction"), std::string::npos);
+    EXPECT_EQ(facts.at("non_circular").at("frictionless_share"), 1.0);
+}
+
+TEST_F(LemTool, RefusesASurfaceOfStraightPiecesOffTheGround) {
+    const std::string set = " --set '/lem/non_circular={\"given\":[[15,8],[20,3.5],[30,0]]}'";
+    EXPECT_EQ(run("--progress none --output " + folder_.string() + set), 65);
+    EXPECT_NE(printed().find("/lem/non_circular/given"), std::string::npos);
+}
+
 TEST_F(LemTool, PlanSaysWhatIsLeftOut) {
     ASSERT_EQ(run("--plan"), 0);
     EXPECT_NE(printed().find("pore pressure"), std::string::npos);

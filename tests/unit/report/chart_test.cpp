@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
@@ -72,6 +75,23 @@ TEST(FigureData, EqualsTheSeries) {
 TEST(Report, MissingFolderIsAnIoError) {
     EXPECT_THROW(stability_figures("/nonexistent"), fault::IoError);
     EXPECT_THROW(element_test_figures("/nonexistent"), fault::IoError);
+}
+
+TEST(Report, DrawsTheSurfaceOfStraightPiecesBesideTheCircle) {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("breach_polyline_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "scene.completed.json") << R"({"section": {"regions": []}})";
+    std::ofstream(folder / "result.json")
+        << R"({"circle": {"center": [0, 10], "radius": 10}, "entry": [10, 10], "exit": [0, 0],
+               "non_circular": {"factor_of_safety": 1.25, "points": [[0, 0], [6, 2], [10, 10]]}})";
+    const auto figures = stability_figures(folder);
+    std::filesystem::remove_all(folder);
+    ASSERT_EQ(figures.size(), 1u);
+    const Series& drawn = figures[0].chart.series.back();
+    EXPECT_EQ(drawn.name, "non-circular, FS 1.25");
+    EXPECT_EQ(drawn.x, (std::vector<double>{0, 6, 10}));
+    EXPECT_EQ(drawn.y, (std::vector<double>{0, 2, 10}));
 }
 
 }  // namespace

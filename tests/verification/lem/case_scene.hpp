@@ -61,6 +61,7 @@ inline json scene_json(const json& problem) {
     if (!problem.at("water_line").is_null()) {
         scene["lem"]["water"] = {{"line", problem.at("water_line")},
                                  {"density", problem.at("gamma_w").get<double>() * 100.0 * stress}};
+        if (problem.at("hu_auto")) scene["lem"]["water"]["correction"] = "cos2";
     }
     for (const json& load : problem.at("surcharge")) {
         scene["lem"]["surcharge"].push_back(

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "lem_tool/facts.hpp"
 #include "lem_tool/limit_scene.hpp"
 #include "lem_tool/search.hpp"
 
@@ -30,6 +31,25 @@ TEST(Mochikoshi, FactorOfSafetyFallsWithEveryLiquefiedLayerAsPublished) {
             "%zu layers: reference %.4f  computed %.4f  difference %+.2f %%  allowed 0.5 %%\n",
             layers, reference[layers], F, 100.0 * (F / reference[layers] - 1.0));
         EXPECT_NEAR(F / reference[layers], 1.0, 5e-3);
+    }
+}
+
+TEST(Mochikoshi, SpencersFactorOfEveryStageIsThatOfThreeIndependentSolvers) {
+    // three codes of their own, on the critical circles of Bishop's method; they agree to 0.3 %
+    constexpr std::array reference{1.912, 1.891, 1.049, 0.605, 0.591, 0.591};
+    const scene::Scene scene = mochikoshi();
+    const Model sound = make_model(scene);
+    Slices slices = make_slices(sound.strata, sound.slices);
+    for (std::size_t layers = 0; layers < reference.size(); ++layers) {
+        Model model = sound;
+        model.soils = liquefied(sound, scene.lem->liquefaction, layers);
+        const SearchResult found = search(model, *scene.lem->search);
+        const nlohmann::json facts = facts_of(model, found.critical.value(), slices);
+        ASSERT_FALSE(facts.at("spencer").is_null()) << layers;
+        const double F = facts.at("spencer").at("factor_of_safety");
+        std::printf("%zu layers: reference %.3f  computed %.4f  difference %+.2f %%\n", layers,
+                    reference[layers], F, 100.0 * (F / reference[layers] - 1.0));
+        EXPECT_NEAR(F / reference[layers], 1.0, 3e-3);
     }
 }
 

@@ -62,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "14_fk_case2_composite", "16a_submerged_75", "16c_buoyant",
                     "18_bishop_morgenstern_gl1", "21_taylor_D2", "24_taylor_45deg_deep",
                     "25_vertical_cut", "26_infinite_slope_dry", "29a_pyslope_a_R3",
-                    "29a_pyslope_a_R4", "29b_pyslope_b_R3", "29d_pyslope_d_R5"),
+                    "29a_pyslope_a_R4", "29b_pyslope_b_R3", "29c_pyslope_c_R3", "29c_pyslope_c_R4",
+                    "29c_pyslope_c_R5", "29d_pyslope_d_R5"),
     [](const auto& problem) { return std::string(problem.param); });
 
 struct OtherMethod {

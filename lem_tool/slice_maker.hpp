@@ -1,0 +1,95 @@
+// One slice after the other: weight, water, strength and moments above a piece of a surface's base.
+// Where the pieces begin and end is the surface's own business (slices.cpp, polyline.cpp).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "lem_tool/slices.hpp"
+
+namespace breach::lem {
+
+/// The ends of a slice's base [m].
+struct Chord {
+    double x0, y0, x1, y1;
+};
+
+class SliceMaker {
+  public:
+    /// pivot: moments are about its centre and over its radius; bases on the arc are this circle's.
+    SliceMaker(const Strata& strata, const std::vector<Soil>& soils, const scene::Circle& pivot,
+               double target_width, Slices& slices)
+        : strata_(strata),
+          soils_(soils),
+          pivot_(pivot),
+          target_width_(target_width),
+          tolerance_(1e-9 * pivot.radius),
+          slices_(slices) {
+        slices_.count = 0;
+        slices_.depth = 0.0;
+    }
+
+    /// Closer than this is the same place [m].
+    double tolerance() const { return tolerance_; }
+
+    /// Slices of equal width between two abscissae of a strip, where the base is smooth and stays
+    /// in one layer; level(x): y of the base.
+    template <class Level>
+    Cut add_piece(const Strip& strip, double from, double to, Base kind, const Level& level) {
+        const double middle = 0.5 * (from + to);
+        // a straight base may coincide with a boundary: the soil on it counts
+        const double above = level(middle) + (kind == Base::straight ? tolerance_ : 0.0);
+        const Layer& layer = layer_at(strip, middle, above);
+        const Soil& soil = soils_[layer.region];
+        if (soil.passage == Soil::Passage::closed) return Cut::closed_region;
+        const int parts =
+            std::max(1, static_cast<int>(std::ceil((to - from) / target_width_ - 1e-6)));
+        const double width = (to - from) / parts;
+        double x = from;
+        double y = level(x);
+        for (int part = 1; part <= parts; ++part) {
+            const double next_x = part == parts ? to : from + part * width;
+            const double next_y = level(next_x);
+            add_slice(strip, layer, soil, kind, {x, y, next_x, next_y});
+            x = next_x;
+            y = next_y;
+        }
+        return Cut::done;
+    }
+
+  private:
+    const Layer& layer_at(const Strip& strip, double x, double y) const {
+        std::size_t k = strip.first;
+        while (k + 1 < strip.last && strata_.layers[k + 1].top.at(x) > y) ++k;
+        return strata_.layers[k];
+    }
+
+    void add_slice(const Strip& strip, const Layer& layer, const Soil& soil, Base kind,
+                   const Chord& ends);
+    double undrained(const Strip& strip, const Soil& soil, std::size_t i) const;
+    double add_free_water(const Strip& strip, std::size_t i, const Chord& ends);
+
+    const Strata& strata_;
+    const std::vector<Soil>& soils_;
+    const scene::Circle& pivot_;
+    double target_width_;
+    double tolerance_;
+    Slices& slices_;
+};
+
+/// Where a mass ends: a vertical of its base up to the ground, high where there is a face or crack.
+struct MassEnd {
+    double x;
+    double base;  ///< level of the surface there [m]
+    enum class Kind { ground, crack } kind;
+};
+
+/// Line loads, and water against vertical faces, between the ends.
+void add_loads(const Strata& strata, const scene::Circle& pivot, double left, double right,
+               Slices& slices);
+
+/// Water that stands against the end of the mass, in its crack or before its face.
+void add_end(const Strata& strata, const scene::Circle& pivot, const MassEnd& end, From outside,
+             Slices& slices);
+
+}  // namespace breach::lem
