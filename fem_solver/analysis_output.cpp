@@ -108,7 +108,7 @@ void Analysis::write_checkpoint() {
 void Analysis::resume() {
     const auto file = session_.output(phases::files::checkpoint);
     const exchange::Archive archive =
-        exchange::read_archive(file, checkpoint_kind, checkpoint_version);
+        exchange::read_archive(file, checkpoint_kind, checkpoint_version, exchange::Reals::finite);
     Checkpoint checkpoint = checkpoint_from(archive, session_.scene(), model_, file.string());
     if (const auto kept = archive.texts.find(geostatic); kept != archive.texts.end()) {
         session_.result()[geostatic] = nlohmann::json::parse(kept->second);

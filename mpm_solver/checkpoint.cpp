@@ -106,7 +106,7 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
 
 Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
                         const exchange::Provenance& provenance, const Computing& computing) {
-    const Archive archive = exchange::read_archive(file, kind, version);
+    const Archive archive = exchange::read_archive(file, kind, version, exchange::Reals::finite);
     refuse_if_different(archive, "scene", provenance.scene, file.string());
     refuse_if_different(archive, "inputs", digests(provenance), file.string());
     try {

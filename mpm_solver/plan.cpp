@@ -2,6 +2,7 @@
 
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
+#include "mpm_solver/measure/overlap.hpp"
 #include "mpm_solver/run.hpp"
 
 namespace breach::mpm {
@@ -87,6 +88,13 @@ void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
         if (materials::traits(soil.law).opens) break;
     }
     if (line) plan.push_back(*line);
+    const bool closes = line && line->use == Use::on;
+    const bool held = closes && scene.mpm->gap_room;
+    plan.push_back({"gaps held to the room between neighbours", held ? Use::on : Use::left_out,
+                    !closes ? "no gap is kept"
+                    : held  ? "every " + std::to_string(steps_between_marks) + " steps"
+                            : "not asked for: debris among other soil stays open until compressed",
+                    "/mpm/gap_room"});
 }
 
 void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {

@@ -39,6 +39,9 @@ void Simulation::advance() {
     if (mpm_.overlap_correction.rate > 0.0 && clock_.step % steps_between_marks == 0) {
         overlap_.mark(body_, mpm_.overlap_correction.tolerance);
     }
+    if (mpm_.gap_closure && mpm_.gap_room && clock_.step % steps_between_marks == 0) {
+        overlap_.hold_gaps_to_room(body_);
+    }
     const double dt = next_step();
     step(body_, dt);
     clock_.dt_min = clock_.step == 0 ? dt : std::min(clock_.dt_min, dt);

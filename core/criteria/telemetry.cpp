@@ -14,8 +14,14 @@ std::vector<TelemetryLine> read_telemetry(const std::filesystem::path& file) {
         throw fault::IoError(file.string() + ": cannot be read; give a phase's telemetry.jsonl");
     std::vector<TelemetryLine> lines;
     std::string text;
-    while (std::getline(stream, text)) {
+    for (std::int64_t number = 1; std::getline(stream, text); ++number) {
         const nlohmann::json entry = nlohmann::json::parse(text, nullptr, false);
+        const bool was_ended = !stream.eof();
+        if (entry.is_discarded() && was_ended) {
+            throw fault::BadInput(file.string(),
+                                  {{"line " + std::to_string(number), "is no JSON",
+                                    "give the telemetry.jsonl as the phase wrote it"}});
+        }
         if (!entry.is_object() || !entry.contains("time") || !entry["time"].is_number()) continue;
         TelemetryLine line{entry["time"], 0, {}};
         if (!lines.empty() && line.time <= lines.back().time) continue;

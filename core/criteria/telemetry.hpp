@@ -19,7 +19,7 @@ struct TelemetryLine {
 
 /// All lines that are whole: a file that is still being written may end inside one. Lines that are
 /// not later than the one before (a phase that was resumed) are left out. Throws IoError when the
-/// file cannot be read, BadInput when no line holds a time.
+/// file cannot be read, BadInput when no line holds a time or one with another behind it is no JSON.
 std::vector<TelemetryLine> read_telemetry(const std::filesystem::path& file);
 
 /// The line as this expression wants it; NaN where the line lacks a field.

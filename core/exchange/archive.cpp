@@ -29,13 +29,15 @@ void write_archive(const std::filesystem::path& path, const Archive& archive,
     std::move(image).save(path);
 }
 
-Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version) {
+Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version,
+                     Reals may_be) {
     Hdf5Reader reader(path, {kind, version}, "remove the file and start afresh");
     Archive archive{
         .kind = kind, .version = version, .reals = {}, .integers = {}, .texts = {}, .units = {}};
     for (const std::string& name : reader.names_in(reals)) {
         const std::string dataset = reals + "/" + name;
-        archive.reals[name] = reader.any_reals(dataset);
+        archive.reals[name] =
+            may_be == Reals::finite ? reader.finite_reals(dataset) : reader.any_reals(dataset);
         if (reader.has_attribute(dataset, "unit"))
             archive.units[name] = reader.text_attribute(dataset, "unit");
     }

@@ -24,8 +24,15 @@ struct Archive {
 void write_archive(const std::filesystem::path& path, const Archive& archive,
                    const Provenance& provenance);
 
-/// Throws BadInput if the kind or version differs or an array is damaged, IoError if it cannot be
-/// opened.
-Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version);
+/// What the reals of an archive may be.
+enum class Reals {
+    any,     ///< a table may have places without a value
+    finite,  ///< a state to go on from: one that is not a number is refused
+};
+
+/// Throws BadInput if the kind or version differs, an array is damaged or a real is not what it may
+/// be; IoError if the file cannot be opened.
+Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version,
+                     Reals may_be = Reals::any);
 
 }  // namespace breach::exchange

@@ -106,8 +106,9 @@ class Hdf5Reader {
     /// Reads exactly [rows] or [rows, width] values; non-finite values are a fault.
     void array(const std::string& path, std::span<double> values, std::size_t width);
     void array(const std::string& path, std::span<std::int32_t> values, std::size_t width = 0);
-    /// One-dimensional arrays of any length; any value.
+    /// One-dimensional arrays of any length; any value, or non-finite ones are a fault.
     std::vector<double> any_reals(const std::string& path);
+    std::vector<double> finite_reals(const std::string& path);
     std::vector<std::int64_t> any_integers(const std::string& path);
     std::vector<std::string> strings(const std::string& path);
 
@@ -117,7 +118,8 @@ class Hdf5Reader {
     /// A number of rows: not negative, and not more than a file of this size can hold.
     std::size_t count_attribute(const std::string& object, const std::string& name);
 
-    /// Reads every dataset that was not asked for, so that its checksums are compared too.
+    /// Reads every dataset that was not asked for, so that its checksums are compared too and no
+    /// copy for ParaView holds what is not a number.
     void check_rest();
 
     void fault(const std::string& path, const std::string& cause);
@@ -136,6 +138,9 @@ class Hdf5Reader {
     std::vector<T> read_any(const std::string& path, H5T_class_t type_class);
     bool read_attribute(const std::string& object, const std::string& name, hid_t type,
                         void* value);
+    void refuse_non_finite(const std::string& path, std::span<const double> values,
+                           std::size_t width);
+    void check_unread(const std::string& path);
 
     std::filesystem::path path_;
     std::string remedy_;

@@ -162,7 +162,11 @@ bool Hdf5Reader::read(const std::string& path, H5T_class_t type_class, std::span
 }
 
 void Hdf5Reader::array(const std::string& path, std::span<double> values, std::size_t width) {
-    if (!read(path, H5T_FLOAT, values, width)) return;
+    if (read(path, H5T_FLOAT, values, width)) refuse_non_finite(path, values, width);
+}
+
+void Hdf5Reader::refuse_non_finite(const std::string& path, std::span<const double> values,
+                                   std::size_t width) {
     const auto bad = std::ranges::find_if_not(values, [](double x) { return std::isfinite(x); });
     if (bad != values.end())
         fault(path, "value in row " +
@@ -190,6 +194,12 @@ std::vector<T> Hdf5Reader::read_any(const std::string& path, H5T_class_t type_cl
 
 std::vector<double> Hdf5Reader::any_reals(const std::string& path) {
     return read_any<double>(path, H5T_FLOAT);
+}
+
+std::vector<double> Hdf5Reader::finite_reals(const std::string& path) {
+    std::vector<double> values = any_reals(path);
+    refuse_non_finite(path, values, 0);
+    return values;
 }
 
 std::vector<std::int64_t> Hdf5Reader::any_integers(const std::string& path) {
@@ -282,20 +292,31 @@ void Hdf5Reader::check_rest() {
     if (H5Ovisit2(file_.get(), H5_INDEX_NAME, H5_ITER_NATIVE, collect, &paths, H5O_INFO_BASIC) < 0)
         fault("/", "damaged");
     for (const std::string& path : paths) {
-        if (opened_.contains(path)) continue;
-        const Handle id(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
-        const Handle type(id ? H5Dget_type(id.get()) : -1, H5Tclose);
-        const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
-        const double needed =
-            type && space ? static_cast<double>(H5Tget_size(type.get())) *
-                                static_cast<double>(H5Sget_simple_extent_npoints(space.get()))
-                          : 0.0;
-        const bool plausible = type && space && needed <= static_cast<double>(bytes_);
-        std::vector<char> values(plausible ? static_cast<std::size_t>(needed) : 0);
-        if (!plausible || (!values.empty() && H5Dread(id.get(), type.get(), H5S_ALL, H5S_ALL,
-                                                      H5P_DEFAULT, values.data()) < 0))
-            fault(path, "cannot be read: checksum mismatch or damaged storage");
+        if (!opened_.contains(path)) check_unread(path);
     }
+}
+
+void Hdf5Reader::check_unread(const std::string& path) {
+    const Handle id(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle type(id ? H5Dget_type(id.get()) : -1, H5Tclose);
+    const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
+    const auto count = space ? static_cast<double>(H5Sget_simple_extent_npoints(space.get())) : 0.0;
+    const double needed = type ? static_cast<double>(H5Tget_size(type.get())) * count : 0.0;
+    const bool plausible = type && space && needed <= static_cast<double>(bytes_);
+    const bool is_real = plausible && H5Tget_class(type.get()) == H5T_FLOAT;
+    std::vector<double> reals(is_real ? static_cast<std::size_t>(count) : 0);
+    std::vector<char> others(plausible && !is_real ? static_cast<std::size_t>(needed) : 0);
+    const hid_t read_as = is_real ? H5T_NATIVE_DOUBLE : type.get();
+    void* values = is_real ? static_cast<void*>(reals.data()) : others.data();
+    if (!plausible ||
+        (needed > 0.0 && H5Dread(id.get(), read_as, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+        fault(path, "cannot be read: checksum mismatch or damaged storage");
+        return;
+    }
+    std::vector<hsize_t> shape(
+        static_cast<std::size_t>(std::max(1, H5Sget_simple_extent_ndims(space.get()))), 1);
+    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+    refuse_non_finite(path, reals, shape[0] > 0 ? reals.size() / shape[0] : 0);
 }
 
 void Hdf5Reader::fault(const std::string& path, const std::string& cause) {

@@ -107,8 +107,8 @@ TensionCrack crack_from(Reader& reader, const json& crack) {
 MAlphaLimit m_alpha_from(const json& limit) {
     return {
         limit.at("least"),
-        limit.at("slices") == "all" ? MAlphaSlices::all : MAlphaSlices::frictional,
-        limit.at("given_circle") == "refused" ? SmallMAlpha::refused : SmallMAlpha::answered,
+        word_at<MAlphaSlices>(limit, "slices"),
+        word_at<SmallMAlpha>(limit, "given_circle"),
     };
 }
 

@@ -461,6 +461,7 @@ struct Mpm {
     double blending_rate;  ///< affine PIC rate beta [1/s]
     AntiLocking anti_locking;
     bool gap_closure;
+    bool gap_room = false;  ///< open volume is held to the room between the neighbours
     OverlapCorrection overlap_correction{};
     /// Softening strains are those of cells this long [m]
     std::optional<double> softening_length{};

@@ -41,6 +41,16 @@ constexpr auto words_of(PhreaticCorrection) {
     return words::in_order<PhreaticCorrection>({{none, "none"}, {cos2, "cos2"}});
 }
 
+constexpr auto words_of(MAlphaSlices) {
+    using enum MAlphaSlices;
+    return words::in_order<MAlphaSlices>({{frictional, "frictional"}, {all, "all"}});
+}
+
+constexpr auto words_of(SmallMAlpha) {
+    using enum SmallMAlpha;
+    return words::in_order<SmallMAlpha>({{answered, "answered"}, {refused, "refused"}});
+}
+
 constexpr auto words_of(VariedSurface) {
     using enum VariedSurface;
     return words::in_order<VariedSurface>({{fixed, "fixed"}, {searched, "searched"}});

@@ -45,7 +45,7 @@ std::vector<Flag> doubts_of(const Ending& ending) {
                           "the mobile soil has " + text_of(ending.volume_ratio) +
                               " of its initial volume (0.8 to 1.3 can be trusted): depth and "
                               "length of the deposit are wrong; look for spray in the last frame, "
-                              "try /mpm/gap_closure, smaller cells or a smaller /mpm/cfl",
+                              "set /mpm/gap_room, try smaller cells or a smaller /mpm/cfl",
                           "/mpm"});
     }
     if (!(ending.overlap <= largest_overlap)) {

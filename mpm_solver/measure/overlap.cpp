@@ -1,6 +1,7 @@
 #include "mpm_solver/measure/overlap.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace breach::mpm {
 
@@ -84,6 +85,22 @@ void OverlapMeter::mark(Body& body, double tolerance) {
         if (N > 0.0)
             body.points.excess[p] += N * std::max(fill_at(filled_, i, j) - 1.0 - tolerance, 0.0);
     });
+}
+
+void OverlapMeter::hold_gaps_to_room(Body& body) {
+    fill_nodes(body, filled_);
+    Points& points = body.points;
+    fill_.assign(points.size(), 0.0);
+    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+        fill_[p] += N * fill_at(filled_, i, j);
+    });
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const double room = points.V[p] / fill_[p];
+        if (points.gap[p] <= 0.0 || points.volume[p] <= room) continue;
+        const double closing = std::min(std::log(points.volume[p] / room), points.gap[p]);
+        points.gap[p] -= closing;
+        points.volume[p] *= std::exp(-closing);
+    }
 }
 
 }  // namespace breach::mpm

@@ -22,6 +22,11 @@ class OverlapMeter {
     /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
     void mark(Body& body, double tolerance);
 
+    /// Closes what cannot be open. Debris that lands between other points meets no compression
+    /// there, so its gap would stay although its neighbours have taken the room: a point that has
+    /// opened keeps of it at most V / fill, where fill is that of its nodes.
+    void hold_gaps_to_room(Body& body);
+
   private:
     /// Volume at each node [m3].
     static void fill_nodes(const Body& body, std::vector<double>& filled);
@@ -31,7 +36,8 @@ class OverlapMeter {
     std::vector<double> capacity_x_;
     std::vector<double> capacity_y_;
     double thickness_;
-    std::vector<double> filled_;  ///< of the marks; empty in runs that never mark [m3]
+    std::vector<double> filled_;  ///< of marks and gaps; empty in runs without either [m3]
+    std::vector<double> fill_;    ///< about each point; empty in runs that leave gaps alone [-]
 };
 
 }  // namespace breach::mpm

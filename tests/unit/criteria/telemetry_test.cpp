@@ -24,7 +24,6 @@ class Telemetry : public testing::Test {
 
 TEST_F(Telemetry, TakesNumbersByNameAndLeavesOutWhatIsNotWholeOrNotLater) {
     const auto lines = of(R"({"time":0.5,"step":3,"phase":"fem_solver","energy":2}
-not json
 {"time":0.5,"energy":9}
 {"time":1.0,"energy":4,"depth":7}
 {"time":1.5,"ener)");
@@ -36,6 +35,16 @@ not json
     const Line line = line_for(energy_and_depth, lines[0]);
     ASSERT_EQ(line.values.size(), 2u);
     EXPECT_EQ(line.values[0] + (std::isnan(line.values[1]) ? 0.0 : 100.0), 2.0);
+}
+
+TEST_F(Telemetry, ALineThatIsNoJsonIsRefusedByItsNumberUnlessItIsStillBeingWritten) {
+    try {
+        of("{\"time\":0.5}\n{\"time\":1.0,\"energy\":NaN}\n{\"time\":1.5}\n");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        EXPECT_EQ(refusal.faults().at(0).pointer, "line 2");
+    }
+    EXPECT_EQ(of("{\"time\":0.5}\n{\"time\":1.0,\"ene").size(), 1u);
 }
 
 TEST_F(Telemetry, WithoutTimesOrWithoutAFileIsRefused) {

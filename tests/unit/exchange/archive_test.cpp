@@ -30,6 +30,22 @@ TEST(Archive, ComesBackBitForBit) {
     EXPECT_EQ(r.units, sample().units);
 }
 
+TEST(Archive, AStateToGoOnFromHasFiniteNumbersOnly) {
+    const Folder folder;
+    Archive archive = sample();
+    archive.reals["x"][1] = std::nan("");
+    write_archive(folder / "c.h5", archive, {});
+    EXPECT_TRUE(std::isnan(read_archive(folder / "c.h5", "mpm_checkpoint", 3).reals.at("x")[1]));
+    try {
+        read_archive(folder / "c.h5", "mpm_checkpoint", 3, Reals::finite);
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        ASSERT_EQ(refusal.faults().size(), 1u);
+        EXPECT_EQ(refusal.faults()[0].pointer, "/breachline/reals/x");
+        EXPECT_EQ(refusal.faults()[0].cause, "value in row 1 is not finite");
+    }
+}
+
 TEST(Archive, AnotherKindOrVersionIsRefused) {
     const Folder folder;
     write_archive(folder / "c.h5", sample(), {});

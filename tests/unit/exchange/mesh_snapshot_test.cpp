@@ -96,7 +96,7 @@ TEST(MeshSnapshot, ArraysOfDifferentLengthsAreNeverWritten) {
     EXPECT_EQ(folder.entries(), 0u);
 }
 
-void expect_refused(const MeshSnapshot& s, const std::string& dataset) {
+void expect_refused(const MeshSnapshot& s, const std::string& dataset, std::size_t copies = 0) {
     const Folder folder;
     write_mesh_snapshot(folder / "bad.vtkhdf", s, {});
     try {
@@ -104,7 +104,7 @@ void expect_refused(const MeshSnapshot& s, const std::string& dataset) {
         FAIL() << "not refused: " << dataset;
     } catch (const fault::BadInput& refusal) {
         EXPECT_NE(refusal.file().find("bad.vtkhdf"), std::string::npos);
-        ASSERT_EQ(refusal.faults().size(), 1u) << refusal.what();
+        ASSERT_EQ(refusal.faults().size(), 1u + copies) << refusal.what();
         EXPECT_EQ(refusal.faults()[0].pointer, dataset);
         EXPECT_FALSE(refusal.faults()[0].remedy.empty());
     }
@@ -117,7 +117,7 @@ TEST(MeshSnapshot, WhatMakesNoSenseIsRefusedByDatasetPath) {
 
     s = samples::mesh(3);
     s.stress[7](2) = INFINITY;
-    expect_refused(s, "/breachline/gauss/stress");
+    expect_refused(s, "/breachline/gauss/stress", 2);  // and two means for ParaView
 
     s = samples::mesh(3);
     s.quads[2][1] = 8;  // there are nodes 0 to 7

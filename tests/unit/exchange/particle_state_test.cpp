@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/fault/fault.hpp"
 #include "tests/unit/exchange/samples.hpp"
@@ -87,6 +89,26 @@ TEST(ParticleState, AMeshIsNotParticles) {
         EXPECT_NE(refusal.faults().at(0).cause.find("mesh_snapshot"), std::string::npos);
         EXPECT_EQ(refusal.faults().at(0).pointer, "/breachline@kind");
     }
+}
+
+TEST(ParticleState, ACopyForParaViewThatIsNotANumberIsRefusedToo) {
+    const Folder folder;
+    ParticleState s = samples::particles(4);
+    s.position[2].x() = std::nan("");
+    write_particle_state(folder / "p.vtkhdf", s, {});
+    MeshSnapshot mesh = samples::mesh(3);
+    mesh.stress[5][1] = std::nan("");
+    write_mesh_snapshot(folder / "m.vtkhdf", mesh, {});
+    try {
+        read_mesh_snapshot(folder / "m.vtkhdf");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        std::vector<std::string> pointers;
+        for (const fault::Fault& each : refusal.faults()) pointers.push_back(each.pointer);
+        EXPECT_NE(std::ranges::find(pointers, "/breachline/gauss/stress"), pointers.end());
+        EXPECT_NE(std::ranges::find(pointers, "/VTKHDF/CellData/stress"), pointers.end());
+    }
+    EXPECT_THROW(read_particle_state(folder / "p.vtkhdf"), fault::BadInput);
 }
 
 TEST(ParticleState, AMassOfZeroIsRefused) {

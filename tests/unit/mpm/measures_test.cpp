@@ -92,6 +92,26 @@ TEST(Input, UnknownRegionsAreRefused) {
     EXPECT_THROW(zoned_points(scene, state, "file"), fault::BadInput);
 }
 
+TEST(Gaps, AreHeldToTheRoomBetweenNeighboursAndLeftToALonePoint) {
+    const scene::Scene scene =
+        one_soil(sand(1e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 8.0, 8.0);
+    Body body = filled_body(scene);
+    Points& points = body.points;
+    std::size_t inside = 0;
+    while (points.x[inside] < 1.5 || points.y[inside] < 1.5) ++inside;
+    const std::size_t alone = points.size() - 1;
+    points.x[alone] = points.y[alone] = 7.1;
+    for (const std::size_t p : {inside, alone}) {
+        points.gap[p] = std::log(3.0);
+        points.volume[p] = 3.0 * points.V[p];
+    }
+    OverlapMeter(body, scene.thickness).hold_gaps_to_room(body);
+    EXPECT_NEAR(points.gap[inside], 0.0, 0.02) << "its neighbours fill the cell";
+    EXPECT_NEAR(points.volume[inside], std::exp(points.gap[inside]) * points.V[inside], 1e-12);
+    EXPECT_EQ(points.gap[alone], std::log(3.0));
+    EXPECT_EQ(points.volume[alone], 3.0 * points.V[alone]);
+}
+
 TEST(StiffnessScale, KeepsTheVolumeOfStressedSoil) {
     scene::Scene scene =
         one_soil(sand(1e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 3, 3), 0.5, 8.0, 5.0);

@@ -71,7 +71,11 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<RegionMesh>(
         {"/$defs/block_mesh/properties/type", "/$defs/unstructured_mesh/properties/type"});
     words.are_those_of<materials::SofteningDriver>({"/$defs/softening/properties/driver"});
-    words.are_those_of<PhreaticCorrection>({lem + "/water/properties/correction"});
+    words.are_those_of<PhreaticCorrection>(
+        {lem + "/water/properties/correction",
+         lem + "/piezometric_lines/items/properties/correction"});
+    words.are_those_of<MAlphaSlices>({lem + "/m_alpha/properties/slices"});
+    words.are_those_of<SmallMAlpha>({lem + "/m_alpha/properties/given_circle"});
     words.are_those_of<VariedSurface>({lem + "/sensitivity/properties/surface"});
     words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<Parameter>({variable + "/parameter"});
