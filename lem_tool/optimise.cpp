@@ -14,7 +14,7 @@ namespace {
 using scene::Vec2;
 using Points = std::vector<Vec2>;
 
-constexpr double none = std::numeric_limits<double>::infinity();
+constexpr double no_answer = std::numeric_limits<double>::infinity();
 constexpr double first_step = 0.1;    // of the surface's width
 constexpr double last_step = 5e-4;    // of the surface's width
 constexpr double least_gain = 1e-4;   // relative, of one round: smaller steps from there
@@ -152,9 +152,9 @@ class Descent {
         polyline.points = points;
         ++analysed_;
         const auto found = analyse(model_, polyline, slices_);
-        if (!found || found->depth < least_depth_ * (1.0 - 1e-9)) return none;
-        if (found->spencer.m_alpha < model_.m_alpha.least) return none;
-        if (found->spencer.theta < least_theta_) return none;
+        if (!found || found->depth < least_depth_ * (1.0 - 1e-9)) return no_answer;
+        if (found->spencer.m_alpha < model_.m_alpha.least) return no_answer;
+        if (found->spencer.theta < least_theta_) return no_answer;
         return found->spencer.factor_of_safety;
     }
 
@@ -232,8 +232,8 @@ class Descent {
     bool upper_left_;
     Slices slices_;
     Points points_;
-    double value_ = none;
-    double least_theta_ = -none;
+    double value_ = no_answer;
+    double least_theta_ = -no_answer;
     double least_depth_ = 0.0;
     Shape allowed_{sharpest_kink, steepest_rise};
     std::int64_t analysed_ = 0;
@@ -280,7 +280,7 @@ std::optional<Optimised> optimise(const Model& model, const Room& room, const Su
     Descent descent(model, room, upper_left);
     descent.start(points_of(model.strata, circle, room.vertices));
     const double start = descent.value();
-    if (start == none) return std::nullopt;
+    if (start == no_answer) return std::nullopt;
     const Points fine = descent.points();
     const double depth = descent.least_depth();
     Slices slices = make_slices(model.strata, model.slices);

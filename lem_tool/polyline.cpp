@@ -17,10 +17,10 @@ Line through(const Vec2& a, const Vec2& b) {
 }
 
 /// One pass over the strips and the polyline's pieces.
-class Cutter {
+class PolylineCutter {
   public:
-    Cutter(const Strata& strata, const std::vector<Soil>& soils, const Polyline& polyline,
-           const scene::Circle& pivot, int wanted, Slices& slices)
+    PolylineCutter(const Strata& strata, const std::vector<Soil>& soils, const Polyline& polyline,
+                   const scene::Circle& pivot, int wanted, Slices& slices)
         : strata_(strata),
           points_(polyline.points),
           slices_(slices),
@@ -144,7 +144,7 @@ Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Polyline& po
         if (verdict != Cut::done) return verdict;
     }
     make_room(strata, polyline.points.size(), wanted, slices);
-    const Cut verdict = Cutter(strata, soils, polyline, pivot, wanted, slices).run();
+    const Cut verdict = PolylineCutter(strata, soils, polyline, pivot, wanted, slices).run();
     if (verdict != Cut::done) return verdict;
     if (!strata.loads.empty())
         add_loads(strata, pivot, polyline.points.front().x(), polyline.points.back().x(), slices);

@@ -1,5 +1,5 @@
 // One slice after the other: weight, water, strength and moments above a piece of a surface's base.
-// Where the pieces begin and end is the surface's own business (slices.cpp, polyline.cpp).
+// Where the pieces begin and end is the surface's own business (arc.cpp, polyline.cpp).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// A sliding mass above a circular arc or an arc cut by a floor (composite surface), cut into
-// vertical slices at every material boundary and ground vertex. Geometry, weight and strength of
-// each slice; no factor of safety here.
+// A sliding mass as vertical slices: geometry, weight and strength of each. How a surface is cut
+// into them is in arc.hpp and polyline.hpp; no factor of safety here.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +14,6 @@ namespace breach::lem {
 
 /// Which end of a surface is a vertical crack.
 enum class CrackAt { none, left, right };
-
-/// A circle's lower arc between the two points where it meets the ground or a crack's foot.
-struct Surface {
-    scene::Circle circle;
-    double left;   ///< x [m]
-    double right;  ///< x [m]
-    CrackAt crack = CrackAt::none;
-
-    double level(double x) const;  ///< y of the arc [m]
-};
-
-/// Where a circle's lower arc meets a straight line within (from, to), ascending.
-struct Meeting {
-    int count = 0;
-    double x[2];
-};
-Meeting meet(const scene::Circle& circle, const Line& line, double from, double to);
 
 /// Strength of a region as limit equilibrium sees it: c + coefficient (sigma'_v0 / p_a)^exponent.
 struct Soil {
@@ -98,16 +80,5 @@ enum class Cut {
     closed_region,  ///< the arc passes through a region that cannot fail
     overhangs,      ///< an end lies above the centre: the arc would lean back over the mass
 };
-
-/// Why Bishop's balance keeps its form on a floor, where the normal force has a moment too: with
-/// N = (W - S sin a) / cos a the sum of W d = S r + N f (d, h: base's middle beside and below the
-/// centre, r = d sin a + h cos a, f = d cos a - h sin a) becomes W h tan a = S h / cos a, which on
-/// the arc is W d = S R.
-///
-/// Cuts the mass into about `wanted` slices of equal width, more where boundaries ask for it. Arc
-/// segments are exact in weight, moment and (to the fourth order of their angle) length; only the
-/// base inclination is that of the chord. No allocation.
-Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Surface& surface, int wanted,
-        Slices& slices);
 
 }  // namespace breach::lem

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lem_tool/slices.hpp"
+#include "lem_tool/arc.hpp"
 #include "lem_tool/strata.hpp"
 
 namespace breach::lem {
