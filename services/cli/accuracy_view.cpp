@@ -14,7 +14,8 @@ namespace {
 std::string percent(const json& share) {
     if (!share.is_number()) return "-";
     char text[32];
-    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share.get<double>());
+    const double value = 100.0 * share.get<double>();
+    std::snprintf(text, sizeof text, value < 99.5 ? "%.2g %%" : "%.0f %%", value);
     return text;
 }
 

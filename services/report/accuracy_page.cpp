@@ -32,7 +32,9 @@ std::string number(const json& value, int digits = 4) {
 }
 
 std::string percent(const json& share) {
-    return share.is_number() ? rounded(100.0 * share.get<double>(), 2) + " %" : "-";
+    if (!share.is_number()) return "-";
+    const double value = 100.0 * share.get<double>();
+    return rounded(value, value < 99.5 ? 2 : 4) + " %";
 }
 
 std::string setting_of(const json& row) {

@@ -21,7 +21,7 @@ struct AccuracyRow {
     /// What the base's rungs of the other ladders are off, together: what this row shares with them
     double error_of_other_ladders = 0.0;
     /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
-    /// a reference rung is its ladder's grid convergence index.
+    /// a reference rung is what its ladder says of the finest.
     std::optional<double> error_of_a_run = {};
     bool is_reference = false;  ///< errors are measured from it: its own is not known
     bool below_noise = false;   ///< the error is not told apart from the noise of the repeats

@@ -111,7 +111,7 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
 
 /// What a rung is off by what its own ladder says.
 std::optional<double> bias_of(const AccuracyRow& row, const LadderSummary& ladder) {
-    return row.is_reference ? ladder.convergence.gci : row.error;
+    return row.is_reference ? ladder.convergence.error_of_finest : row.error;
 }
 
 /// A row is off by its own ladder's error, and by what the base is off on the others: a number from
@@ -214,6 +214,7 @@ json as_json(const LadderSummary& ladder, const std::string& name) {
             {"order", or_null(c.order)},
             {"limit", or_null(c.limit)},
             {"gci", or_null(c.gci)},
+            {"error_of_finest", or_null(c.error_of_finest)},
             {"noise_floor", or_null(c.noise)},
             {"spread", or_null(c.spread)},
             {"reference", or_null(ladder.reference)},

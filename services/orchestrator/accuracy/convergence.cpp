@@ -9,8 +9,9 @@ namespace breach::orchestrator {
 namespace {
 
 constexpr double highest_order = 20.0;
-constexpr double factor_of_safety = 1.25;  // Roache's for three grids
-constexpr double two_sided_95 = 1.96;      // of the normal distribution
+constexpr double factor_of_safety = 1.25;        // Roache's for three grids
+constexpr double factor_of_safety_of_two = 3.0;  // and for two
+constexpr double two_sided_95 = 1.96;            // of the normal distribution
 
 /// change_coarse / change_fine of value = limit + C size^p: rises with p.
 double ratio_of_changes(double p, double ratio_coarse, double ratio_fine) {
@@ -88,39 +89,67 @@ double smallest_told_difference(double noise, std::size_t repeats) {
     return two_sided_95 * noise * std::sqrt(2.0 / static_cast<double>(repeats));
 }
 
+namespace {
+
+/// The three finest rungs, and how the value changes from one to the next.
+struct Ending {
+    const Rung& coarse;
+    const Rung& middle;
+    const Rung& fine;
+    double change_coarse = middle.value.mean - coarse.value.mean;
+    double change_fine = fine.value.mean - middle.value.mean;
+    double ratio_coarse = coarse.size / middle.size;
+    double ratio_fine = middle.size / fine.size;
+
+    bool is_noise(double noise) const {
+        const double told = smallest_told_difference(
+            noise, std::min({coarse.value.count, middle.value.count, fine.value.count}));
+        return std::abs(change_coarse) < told || std::abs(change_fine) < told;
+    }
+};
+
+double two_grid_error(double change, double ratio) {
+    return factor_of_safety_of_two * std::abs(change) / (ratio - 1.0);
+}
+
+/// What the finest rung may be off, in the unit of the value; order and limit where there are any.
+double judge(const Ending& e, Convergence& found) {
+    if (found.noise && e.is_noise(*found.noise)) {
+        found.course = Course::below_noise;
+        return std::abs(e.change_fine);
+    }
+    if (e.change_coarse * e.change_fine < 0.0) {
+        found.course = Course::oscillating;
+        const auto [least, most] =
+            std::minmax({e.coarse.value.mean, e.middle.value.mean, e.fine.value.mean});
+        return 0.5 * (most - least);
+    }
+    found.order = observed_order(e.ratio_coarse, e.ratio_fine, e.change_coarse, e.change_fine);
+    if (!found.order) {
+        found.course = Course::not_falling;
+        return two_grid_error(e.change_fine, e.ratio_fine);
+    }
+    const double left = e.change_fine / std::expm1(*found.order * std::log(e.ratio_fine));
+    found.course = Course::monotone;
+    found.limit = e.fine.value.mean + left;
+    return factor_of_safety * std::abs(left);
+}
+
+}  // namespace
+
 Convergence convergence_of(std::span<const Rung> rungs) {
     Convergence found;
     found.noise = pooled_noise(rungs);
     if (!rungs.empty()) found.spread = spread_of(rungs);
-    if (rungs.size() < 3) return found;
-    const Rung& coarse = rungs[rungs.size() - 3];
-    const Rung& middle = rungs[rungs.size() - 2];
+    if (rungs.size() < 2) return found;
     const Rung& fine = rungs[rungs.size() - 1];
-    const double change_coarse = middle.value.mean - coarse.value.mean;
-    const double change_fine = fine.value.mean - middle.value.mean;
-    if (found.noise) {
-        const std::size_t repeats =
-            std::min({coarse.value.count, middle.value.count, fine.value.count});
-        const double told = smallest_told_difference(*found.noise, repeats);
-        if (std::abs(change_coarse) < told || std::abs(change_fine) < told) {
-            found.course = Course::below_noise;
-            return found;
-        }
-    }
-    if (change_coarse * change_fine < 0.0) {
-        found.course = Course::oscillating;
-        return found;
-    }
-    const double ratio_fine = middle.size / fine.size;
-    found.order = observed_order(coarse.size / middle.size, ratio_fine, change_coarse, change_fine);
-    if (!found.order) {
-        found.course = Course::not_falling;
-        return found;
-    }
-    const double left = change_fine / std::expm1(*found.order * std::log(ratio_fine));
-    found.course = Course::monotone;
-    found.limit = fine.value.mean + left;
-    if (fine.value.mean != 0.0) found.gci = factor_of_safety * std::abs(left / fine.value.mean);
+    const Rung& middle = rungs[rungs.size() - 2];
+    const double error = rungs.size() < 3 ? two_grid_error(fine.value.mean - middle.value.mean,
+                                                           middle.size / fine.size)
+                                          : judge({rungs[rungs.size() - 3], middle, fine}, found);
+    if (fine.value.mean == 0.0) return found;
+    found.error_of_finest = error / std::abs(fine.value.mean);
+    if (found.order) found.gci = found.error_of_finest;
     return found;
 }
 

@@ -41,6 +41,10 @@ struct Convergence {
     /// Roache's grid convergence index of the finest rung, with his factor of safety 1.25 for three
     /// grids; relative to its value
     std::optional<double> gci;
+    /// What the finest rung may be off, relative to its value. monotone: the index; oscillating: half
+    /// of the range of the three finest (Stern et al. 2001); below_noise: the last difference;
+    /// otherwise Roache's index for two grids, 3 |difference| / (ratio - 1), of first order
+    std::optional<double> error_of_finest;
     std::optional<double> spread;  ///< largest minus smallest value of the rungs
     /// Standard deviation of one run, pooled over the rungs; nothing: no rung was repeated
     std::optional<double> noise;

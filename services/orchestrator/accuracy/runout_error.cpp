@@ -74,7 +74,7 @@ Estimate estimate_of(const AccuracyTable& table, const AccuracyRow& row, const s
     const std::string source = source_of(table, row, run);
     if (!row.error_of_a_run) return {std::nullopt, source + ": " + row.reason};
     return {*row.error_of_a_run * std::abs(*ladder.reference),
-            source + (row.is_reference ? ", by the grid convergence index"
+            source + (row.is_reference ? ", by how its ladder ends"
                                        : ", against " + reference_in_words(table.plan.reference))};
 }
 

@@ -13,7 +13,9 @@ std::string shown(double value, const char* format = "%.4g") {
     return text.data();
 }
 
-std::string percent(double share) { return shown(100.0 * share, "%.2g") + " %"; }
+std::string percent(double share) {
+    return shown(100.0 * share, share < 0.995 ? "%.2g" : "%.0f") + " %";
+}
 
 std::string with_unit(double value, const Quantity& quantity) {
     return shown(value) + (quantity.unit == "1" ? "" : " " + quantity.unit);

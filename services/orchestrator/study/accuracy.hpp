@@ -56,7 +56,7 @@ struct VariantEntry {
     std::vector<std::string> overrides;
     std::string name_pointer;  ///< of the study's entry that its name comes from
     std::string pointer;       ///< of the entry that its overrides come from
-    std::string made_by;  ///< "draws", "accuracy"; empty: it is the study's own
+    std::string made_by;       ///< "draws", "accuracy"; empty: it is the study's own
 };
 
 /// A rung of a ladder and the variants that give its value. Rungs that come to the same scene, as

@@ -53,6 +53,7 @@ TEST(Convergence, OscillatingRungsGetASpreadAndNoOrder) {
     EXPECT_EQ(found.course, Course::oscillating);
     EXPECT_FALSE(found.order || found.limit || found.gci);
     EXPECT_DOUBLE_EQ(*found.spread, 2.0);
+    EXPECT_DOUBLE_EQ(*found.error_of_finest, 1.0 / 11.0) << "half of the range";
 }
 
 TEST(Convergence, DifferencesThatDoNotFallGiveNoOrder) {
@@ -65,7 +66,15 @@ TEST(Convergence, DifferencesThatDoNotFallGiveNoOrder) {
               Course::not_falling);
 }
 
-TEST(Convergence, TwoRungsSayNothing) {
+TEST(Convergence, WithoutAnOrderTheFinestIsOffByTheIndexForTwoGrids) {
+    const auto three = std::array{rung(4, 10.0), rung(2, 11.0), rung(1, 13.0)};
+    EXPECT_DOUBLE_EQ(*convergence_of(three).error_of_finest, 3.0 * 2.0 / 13.0);
+    const auto two = std::array{rung(1.5, 10.0), rung(1, 11.0)};
+    EXPECT_DOUBLE_EQ(*convergence_of(two).error_of_finest, 3.0 * 1.0 / 0.5 / 11.0);
+    EXPECT_FALSE(convergence_of(two).gci);
+}
+
+TEST(Convergence, TwoRungsHaveNoOrder) {
     EXPECT_EQ(convergence_of(std::array{rung(2, 10.0), rung(1, 11.0)}).course, Course::too_few);
     EXPECT_EQ(convergence_of({}).course, Course::too_few);
 }
