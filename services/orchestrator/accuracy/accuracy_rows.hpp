@@ -33,7 +33,8 @@ struct AccuracyRow {
 struct LadderSummary {
     Convergence convergence;
     std::optional<double> reference;
-    std::string message;  ///< the course in a sentence
+    bool reference_is_questionable = false;  ///< its rung carries such a flag
+    std::string message;                     ///< the course in a sentence
     /// What the rung is off that is the base; nothing: no rung is the base, or its error is not known
     std::optional<double> error_of_base;
 };

@@ -132,13 +132,15 @@ void tell_errors_of_runs(AccuracyTable& table) {
     }
 }
 
-/// Only rows to rely on are offered.
+/// Only rows to rely on are offered, of ladders whose reference can be relied on.
 void choose(AccuracyTable& table) {
     std::vector<Offer> offers;
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const AccuracyRow& row = table.rows[i];
-        if (!row.error_of_a_run || !row.cost || row.questionable) continue;
+        if (!row.error_of_a_run || !row.cost || row.questionable ||
+            table.ladders[row.setting.ladder].reference_is_questionable)
+            continue;
         offers.push_back({row.cost->cpu_seconds, *row.error_of_a_run});
         rows.push_back(i);
     }
@@ -157,7 +159,11 @@ void judge(AccuracyTable& table) {
         LadderSummary ladder;
         ladder.convergence = convergence_of_ladder({rows.begin(), rows.end()});
         ladder.reference = reference_of(table.plan.reference, ladder.convergence, *rows.back());
+        ladder.reference_is_questionable =
+            table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
         ladder.message = course_in_words(ladder.convergence, table.plan, i);
+        if (ladder.reference_is_questionable)
+            ladder.message += "; its finest rung is questionable, so nothing of it is recommended";
         tell_errors(table.plan, ladder, rows);
         table.ladders.push_back(std::move(ladder));
     }

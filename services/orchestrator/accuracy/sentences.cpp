@@ -56,7 +56,9 @@ std::string offer_in_words(const AccuracyTable& table, const AccuracyRow& row) {
 const AccuracyRow* nearest(const AccuracyTable& table) {
     const AccuracyRow* best = nullptr;
     for (const AccuracyRow& each : table.rows) {
-        if (!each.error_of_a_run || each.questionable) continue;
+        if (!each.error_of_a_run || each.questionable ||
+            table.ladders[each.setting.ladder].reference_is_questionable)
+            continue;
         if (best == nullptr || *each.error_of_a_run < *best->error_of_a_run) best = &each;
     }
     return best;
