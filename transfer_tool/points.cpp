@@ -8,10 +8,8 @@ namespace {
 
 using exchange::MeshSnapshot;
 
-void place_in_element(const MeshSnapshot& mesh, std::size_t e, const Panels& panels, int n,
-                      Points& points) {
-    const GaussRule along = gauss_legendre(n, panels[0]);
-    const GaussRule across = gauss_legendre(n, panels[1]);
+void place_in_element(const MeshSnapshot& mesh, std::size_t e, const GaussRule& along,
+                      const GaussRule& across, Points& points) {
     const Corners x_0 = undeformed_corners(mesh, e);
     const Corners& x = points.shape[e];
     exchange::ParticleState& s = points.state;
@@ -62,7 +60,7 @@ void carry_ratio(const MeshSnapshot& mesh, std::size_t e, Points& points) {
 }  // namespace
 
 Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
-                    const std::vector<Panels>& panels, int n) {
+                    const std::vector<Panels>& panels, int n, const Shift& shift) {
     Points points;
     points.shape = std::move(shapes);
     exchange::ParticleState& s = points.state;
@@ -77,7 +75,8 @@ Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
     points.xi.reserve(count);
     points.first.push_back(0);
     for (std::size_t e = 0; e < mesh.quads.size(); ++e)
-        place_in_element(mesh, e, panels[e], n, points);
+        place_in_element(mesh, e, shifted_rule(n, panels[e][0], shift[0]),
+                         shifted_rule(n, panels[e][1], shift[1]), points);
     s.gap.assign(count, 0.0);
     return points;
 }

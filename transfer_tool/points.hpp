@@ -21,9 +21,9 @@ struct Points {
 
 /// n x n points at the Gauss positions of each panel of each deformed element. With weights w and
 /// the thickness t: mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for every n,
-/// since J is linear.
+/// since J is linear; with a shift for n >= 2.
 Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> shapes,
-                    const std::vector<Panels>& panels, int n);
+                    const std::vector<Panels>& panels, int n, const Shift& shift = {});
 
 /// By shape functions: velocity v = sum N_i v_i and its gradient L = sum v_i (dN_i/dx)^T on the
 /// deformed element, acceleration, and where the snapshot has them pore pressure u = sum N_i u_i

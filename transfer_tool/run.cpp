@@ -113,6 +113,7 @@ void report(process::Session& session, const Transferred& t) {
     result["transfer_time"] = t.state.transfer_time;
     result["points"] = t.state.size();
     result["points_per_direction"] = settings.points_per_direction;
+    result["point_shift"] = settings.point_shift;
     result["interpolation"] = words::name_of(settings.interpolation);
     result["softening_start"] = words::name_of(settings.softening_start);
     result["soils"] = soils_as_json(t);

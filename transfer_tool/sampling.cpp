@@ -128,11 +128,13 @@ void refuse_too_many(const std::vector<Panels>& panels, int n) {
 }
 
 std::vector<std::size_t> counts(const std::vector<Corners>& elements,
-                                const std::vector<Panels>& panels, int n, const CellCover& cover) {
+                                const std::vector<Panels>& panels, const CellDemand& demand,
+                                const CellCover& cover) {
+    const int n = demand.points_per_panel;
     std::vector<std::size_t> count(cover.share.size(), 0);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-        const GaussRule along = gauss_legendre(n, panels[e][0]);
-        const GaussRule across = gauss_legendre(n, panels[e][1]);
+        const GaussRule along = shifted_rule(n, panels[e][0], demand.shift[0]);
+        const GaussRule across = shifted_rule(n, panels[e][1], demand.shift[1]);
         for (const double eta : across.position)
             for (const double xi : along.position)
                 ++count[cover.cell(elements[e] * shape_functions({xi, eta}))];
@@ -176,7 +178,7 @@ Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDema
     refuse_too_many(sampling.panels, n);
 
     const CellCover cover(elements, demand);
-    std::vector<std::size_t> count = counts(elements, sampling.panels, n, cover);
+    std::vector<std::size_t> count = counts(elements, sampling.panels, demand, cover);
     std::vector<char> refined(elements.size());
     for (int round = 0; round < most_rounds; ++round) {
         std::ranges::fill(refined, char{0});
@@ -192,7 +194,7 @@ Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDema
         }
         if (!any) break;
         refuse_too_many(sampling.panels, n);
-        count = counts(elements, sampling.panels, n, cover);
+        count = counts(elements, sampling.panels, demand, cover);
     }
     sampling.supply = supply_of(cover, count, asked);
     return sampling;

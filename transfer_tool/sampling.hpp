@@ -18,6 +18,8 @@ using mechanics::Vec2;
 
 /// Panels along xi and along eta.
 using Panels = std::array<int, 2>;
+/// Along xi and along eta, as shifted_rule takes it [-].
+using Shift = std::array<double, 2>;
 
 /// The MPM's cells and what is asked of them.
 struct CellDemand {
@@ -25,6 +27,7 @@ struct CellDemand {
     Vec2 origin;           ///< of any node [m]
     int points_per_cell;   ///< asked
     int points_per_panel;  ///< Gauss points per direction of a panel, n
+    Shift shift = {};      ///< of the points within their panels
 };
 
 /// What the cells got. A cell is filled by the share of its area that elements cover; one with

@@ -12,7 +12,8 @@ Sampling sampling_of(const std::vector<Corners>& shapes, const scene::Scene& sce
     return sampling_for_cells(shapes, {.cell_size = mpm.cell_size,
                                        .origin = {mpm.domain_x[0], mpm.floor.level},
                                        .points_per_cell = *settings.points_per_cell,
-                                       .points_per_panel = settings.points_per_direction});
+                                       .points_per_panel = settings.points_per_direction,
+                                       .shift = settings.point_shift});
 }
 
 std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map) {
@@ -34,7 +35,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     const Sampling sampling = sampling_of(shapes.corners, scene);
     t.supply = sampling.supply;
     Points points = place_points(mesh, std::move(shapes.corners), sampling.panels,
-                                 settings.points_per_direction);
+                                 settings.points_per_direction, settings.point_shift);
     carry_nodal_fields(mesh, points);
     const auto gauss_fields = carry_gauss_fields(mesh, settings, work, points);
     if (!gauss_fields) return std::nullopt;

@@ -1,5 +1,6 @@
 #include "core/geometry/quad.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -74,9 +75,10 @@ GaussRule gauss_legendre(int n) {
     return rule;
 }
 
-GaussRule gauss_legendre(int n, int panels) {
-    if (panels == 1) return gauss_legendre(n);
-    const GaussRule one = gauss_legendre(n);
+namespace {
+
+GaussRule repeated(const GaussRule& one, int n, int panels) {
+    if (panels == 1) return one;
     GaussRule rule;
     for (int p = 0; p < panels; ++p)
         for (int i = 0; i < n; ++i) {
@@ -84,6 +86,31 @@ GaussRule gauss_legendre(int n, int panels) {
             rule.weight.push_back(one.weight[i] / panels);
         }
     return rule;
+}
+
+/// Points and weights as eigenvalues and first components of eigenvectors of the Jacobi matrix
+/// (Golub & Welsch 1969), whose last diagonal entry carries the shift (Golub 1973, there for
+/// Radau's rule).
+GaussRule one_shifted_panel(int n, double shift) {
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, n);
+    for (int k = 1; k < n; ++k) J(k, k - 1) = J(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
+    J(n - 1, n - 1) = shift * n / (2.0 * n - 1.0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(J);
+    GaussRule rule;
+    for (int i = 0; i < n; ++i) {
+        rule.position.push_back(solver.eigenvalues()[i]);
+        rule.weight.push_back(2.0 * solver.eigenvectors()(0, i) * solver.eigenvectors()(0, i));
+    }
+    return rule;
+}
+
+}  // namespace
+
+GaussRule gauss_legendre(int n, int panels) { return repeated(gauss_legendre(n), n, panels); }
+
+GaussRule shifted_rule(int n, int panels, double shift) {
+    if (shift == 0.0) return gauss_legendre(n, panels);
+    return repeated(one_shifted_panel(n, shift), n, panels);
 }
 
 }  // namespace breach::geometry

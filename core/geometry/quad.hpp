@@ -36,5 +36,9 @@ GaussRule gauss_legendre(int n);
 /// The same rule in each of `panels` equal parts of [-1, 1]: n * panels points, ascending, exact to
 /// the same degree. With two points per panel all weights are equal, whatever their number.
 GaussRule gauss_legendre(int n, int panels);
+/// The n-point rule of the same family whose polynomial is P_n - shift P_(n-1), in each panel: the
+/// points move towards +1 (shift > 0) or -1, at shift = +-1 onto the border (Radau), and all
+/// weights stay positive. Exact to degree 2 n - 2. |shift| < 1; 0: Gauss-Legendre.
+GaussRule shifted_rule(int n, int panels, double shift);
 
 }  // namespace breach::geometry

@@ -158,6 +158,7 @@ json known_of(Session& session, const Plan& plan) {
     known["questionable"] = fault::is_questionable(session.flags());
     known["wall_seconds"] = session.wall_seconds();
     known["cpu_seconds"] = session.cpu_seconds();
+    if (const auto peak = session.peak_memory()) known["peak_memory_MB"] = *peak;
     known["provenance"] = as_json(session.provenance());
     return known;
 }

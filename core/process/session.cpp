@@ -88,6 +88,17 @@ double Session::cpu_seconds() const {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
+std::optional<double> Session::peak_memory() const {
+    // Not getrusage: its ru_maxrss of a process begins with that of the one which started it.
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        constexpr std::string_view high_water = "VmHWM:";
+        if (line.starts_with(high_water))
+            return std::stod(line.substr(high_water.size())) * 1024.0 / 1e6;  // given in KiB
+    }
+    return std::nullopt;
+}
+
 void Session::progress(double fraction, const std::string& message) {
     if (settings_.progress == ProgressStyle::none) return;
     const auto now = std::chrono::steady_clock::now();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ class Session {
     exchange::Provenance provenance() const;
     double wall_seconds() const;
     double cpu_seconds() const;
+    /// Most physical memory that the process has held at once [MB]; nothing: the system does not
+    /// say.
+    std::optional<double> peak_memory() const;
 
     /// Shows how far the work is. fraction in [0, 1]; cheap, throttled to a few per second.
     void progress(double fraction, const std::string& message);

@@ -26,6 +26,15 @@ void make_absolute(json& overrides, const std::filesystem::path& folder) {
     }
 }
 
+/// Of an accuracy study: what all rungs share, and each rung.
+void make_rungs_absolute(json& accuracy, const std::filesystem::path& folder) {
+    if (accuracy.contains("base")) make_absolute(accuracy["base"], folder);
+    if (!accuracy.contains("ladders") || !accuracy["ladders"].is_array()) return;
+    for (json& ladder : accuracy["ladders"])
+        if (ladder.is_object() && ladder.contains("steps") && ladder["steps"].is_array())
+            for (json& step : ladder["steps"]) make_absolute(step, folder);
+}
+
 }  // namespace
 
 void make_files_absolute(json& scene, const std::filesystem::path& folder) {
@@ -39,6 +48,8 @@ void make_files_absolute(json& scene, const std::filesystem::path& folder) {
 void make_override_files_absolute(json& study, const std::filesystem::path& folder) {
     if (!study.is_object()) return;
     if (study.contains("overrides")) make_absolute(study["overrides"], folder);
+    if (study.contains("accuracy") && study["accuracy"].is_object())
+        make_rungs_absolute(study["accuracy"], folder);
     if (!study.contains("variants") || !study["variants"].is_array()) return;
     for (json& each : study["variants"])
         if (each.is_object() && each.contains("overrides"))

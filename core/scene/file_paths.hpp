@@ -14,7 +14,8 @@ extern const std::array<std::string, 2> file_entries;
 
 /// Of the scene itself; what is not there, or is no text, is left for the scene's reader to judge.
 void make_files_absolute(nlohmann::json& scene, const std::filesystem::path& folder);
-/// Of a study's overrides ("/pointer=value") and of those of its variants; its scene is left alone.
+/// Of a study's overrides ("/pointer=value"), of those of its variants and of its ladders; its scene
+/// is left alone.
 void make_override_files_absolute(nlohmann::json& study, const std::filesystem::path& folder);
 
 }  // namespace breach::scene

@@ -177,6 +177,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.checkpoint_interval = mpm.at("checkpoint_interval");
     result.largest_energy_gain = mpm.at("largest_energy_gain");
     result.fill_points = mpm.at("fill_points");
+    result.fill_shift = range_from(mpm.at("fill_shift"));
     result.fill_stress = word_at<FillStress>(mpm, "fill_stress");
     check_mpm(reader, scene, result);
     scene.mpm = std::move(result);

@@ -185,6 +185,10 @@ void read_transfer(Reader& reader, Scene& scene) {
             reader.add("/transfer/points_per_cell", "needs the MPM's cells",
                        "give /mpm, or leave points_per_cell out");
     }
+    result.point_shift = range_from(transfer.at("point_shift"));
+    if (result.points_per_direction < 2 && result.point_shift != std::array<double, 2>{})
+        reader.add("/transfer/point_shift", "moves the only point of an element, which loses mass",
+                   "give /transfer/points_per_direction 2 or more, or leave point_shift out");
     if (transfer.contains("phreatic_line"))
         result.phreatic_line =
             line_from(reader, transfer.at("phreatic_line"), "/transfer/phreatic_line");

@@ -375,6 +375,8 @@ struct AdviceWindow {
 struct Transfer {
     int points_per_direction;
     std::optional<int> points_per_cell{};  ///< that every filled cell of the MPM must get
+    /// Moves the points along xi and eta: 0 Gauss, +-1 a point on the panel's border [-]
+    std::array<double, 2> point_shift{};
     Interpolation interpolation;
     int neighbours;
     Entangled entangled = Entangled::refuse;
@@ -478,6 +480,7 @@ struct Mpm {
     double checkpoint_interval;  ///< wall clock [s]
     double largest_energy_gain;  ///< relative to the energy released; more ends the run [-]
     int fill_points;             ///< points per cell and direction when no particles are given
+    std::array<double, 2> fill_shift{};  ///< moves the squares of the filling, in squares [-]
     FillStress fill_stress = FillStress::none;
 };
 

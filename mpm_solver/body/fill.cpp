@@ -138,15 +138,16 @@ void add_point(const scene::Scene& scene, std::size_t region, const Patch& patch
 
 FilledSection fill_section(const scene::Scene& scene) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
-    const Vec2 origin{mpm.domain_x[0], mpm.floor.level};
+    const double square = mpm.cell_size / mpm.fill_points;
+    const Vec2 origin{mpm.domain_x[0] + mpm.fill_shift[0] * square,
+                      mpm.floor.level + mpm.fill_shift[1] * square};
     FilledSection filled;
     filled.state.thickness = scene.thickness;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Region& region = scene.section.regions[r];
         filled.state.regions.push_back(region.name);
         filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
-        for (const auto& [place, patch] :
-             sample(region.polygon, origin, mpm.cell_size / mpm.fill_points)) {
+        for (const auto& [place, patch] : sample(region.polygon, origin, square)) {
             add_point(scene, r, patch, filled.state);
         }
     }

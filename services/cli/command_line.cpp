@@ -77,6 +77,7 @@ class CommandLine {
             "--strict: or is questionable), 74 file fault, 75 the server does not answer.");
         add_run_commands();
         add_sweep_commands();
+        add_accuracy_command();
         add_task_commands();
         add_file_commands();
     }
@@ -121,21 +122,29 @@ class CommandLine {
 
     void take_study(CLI::App* sub) {
         CLI::Option_group* what = sub->add_option_group("what");
-        what->add_option("STUDY", a_.submit.study,
-                         "study file (JSON); a scene named in it is put into it");
+        take_study_file(what);
         what->add_option("--scene", a_.submit.scene,
                          "instead: a scene file (JSON), to be run as it is; needs --times");
         what->require_option(1);
         sub->add_option("--times", a_.submit.transfer_times,
                         "transfer times instead of the study's, separated by commas [s]")
             ->delimiter(',');
+        take_changes(sub);
+        take_strict(sub);
+    }
+
+    void take_study_file(CLI::App* sub) {
+        sub->add_option("STUDY", a_.submit.study,
+                        "study file (JSON); a scene named in it is put into it");
+    }
+
+    void take_changes(CLI::App* sub) {
         sub->add_option("--set", a_.submit.overrides,
                         "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         sub->add_option("--key", a_.submit.idempotency_key,
                         "submitting again with the same key makes no second run");
         sub->add_flag("--watch", a_.watch, "watch the run until it ends");
-        take_strict(sub);
     }
 
     void take_strict(CLI::App* sub) {
@@ -147,6 +156,28 @@ class CommandLine {
     ExitCode submit_and_watch(Server& server, const Console& console) {
         const std::string run = submit(server, a_.submit, console);
         return a_.watch ? watch(server, run, doubt(), console) : ExitCode::done;
+    }
+
+    /// The table of a run that is there, or of one that is submitted and watched for it.
+    ExitCode accuracy(Server& server, const Console& console) {
+        if (!a_.id.empty()) return show_accuracy(server, a_.id, console);
+        const std::string run = submit(server, a_.submit, console);
+        if (!a_.watch) return ExitCode::done;
+        const ExitCode end = watch(server, run, doubt(), console);
+        show_accuracy(server, run, console);
+        return end;
+    }
+
+    void add_accuracy_command() {
+        CLI::App* sub = add("accuracy", "error against run time: what each setting costs and gives",
+                            "workflows/accuracy/column.json --watch",
+                            [this](Server& s, const Console& c) { return accuracy(s, c); });
+        CLI::Option_group* what = sub->add_option_group("what");
+        take_study_file(what);
+        what->add_option("--of", a_.id, "instead: the run of an accuracy study, as far as it is");
+        what->require_option(1);
+        take_changes(sub);
+        take_strict(sub);
     }
 
     void add_sweep_commands() {

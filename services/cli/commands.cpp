@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/exchange/csv.hpp"
+#include "services/cli/accuracy_view.hpp"
 #include "services/cli/study_file.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/views.hpp"
@@ -146,6 +147,16 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";
     return end_of(run) == RunEnd::not_yet ? ExitCode::done : code_of_end(run, wish.doubt, console);
+}
+
+ExitCode show_accuracy(Server& server, const std::string& run, const Console& console) {
+    const json answer = server.get(path_of({"runs", run_named(server, run), "accuracy"}));
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        console.out << as_accuracy_table(answer);
+    }
+    return ExitCode::done;
 }
 
 ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console) {

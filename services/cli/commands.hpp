@@ -66,6 +66,9 @@ struct ResultsWish {
 /// Exit code: code_of_end
 fault::ExitCode results(Server& server, const ResultsWish& wish, const Console& console);
 
+/// The table of an accuracy study, its ladders and what it recommends.
+fault::ExitCode show_accuracy(Server& server, const std::string& run, const Console& console);
+
 struct TelemetryWish {
     std::string run;
     std::string phase;

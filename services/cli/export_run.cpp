@@ -72,6 +72,9 @@ class Export {
         keep_json("results.json", server_.get(results), "one row per transfer time");
         keep_text("results.csv", server_.get_text(results + "?format=csv").body,
                   "one row per transfer time");
+        if (study.contains("accuracy"))
+            keep_json("accuracy.json", server_.get(path_of({"runs", id, "accuracy"})),
+                      "error against run time of each setting");
         for (const json& each : tasks) task(each.at("id"));
         write_json(folder_ / "ro-crate-metadata.json", crate_.metadata(run));
         console_.notes << bar(1.0) << "  " << kept_ << " artifacts, " << fetched_

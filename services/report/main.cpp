@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "core/fault/fault.hpp"
+#include "services/report/accuracy_page.hpp"
 #include "services/report/figures/element_test_figures.hpp"
 #include "services/report/figures/stability_figures.hpp"
 #include "services/report/figures/transfer_figures.hpp"
@@ -82,6 +83,17 @@ int main(int argc, char** argv) {
         each.command->add_option("--output", output, "folder for figures, made if absent")
             ->required();
     }
+    std::vector<std::filesystem::path> tables;
+    CLI::App* accuracy =
+        app.add_subcommand("accuracy", "page of accuracy studies, with error against CPU seconds");
+    accuracy
+        ->add_option("tables", tables,
+                     "what breach accuracy --of RUN --json printed, one file each")
+        ->required();
+    accuracy
+        ->add_option("--output", output,
+                     "the page (Markdown); figures and data go to a folder of its name")
+        ->required();
     try {
         app.parse(argc, argv);
         if (app.get_subcommands().empty() && (folder.empty() || output.empty())) {
@@ -90,7 +102,8 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return static_cast<int>(app.exit(error) == 0 ? ExitCode::done : ExitCode::usage);
     }
-    return static_cast<int>(guarded(folder, [&] {
+    return static_cast<int>(guarded(*accuracy ? output : folder, [&] {
+        if (*accuracy) return report::write_accuracy_page(tables, output);
         for (const OnePhase& each : single) {
             if (*each.command) return each.write(folder, output);
         }

@@ -45,7 +45,7 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"records"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"triggers"}, {"dispatch"},
+    "services/orchestrator": [{"records"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"triggers"}, {"dispatch", "accuracy"},
                               {"http"}],
     "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }

@@ -181,6 +181,8 @@ class FakeRun {
             const moving = ended && ended === "duration";
             return { transfer_time, variant, state, transfer_task: transfer.id, mpm_task: mpm.id, reused: false,
                      ended, end_time, questionable, flags: flags?.map((each) => ({ ...each, phase: "mpm_solver" })) ?? null,
+                     runout_error: this.study.draws && own === "succeeded" ? 0.1 * this.study.draws : null,
+                     runout_error_from: this.study.draws ? `scatter of ${this.study.draws} draws` : "",
                      at_rest: ended && !moving, kinetic_share: ended && (moving ? 0.12 : 0.001),
                      trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed"
                          : mpm.not_reached ? `its FEM ended regularly at ${this.entangles} s, before this time` : "",

@@ -338,6 +338,22 @@ test("a run is paused and resumed, and says how long it will take", async () => 
     assert.ok(await page.isHidden("#retry"), "nothing to retry while it runs");
 });
 
+test("where a runout's error is known, the curve has a band and the readout says it", async () => {
+    await open_run(api.add_run({ ...study, name: "with-draws", draws: 5 }, { began: Date.now() - 60000 }).id);
+    await until("seven whiskers", async () => (await page.locator("#runout-plot svg.plot > .whisker.series-0").count()) === 7);
+    assert.equal(await page.locator("#runout-plot svg.plot > .error-band").count(), 1);
+    assert.match(await text_of("#runout-plot .legend"), /error of one run/);
+    await page.focus("#runout-plot svg.plot");
+    await page.keyboard.press("Home");
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: 99 % of the mobile soil 14.04 ± 0.5 m$/);
+    await page.selectOption("#runout-measure", "runout_largest");
+    assert.equal(await page.locator("#runout-plot .whisker").count(), 0, "the error is that of the runout");
+    await page.selectOption("#runout-measure", "runout");
+    await open_run("run-1");
+    await until("markers", async () => (await markers()) === 7);
+    assert.equal(await page.locator("#runout-plot .whisker").count(), 0, "no error is known");
+});
+
 test("every variant has its own curve, rows, chips and particles", async () => {
     await open_run(variants_run());
     await until("two curves", async () => (await page.locator("#runout-plot svg.plot > .marker.series-1").count()) === 7);

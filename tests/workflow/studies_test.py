@@ -37,6 +37,12 @@ def main(folder):
                     code, out, error = plan(phase, scene, overrides)
                     check(f"{file.name} {each['name']}: {phase} has a plan", code == 0 and out, error)
             check(f"{file.name}: {tasks} tasks are planned", tasks >= 2)
+        for file in sorted((root / "workflows/accuracy").glob("*.json")):
+            run = service.submit(file)
+            service.call(f"/v1/runs/{run}/cancel", {})
+            table = service.call(f"/v1/runs/{run}/accuracy")
+            rungs = sum(len(each["steps"]) for each in json.loads(file.read_text())["accuracy"]["ladders"])
+            check(f"accuracy/{file.name}: {rungs} rungs", len(table["rows"]) == rungs, table)
     finally:
         service.stop()
 

@@ -1,3 +1,4 @@
+#include "services/orchestrator/accuracy/runout_error.hpp"
 #include "services/orchestrator/dispatch/why.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
@@ -120,7 +121,8 @@ ResultFilter wanted_results(const Call& call) {
 void results(const Service& service, Call& call) {
     call.allow_parameters({"format", "from", "limit", "state", "flag"});
     wanted_run(service, call.parts[0]);
-    const std::vector<ResultRow> rows = service.store.results(call.parts[0], wanted_results(call));
+    std::vector<ResultRow> rows = service.store.results(call.parts[0], wanted_results(call));
+    tell_runout_errors(service.store, service.data, call.parts[0], rows);
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
         call.response.set_content(as_csv(rows), "text/csv; charset=utf-8");

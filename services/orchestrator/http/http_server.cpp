@@ -83,6 +83,7 @@ class HttpServer::Implementation {
   public:
     Implementation(Service& service, HttpSettings settings) : settings_(std::move(settings)) {
         add_run_routes(router_, service);
+        add_accuracy_routes(router_, service);
         add_trigger_routes(router_, service);
         add_output_routes(router_, service);
         add_event_routes(router_, service, stopping_);

@@ -12,11 +12,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-<<<<<<< HEAD
-constexpr std::array phases{"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"};
-=======
-constexpr auto longest_answer = std::chrono::seconds(20);
->>>>>>> 15ba336 (Phases are one table for orchestrator and report; csv and nulls are written once; what is drawn is held against the columns; the walks are counted again)
 constexpr std::string_view word = "numerics ";
 
 std::int64_t numerics_of(const std::filesystem::path& program) {

@@ -12,15 +12,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-<<<<<<< HEAD
-constexpr std::array<std::pair<const char*, const char*>, 4> phases_by_part{
-    {{"lem", "lem_tool"},
-     {"fem", "fem_solver"},
-     {"transfer", "transfer_tool"},
-     {"mpm", "mpm_solver"}}};
-=======
-constexpr auto longest_answer = std::chrono::seconds(20);
->>>>>>> 15ba336 (Phases are one table for orchestrator and report; csv and nulls are written once; what is drawn is held against the columns; the walks are counted again)
 
 /// What the program prints until it ends.
 std::string answer_of(const std::filesystem::path& program, const std::filesystem::path& scene) {

@@ -11,7 +11,7 @@ namespace breach::orchestrator {
 namespace {
 
 const std::array versions{version_1, version_2, version_3, version_4,
-                          version_5, version_6, version_7};
+                          version_5, version_6, version_7, version_8};
 
 std::int64_t version_of(Connection& database) {
     std::int64_t version = 0;

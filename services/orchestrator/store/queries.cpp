@@ -355,6 +355,18 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return found;
 }
 
+std::vector<std::string> Store::accuracy_runs(std::size_t most) const {
+    std::vector<std::string> found;
+    read([&](Connection& database) {
+        // The condition as the index runs_with_accuracy has it.
+        database.query(
+            "SELECT id FROM runs WHERE json_type(study, '$.accuracy')='object' ORDER BY id DESC "
+            "LIMIT ?",
+            {as_value(most)}, [&](const Row& row) { found.push_back(row.text(0)); });
+    });
+    return found;
+}
+
 std::pair<std::int64_t, std::int64_t> Store::points_of(const std::string& run) const {
     std::pair<std::int64_t, std::int64_t> counts{0, 0};
     read([&](Connection& database) {

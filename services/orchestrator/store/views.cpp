@@ -72,6 +72,13 @@ const std::vector<Expression> own_columns{
                   "\n        (SELECT code FROM flags WHERE task IN " +
                   tasks_of_row + " GROUP BY code ORDER BY min(severity), code)), '') END"},
 };
+/// What the service works out beside the database (accuracy/runout_error.hpp): not in the view.
+const std::vector<std::string> worked_out{"runout_error", "runout_error_from"};
+
+bool is_in_view(const ResultColumn& column) {
+    return std::ranges::find(worked_out, column.name) == worked_out.end();
+}
+
 /// What the view has besides the columns of the table.
 const std::vector<Expression> other_columns{
     {"run", "mpm.run"},
@@ -109,7 +116,8 @@ std::string sweep_results() {
             .append(" AS ")
             .append(each.name);
     for (const ResultColumn& each : result_columns())
-        columns.append(",\n    ").append(sql_of(each)).append(" AS ").append(each.name);
+        if (is_in_view(each))
+            columns.append(",\n    ").append(sql_of(each)).append(" AS ").append(each.name);
     return columns +
            "\nFROM tasks AS mpm JOIN tasks AS transfer ON transfer.id = mpm.parent"
            "\n    LEFT JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant"
@@ -148,7 +156,9 @@ std::string selected_result_columns() {
     std::string names;
     for (const ResultColumn& each : result_columns())
         names.append(names.empty() ? "" : ", ")
-            .append(each.kind == ColumnKind::flags ? "flag_list" : each.name);
+            .append(!is_in_view(each)                ? "NULL"
+                    : each.kind == ColumnKind::flags ? "flag_list"
+                                                     : each.name);
     return names;
 }
 

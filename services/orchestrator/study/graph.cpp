@@ -74,6 +74,21 @@ class Planner {
         : study_(study), numerics_(numerics), tasks_(study), open_(study) {}
 
     void plan(const Variant& variant) {
+        if (study_.reach == Reach::chain) {
+            plan_chain(variant);
+        } else {
+            plan_one_phase(variant, phases_of(study_.reach).front());
+        }
+    }
+
+    /// Nothing but this phase; never one task for two variants: each is a rung of its own.
+    void plan_one_phase(const Variant& variant, const std::string& phase) {
+        variant_ = &variant;
+        recipes_of_variant_[phase] = recipe(phase, variant.scene);
+        add_first(tasks_, phase, {}, Sharing::never);
+    }
+
+    void plan_chain(const Variant& variant) {
         json scene = variant.scene;
         scene["fem"]["snapshot_times"] = snapshot_times(scene, study_.transfer_times);
         std::vector<std::string> wishes{"/fem/snapshot_times=" +
@@ -102,8 +117,8 @@ class Planner {
 
   private:
     /// A task that waits for nothing.
-    std::size_t add_first(TaskList& list, const std::string& phase,
-                          std::vector<std::string> wishes) {
+    std::size_t add_first(TaskList& list, const std::string& phase, std::vector<std::string> wishes,
+                          Sharing sharing = Sharing::wanted) {
         return list.add({.phase = phase,
                          .label = {},
                          .transfer_time = {},
@@ -112,7 +127,7 @@ class Planner {
                          .input = {},
                          .overrides = std::move(wishes),
                          .recipe = recipes_of_variant_.at(phase)},
-                        *variant_, Sharing::wanted);
+                        *variant_, sharing);
     }
 
     void plan_transfer(TaskList& list, std::size_t fem, std::optional<double> time) {

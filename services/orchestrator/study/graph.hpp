@@ -4,6 +4,8 @@
 //                                                  (for each variant and each t_T)
 //     lem_tool                                     (for each variant, on its own)
 //
+// An accuracy study can need less: fem_solver, lem_tool or mpm_solver alone (study/accuracy.hpp).
+//
 // Tasks of different variants are one task when they are the same: equal recipe, equal parent,
 // equal input. A variant that changes only /mpm thus shares the FEM and all transfers.
 #pragma once

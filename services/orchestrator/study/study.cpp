@@ -9,6 +9,7 @@
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/study/recipe.hpp"
 
 namespace breach::orchestrator {
 
@@ -183,6 +184,7 @@ void read_triggers(const json& document, double span, Study& study, std::vector<
     study.transfer_times = std::move(times);
     study.triggers = std::move(checked.live);
     study.snapshot_interval = checked.snapshot_interval;
+    if (study.reach != Reach::chain) return;
     if (faults.size() == before && study.transfer_times.empty() && document["triggers"].empty()) {
         faults.push_back({"/transfer_times", "nothing says when to transfer",
                           "give \"transfer_times\", \"triggers\" or both"});
@@ -212,30 +214,152 @@ std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& 
     return own;
 }
 
+/// Those that the study names itself; what the service made of it is made anew.
+std::vector<VariantEntry> own_variants(const json& entries) {
+    std::vector<VariantEntry> own;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i].contains("made_by")) continue;
+        own.push_back({.name = entries[i].at("name"),
+                       .overrides = entries[i].at("overrides"),
+                       .name_pointer = "/variants/" + std::to_string(i) + "/name",
+                       .pointer = "/variants/" + std::to_string(i) + "/overrides",
+                       .made_by = ""});
+    }
+    return own;
+}
+
+/// On as many lattices as the study asks for.
+std::vector<VariantEntry> wanted_variants(const json& document, std::vector<Fault>& faults) {
+    constexpr std::size_t longest_name = 32;  // of the schema
+    const std::size_t draws = document["draws"];
+    std::vector<VariantEntry> own = own_variants(document["variants"]);
+    if (draws == 1) return own;
+    if (own.empty())
+        own.push_back({.name = "",
+                       .overrides = {},
+                       .name_pointer = "/draws",
+                       .pointer = "/draws",
+                       .made_by = ""});
+    std::vector<VariantEntry> entries = repeated(own, draws);
+    for (const VariantEntry& each : entries)
+        if (each.name.size() > longest_name)
+            faults.push_back({each.name_pointer,
+                              "the name of its repeat, \"" + each.name + "\", is too long",
+                              "give the variant a shorter name"});
+    return entries;
+}
+
+json as_json(const std::vector<VariantEntry>& entries) {
+    json list = json::array();
+    for (const VariantEntry& each : entries) {
+        list.push_back({{"name", each.name}, {"overrides", each.overrides}});
+        if (!each.made_by.empty()) list.back()["made_by"] = each.made_by;
+    }
+    return list;
+}
+
 /// Each variant's scene, checked and completed; faults are those of its overrides.
-std::vector<Variant> checked_variants(const json& entries, const Base& base,
+std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, const Base& base,
                                       const std::vector<double>& times,
                                       std::vector<Fault>& faults) {
     if (entries.empty()) return {{.name = "", .overrides = {}, .scene = base.scene}};
     std::vector<Variant> variants;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const std::string at = "/variants/" + std::to_string(i);
-        Variant variant{.name = entries[i].at("name"),
-                        .overrides = entries[i].at("overrides"),
-                        .scene = nullptr};
+    for (const VariantEntry& entry : entries) {
+        Variant variant{.name = entry.name, .overrides = entry.overrides, .scene = nullptr};
         if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
-            faults.push_back({at + "/name", "the name \"" + variant.name + "\" is given twice",
+            faults.push_back({entry.name_pointer,
+                              "the name \"" + variant.name + "\" is given twice",
                               "give each variant a name of its own"});
         }
         std::vector<std::string> overrides = base.overrides;
         overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
         const check::Checked changed = checked_scene(base.scene, overrides);
         for (const Fault& each : faults_of_variant(changed, base, times))
-            faults.push_back({at + "/overrides", each.pointer + ": " + each.cause, each.remedy});
+            faults.push_back({entry.pointer, each.pointer + ": " + each.cause, each.remedy});
         if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
         variants.push_back(std::move(variant));
     }
     return variants;
+}
+
+// ---------------------------------------------------------------- accuracy
+
+/// What a study cannot be besides an accuracy study.
+void check_company(const json& document, const Study& study, std::vector<Fault>& faults) {
+    if (!own_variants(document["variants"]).empty())
+        faults.push_back({"/variants", "an accuracy study makes its variants of its ladders",
+                          "leave \"variants\" out: a ladder's rungs say what is changed"});
+    if (!document["triggers"].empty())
+        faults.push_back({"/triggers", "an accuracy study judges one state, at one time",
+                          "give one transfer time instead"});
+    if (document["draws"] != 1)
+        faults.push_back(
+            {"/draws", "an accuracy study has its own entry for repeats", "give /accuracy/draws"});
+    const std::size_t times = study.transfer_times.size();
+    if (study.reach == Reach::chain && times > 1)
+        faults.push_back({"/transfer_times",
+                          "an accuracy study judges one state, and there are " +
+                              std::to_string(times) + " transfer times",
+                          "give one time"});
+    if (study.reach != Reach::chain && times > 0)
+        faults.push_back({"/transfer_times", "nothing is transferred for this quantity",
+                          "leave \"transfer_times\" out"});
+}
+
+void check_time(const Quantity& quantity, const scene::Scene& scene, std::vector<Fault>& faults) {
+    if (!quantity.time || !scene.fem) return;
+    const double end = dynamic_duration(*scene.fem);
+    if (*quantity.time > end + microsecond)
+        faults.push_back({"/accuracy/quantity",
+                          "the dynamic stages end at " + spelt(end) + " s, before this time",
+                          "ask for an earlier time or lengthen /scene/fem/stages"});
+}
+
+/// A rung that changes nothing for the phases that give the quantity.
+void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
+                 const std::vector<Variant>& variants, std::vector<Fault>& faults) {
+    const auto asked = [&](const Setting& setting) {
+        const auto found = std::ranges::find(variants, setting.variants.front(), &Variant::name);
+        std::vector<std::string> recipes;
+        for (const std::string& phase : phases_of(plan.quantity.reach))
+            if (!found->scene.is_null()) recipes.push_back(recipe_of(phase, found->scene, 0).hash);
+        return recipes;
+    };
+    for (std::size_t i = 1; i < settings.size(); ++i) {
+        const Setting& setting = settings[i];
+        if (setting.step == 0) continue;
+        const auto recipes = asked(setting);
+        if (recipes.empty() || recipes != asked(settings[i - 1])) continue;
+        std::string phases;
+        for (const std::string& each : phases_of(plan.quantity.reach))
+            phases += (phases.empty() ? "" : ", ") + each;
+        faults.push_back({"/accuracy/ladders/" + std::to_string(setting.ladder) + "/steps/" +
+                              std::to_string(setting.step),
+                          "the rung changes nothing that " + phases + " read" +
+                              (phases.find(',') == std::string::npos ? "s" : "") +
+                              ": it is the rung before it once more",
+                          "change an entry that the quantity hangs on"});
+    }
+}
+
+/// Whether the entry says what it wants; the schema has told what is wrong with it otherwise.
+bool wants_accuracy(const json& document, const std::vector<Fault>& of_study) {
+    return document.is_object() && document.contains("accuracy") && is_sound(of_study, "/accuracy");
+}
+
+/// The parts of the scene that the study's tasks read.
+std::vector<const char*> parts_of(Reach reach) {
+    switch (reach) {
+        case Reach::chain:
+            break;
+        case Reach::filled_mpm:
+            return {"mpm"};
+        case Reach::fem:
+            return {"fem"};
+        case Reach::lem:
+            return {"lem"};
+    }
+    return {"fem", "mpm"};
 }
 
 /// One fault instead of one per entry that a study lacks.
@@ -271,12 +395,17 @@ Study read_study(std::string_view text) {
                           "put the scene itself here (jq can: .scene = $scene[0])"});
     }
     Study study;
+    std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
     Base base;
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = document["scene"];
         if (sound("overrides")) base.overrides = document["overrides"];
-        for (const char* part : {"fem", "mpm"}) need_part(base.scene, part, faults);
+        if (wants_accuracy(document, of_study)) {
+            accuracy = read_accuracy(document["accuracy"], base.scene, faults);
+            study.reach = accuracy->quantity.reach;
+        }
+        for (const char* part : parts_of(study.reach)) need_part(base.scene, part, faults);
         scene = checked_scene(base.scene, base.overrides);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
@@ -294,18 +423,28 @@ Study read_study(std::string_view text) {
         if (fem && fem->snapshot_interval > 0.0 && study.snapshot_interval > fem->snapshot_interval)
             study.snapshot_interval = 0.0;  // the scene's own are finer
     }
-    if (scene && sound("variants")) {
+    const bool rungs_are_sound = std::ranges::none_of(
+        faults, [](const Fault& each) { return each.pointer.starts_with("/accuracy"); });
+    if (accuracy && scene && times_are_sound && sound("variants") && sound("draws")) {
+        check_company(document, study, faults);
+        check_time(accuracy->quantity, scene->scene, faults);
+    }
+    if (scene && sound("variants") && sound("draws") && rungs_are_sound) {
+        const std::vector<VariantEntry> entries =
+            accuracy ? variants_of(*accuracy, base.scene) : wanted_variants(document, faults);
         const bool late = fem && !study.transfer_times.empty() &&
                           study.transfer_times.back() > dynamic_duration(*fem) + microsecond;
-        study.variants =
-            checked_variants(document["variants"], base,
-                             late ? std::vector<double>{} : study.transfer_times, faults);
+        study.variants = checked_variants(
+            entries, base, late ? std::vector<double>{} : study.transfer_times, faults);
         if (study.variants.size() * study.transfer_times.size() > most_transfers) {
             faults.push_back(
                 {"/variants",
                  "variants times transfer times are more than " + std::to_string(most_transfers),
                  "split the study"});
         }
+        document["variants"] = as_json(entries);
+        if (accuracy)
+            check_rungs(*accuracy, settings_of(*accuracy, base.scene), study.variants, faults);
     }
     if (!faults.empty()) throw BadInput("study", std::move(faults));
 
@@ -315,7 +454,9 @@ Study read_study(std::string_view text) {
     study.resources = wanted_resources(document["resources"]);
     study.priority = document["priority"];
     study.reuse = document["reuse"];
-    study.stability = document["stability"].get<bool>() && scene->scene.lem.has_value();
+    study.stability =
+        study.reach == Reach::lem ||
+        (!accuracy && document["stability"].get<bool>() && scene->scene.lem.has_value());
     document.erase("scene");
     study.document = std::move(document);
     return study;

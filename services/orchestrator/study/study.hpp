@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/orchestrator/records/records.hpp"
+#include "services/orchestrator/study/accuracy.hpp"
 
 namespace breach::orchestrator {
 
@@ -32,6 +33,7 @@ struct Study {
     bool reuse = true;                  ///< equal earlier results may be taken
     std::vector<TriggerPlan> triggers;  ///< those that watch the FEM
     double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]
+    Reach reach = Reach::chain;         ///< what is run of each variant
 };
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").

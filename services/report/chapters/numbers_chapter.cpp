@@ -53,6 +53,27 @@ Table table_of(const Run& run, const std::string& phase, const std::string& titl
     return table;
 }
 
+/// How far each runout is off, as far as an accuracy study or the run's own draws tell it.
+Table errors_of(const Run& run) {
+    Table table{"numbers_runout_error",
+                "How far the runouts are off",
+                {"run", "t_T [s]", "variant", "runout [m]", "error of one run [m]", "from"},
+                {},
+                "The error of a setting (bias and scatter against a reference) comes from an "
+                "accuracy study of the same scene at the same setting; draws tell the scatter "
+                "alone."};
+    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+        if (each->runout_error_from.empty()) continue;
+        table.rows.push_back({each->label,
+                              each->transfer_time ? short_number(*each->transfer_time) : "-",
+                              each->variant.empty() ? "all" : each->variant,
+                              bounded(*each, fact(each->result, "/runout")),
+                              each->runout_error ? rounded(*each->runout_error, 3) : "no estimate",
+                              each->runout_error_from});
+    }
+    return table;
+}
+
 /// Relative differences of the transfers' ledgers over the whole section: one row per transfer, one
 /// column per quantity.
 Table ledger(const Run& run) {
@@ -164,6 +185,8 @@ void add_numbers(const Material& from, Document& document) {
         "over initial volume; share of soil that lies in other soil. \u2265: a lower bound, the "
         "soil still "
         "moved.");
+    if (Table errors = errors_of(from.run); !errors.rows.empty())
+        chapter.tables.push_back(std::move(errors));
     if (Table flags = flag_table(from.run); !flags.rows.empty()) {
         chapter.tables.push_back(std::move(flags));
     }

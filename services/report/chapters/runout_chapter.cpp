@@ -1,6 +1,7 @@
 // From the transfer to the deposit: points at t_T, runout against t_T, final geometries.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/phases/files.hpp"
 #include "services/report/chapters/chapters.hpp"
@@ -45,7 +46,9 @@ Figure runout_against_time(const Material& from) {
         "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
         "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
         "is a lower bound; hollow and dashed: questionable (table of flags); pale: its "
-        "result carries no flags."};
+        "result carries no flags. Where an accuracy study or draws tell the error of one run, it "
+        "is "
+        "drawn as a band."};
     for (const std::string& variant : variants_of(from.run)) {
         Series s{variant.empty() ? "runout" : variant, {}, {}, Style::line_and_points};
         for (const PhaseFolder* each : runouts_of(from.run, variant)) {
@@ -53,7 +56,10 @@ Figure runout_against_time(const Material& from) {
             s.x.push_back(*each->transfer_time);
             s.y.push_back(runout_of(each));
             s.certainty.push_back(certainty_of(*each));
+            s.error.push_back(
+                each->runout_error.value_or(std::numeric_limits<double>::quiet_NaN()));
         }
+        if (std::ranges::all_of(s.error, [](double e) { return std::isnan(e); })) s.error.clear();
         const auto certain = [](Certainty each) { return each == Certainty::certain; };
         if (std::ranges::all_of(s.certainty, certain)) s.certainty.clear();
         if (!s.x.empty()) figure.chart.series.push_back(std::move(s));

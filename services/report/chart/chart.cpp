@@ -31,6 +31,11 @@ void check_columns(const Chart& chart) {
                                         std::to_string(each.certainty.size()) +
                                         " how certain they are");
         }
+        if (!each.error.empty() && each.error.size() != each.x.size()) {
+            throw std::invalid_argument("\"" + each.name + "\" has " +
+                                        std::to_string(each.x.size()) + " points and " +
+                                        std::to_string(each.error.size()) + " errors");
+        }
         if (each.style == Style::segments && each.x.size() % 2 != 0) {
             throw std::invalid_argument("\"" + each.name + "\" has a segment without an end");
         }

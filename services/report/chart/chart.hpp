@@ -29,6 +29,8 @@ struct Series {
     std::vector<double> y;
     Style style = Style::line;
     std::vector<Certainty> certainty = {};  ///< of each point; empty: all are certain
+    /// How far y may be off, to either side, of each point; NaN: not known; empty: of none
+    std::vector<double> error = {};
 };
 
 /// Polygons (or, with one corner each, dots) coloured by a value.

@@ -41,7 +41,13 @@ Range range_of(const Chart& chart, Mark::At at) {
         const std::vector<double>& own = at == Mark::At::x ? x : y;
         values.insert(values.end(), own.begin(), own.end());
     };
-    for (const Series& each : chart.series) add(each.x, each.y);
+    for (const Series& each : chart.series) {
+        add(each.x, each.y);
+        for (std::size_t i = 0; i < each.error.size(); ++i) {
+            if (std::isnan(each.error[i])) continue;
+            add({each.x[i], each.x[i]}, {each.y[i] - each.error[i], each.y[i] + each.error[i]});
+        }
+    }
     if (chart.field) add(chart.field->x, chart.field->y);
     for (const Mark& mark : chart.marks) {
         if (mark.at == at) values.push_back(mark.value);
@@ -134,9 +140,29 @@ void draw_point(std::ostream& svg, double x, double y, const std::string& colour
     }
 }
 
+/// A whisker at each point whose error is known, and a band between neighbours that both have one.
+void draw_errors(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
+    const auto end = [&](std::size_t i, double side) {
+        std::ostringstream place;
+        place << f.px(s.x[i]) << ' ' << f.py(s.y[i] + side * s.error[i]);
+        return place.str();
+    };
+    for (std::size_t i = 0; i < s.error.size(); ++i) {
+        if (std::isnan(s.error[i])) continue;
+        svg << "<path d=\"M" << end(i, -1.0) << 'L' << end(i, 1.0) << "\" stroke=\"" << colour
+            << "\" stroke-opacity=\"0.7\"/>\n";
+        if (i + 1 == s.error.size() || std::isnan(s.error[i + 1]) || s.style == Style::points)
+            continue;
+        svg << "<path d=\"M" << end(i, 1.0) << 'L' << end(i + 1, 1.0) << 'L' << end(i + 1, -1.0)
+            << 'L' << end(i, -1.0) << "Z\" fill=\"" << colour
+            << "\" fill-opacity=\"0.16\" stroke=\"none\"/>\n";
+    }
+}
+
 void draw_series(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     if (s.x.empty()) return;
     if (s.style == Style::segments || s.style == Style::dots) return draw_many(svg, f, s, colour);
+    draw_errors(svg, f, s, colour);
     if (s.style != Style::points) draw_line(svg, f, s, colour);
     if (s.style != Style::points && s.style != Style::line_and_points) return;
     for (std::size_t i = 0; i < s.x.size(); ++i) {

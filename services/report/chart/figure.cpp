@@ -1,6 +1,7 @@
 #include "services/report/chart/figure.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
@@ -39,8 +40,10 @@ std::string as_csv(const Chart& chart) {
     if (chart.field) return as_csv(*chart.field);
     const bool told = std::ranges::any_of(
         chart.series, [](const Series& each) { return !each.certainty.empty(); });
+    const bool errors =
+        std::ranges::any_of(chart.series, [](const Series& each) { return !each.error.empty(); });
     std::string csv = "series," + quoted(chart.x.label) + ',' + quoted(chart.y.label) +
-                      (told ? ",\"certainty\"\n" : "\n");
+                      (told ? ",\"certainty\"" : "") + (errors ? ",\"error\"\n" : "\n");
     for (const Series& each : chart.series) {
         for (std::size_t i = 0; i < each.x.size(); ++i) {
             csv += quoted(each.name) + ',' + exact(each.x[i]) + ',' + exact(each.y[i]);
@@ -48,6 +51,10 @@ std::string as_csv(const Chart& chart) {
                 const Certainty one =
                     each.certainty.empty() ? Certainty::certain : each.certainty[i];
                 csv += ',' + quoted(name_of(one));
+            }
+            if (errors) {
+                const bool known = !each.error.empty() && !std::isnan(each.error[i]);
+                csv += "," + (known ? exact(each.error[i]) : std::string());
             }
             csv += '\n';
         }

@@ -17,8 +17,8 @@ struct Figure {
 
 /// Columns series, x, y (with the axes' labels as heads), one row per point, every digit. A chart
 /// with a field instead: x and y of each corner and the value, one row per place; what is drawn
-/// over it is not data. Where a point of the chart is less than certain, a fourth column says what
-/// each of them is.
+/// over it is not data. Where a point of the chart is less than certain, a further column says what
+/// each of them is; where the error of one is known, the last one has it.
 std::string as_csv(const Chart& chart);
 /// A CSV cell of text.
 std::string quoted(const std::string& text);

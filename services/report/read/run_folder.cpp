@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <tuple>
 
 #include "core/fault/fault.hpp"
@@ -80,6 +81,8 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
                       .files = files,
                       .scene = read_json(files / phases::files::scene),
                       .result = read_if_there(files / phases::files::result),
+                      .runout_error = {},
+                      .runout_error_from = {},
                       .fault = {}};
     phase.phase = phase_of(phase.label, task, phase.result);
     if (rank_of(phase.phase) == phases::all.size()) return {};
@@ -109,6 +112,24 @@ std::vector<fs::path> phase_folders(const fs::path& folder) {
     return found;
 }
 
+/// What only the service knows of a runout, from the table that `breach export` wrote.
+void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
+    if (!table.is_object()) return;
+    constexpr double same_time = 5e-7;  // [s]; tables and folders spell times to the microsecond
+    for (const json& row : table.at("rows")) {
+        const json error = row.value("runout_error", json());
+        for (PhaseFolder& each : phases) {
+            if (each.phase != "mpm_solver" || !each.transfer_time ||
+                each.variant != row.at("variant") ||
+                std::abs(*each.transfer_time - row.at("transfer_time").get<double>()) > same_time)
+                continue;
+            if (error.is_number()) each.runout_error = error;
+            if (const json from = row.value("runout_error_from", json()); from.is_string())
+                each.runout_error_from = from;
+        }
+    }
+}
+
 }  // namespace
 
 Run read_run(const fs::path& folder) {
@@ -135,6 +156,7 @@ Run read_run(const fs::path& folder) {
         run.scene = run.phases.front().scene;
         const json about = read_if_there(folder / "run.json");
         run.study = read_if_there(folder / "study.json");
+        take_errors(read_if_there(folder / "results.json"), run.phases);
         run.name = run.scene.at("name");
         run.title = run.scene.value("title", run.name);
         if (about.is_object()) {

@@ -20,7 +20,10 @@ struct PhaseFolder {
     std::filesystem::path files;          ///< where its outputs lie
     nlohmann::json scene;                 ///< completed, with the overrides of this phase
     nlohmann::json result;                ///< result.json; null when it did not end well
-    std::string fault;                    ///< why there is no result; empty when there is one
+    /// Of a runout: how far one run is off [m], and what tells it or why nothing does
+    std::optional<double> runout_error = {};
+    std::string runout_error_from = {};
+    std::string fault;  ///< why there is no result; empty when there is one
 };
 
 struct Run {

@@ -3,11 +3,17 @@
 import { element, set_text, svg } from "./dom.js";
 import { looks } from "./flags.js";
 import { number } from "./format.js";
-import { band, curve, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
+import { band, curve, error_at, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
 import { range_of, tick_label, ticks, widened } from "./plot_scale.js";
 
 const character = 7.6; // width of a digit at the plot's font size [px]
 const longest_name = 20; // characters of a named tick; the rest is in its title
+
+/// The values, and the ends of their errors where those are known.
+function with_errors(series) {
+    const ends = (side) => series.y.map((y, i) => (error_at(series, i) === null ? null : y + side * series.errors[i]));
+    return series.errors ? [series.y, ends(-1), ends(1)] : [series.y];
+}
 
 export class Plot {
     /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: what the
@@ -33,10 +39,10 @@ export class Plot {
         this.picture.addEventListener("keydown", (event) => this.key(event));
     }
 
-    /// data: {series: [{name, unit, x, y, points, scatter, keys, names, looks, notes}], marks: [{x, kind, label}],
+    /// data: {series: [{name, unit, x, y, points, scatter, keys, names, looks, notes, errors}], marks: [{x, kind, label}],
     /// lines: [{x, label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}], names: [{x, label}] when the
     /// abscissa has names at 0, 1, 2, ... instead of numbers, x_label: what they are}. points: markers; scatter: no line between
-    /// them; names: what each point is called; looks, notes: what is to be known of it (flags.js). Marks sit on the abscissa
+    /// them; names: what each point is called; looks, notes: what is to be known of it (flags.js); errors: how far it may be off, to either side. Marks sit on the abscissa
     /// (kind: failed, skipped, running, pending), lines are verticals, levels horizontals, bands shaded stretches.
     show(data) {
         this.data = { marks: [], lines: [], levels: [], bands: [], ...data };
@@ -92,7 +98,7 @@ export class Plot {
     find_ranges() {
         const { series, marks, levels, names } = this.data;
         const [left, right] = range_of(series.map((each) => each.x), marks.map((each) => each.x));
-        const [low, high] = widened(range_of(series.map((each) => each.y), this.y_from_zero ? [0] : []),
+        const [low, high] = widened(range_of(series.flatMap(with_errors), this.y_from_zero ? [0] : []),
                                     levels.map((each) => each.y));
         const pad_x = (right - left) * (marks.length || series.some((each) => each.points) ? 0.04 : 0);
         const pad_y = (high - low) * 0.06;
@@ -232,7 +238,9 @@ export class Plot {
             this.cursor.append(svg("circle", { class: series_class(index), cx: this.px(x), cy: this.py(series.y[i]), r: meant ? 6.5 : 4.5 }));
             const name = [series.name, series.names?.[i]].filter(Boolean).join(", ");
             const meaning = (series.looks?.[i] ?? "").split(" ").filter(Boolean).map((look) => looks[look]).join(", ");
-            return `${name} ${number(series.y[i])} ${series.unit ?? ""}`.trim() + (meaning && ` (${meaning})`);
+            const error = error_at(series, i);
+            const value = error === null ? number(series.y[i]) : `${number(series.y[i])} ± ${number(error, 2)}`;
+            return `${name} ${value} ${series.unit ?? ""}`.trim() + (meaning && ` (${meaning})`);
         });
         for (const each of this.data.marks) if (each.x === x) values.push(each.label);
         const named = this.data.names?.find((each) => each.x === x)?.label;

@@ -29,9 +29,24 @@ const shape_of = (index) => marker_shapes[(index + 5 * Math.floor(index / series
 export function curve(plot, data, index) {
     const kept = data.points ? data.x.map((_, i) => i) : thinned(data.x, data.y, plot.width);
     const drawn = kept.filter((i) => Number.isFinite(data.y[i]) && Number.isFinite(data.x[i]));
-    const parts = data.scatter ? [] : [svg("path", { class: `curve ${series_class(index)}`, d: path_of(plot, data, kept) })];
+    const parts = error_parts(plot, data, index, drawn);
+    if (!data.scatter) parts.push(svg("path", { class: `curve ${series_class(index)}`, d: path_of(plot, data, kept) }));
     if (!data.points) return parts;
     return [...parts, ...drawn.flatMap((i) => marker(data, index, i, `translate(${plot.px(data.x[i])},${plot.py(data.y[i])})`))];
+}
+
+/// Half the width of the band at a point; null: its error is not known.
+export const error_at = (data, i) => (Number.isFinite(data.errors?.[i]) && Number.isFinite(data.y[i]) ? data.errors[i] : null);
+
+/// How far the values may be off: a whisker at each point, and a band where neighbours both have one.
+function error_parts(plot, data, index, drawn) {
+    const at = (i, side) => `${plot.px(data.x[i]).toFixed(1)},${plot.py(data.y[i] + side * data.errors[i]).toFixed(1)}`;
+    const known = drawn.filter((i) => error_at(data, i) !== null);
+    const parts = known.map((i) => svg("path", { class: `whisker ${series_class(index)}`, d: `M${at(i, -1)}L${at(i, 1)}` }));
+    if (data.scatter) return parts;
+    const pairs = drawn.slice(1).map((i, k) => [drawn[k], i]).filter(([a, b]) => known.includes(a) && known.includes(b));
+    const band = pairs.map(([a, b]) => `M${at(a, 1)}L${at(b, 1)}L${at(b, -1)}L${at(a, -1)}Z`).join("");
+    return band ? [svg("path", { class: `error-band ${series_class(index)}`, d: band }), ...parts] : parts;
 }
 
 /// One point: filled when it is sound, hollow and so on as its look says, with its note as a title.
@@ -116,6 +131,10 @@ export function legend({ series, marks, lines, bands }, lines_name) {
         [...(data.scatter ? [] : [svg("path", { class: `curve ${series_class(i)}`, d: "M0,7H24" })]),
          ...(data.points ? [svg("path", { class: `marker ${series_class(i)}`, d: shape_of(i), transform: "translate(12,7)" })] : [])],
         data.name));
+    if (series.some((data) => data.y.some((_, i) => error_at(data, i) !== null))) {
+        items.push(legend_item([svg("rect", { class: "error-band neutral", width: 24, height: 14 }),
+                                svg("path", { class: "whisker neutral", d: "M12,0V14" })], "error of one run"));
+    }
     const seen = new Set(series.flatMap(({ looks = [], y }) => looks.filter((look, i) => look && Number.isFinite(y[i])))
         .flatMap((look) => look.split(" ")));
     for (const look of Object.keys(looks).filter((each) => seen.has(each))) {

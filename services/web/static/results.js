@@ -77,7 +77,7 @@ export class Results {
         const rows = this.shown();
         const lines = series_by_variant(rows, this.variants);
         const points = (some) => ({ unit: "m", points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
-                                    looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
+                                    errors: some.map((row) => error_of(row, measure)), looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
         const side_by_side = several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1;
         set_text(by_id("runout-title"), side_by_side ? "Runout by variant" : "Runout against transfer time");
@@ -118,9 +118,18 @@ export const key_of = (row) => `${row.transfer_time}/${row.variant}`;
 
 const is_finished = (row) => Number.isFinite(row.runout);
 
+/// An accuracy study says whose error it measured; draws are of the runout.
+function error_of(row, measure) {
+    const judged = /: of (\w+)/.exec(row.runout_error_from ?? "")?.[1] ?? "runout";
+    return judged === measure ? row.runout_error ?? null : null;
+}
+
 /// What is to be known of a point before its number is believed.
 function note_of(row, measure) {
-    return is_finished(row) ? [`${point_name(row)}: ${number(row[measure])} m, ${rest_text(row)}`, flag_note(row)].filter(Boolean).join("\n") : "";
+    if (!is_finished(row)) return "";
+    const error = error_of(row, measure);
+    const off = error === null ? "" : `± ${number(error, 2)} m: ${row.runout_error_from}`;
+    return [`${point_name(row)}: ${number(row[measure])} m, ${rest_text(row)}`, off, flag_note(row)].filter(Boolean).join("\n");
 }
 
 /// In one line: how many of the finished runouts are not to be taken as they stand.

@@ -57,6 +57,27 @@ class RealService(unittest.TestCase):
         self.assertIn("fem_solver", self.breach("logs", tasks[0]["id"]).stdout)
         self.export_explains_itself(run)
 
+    def accuracy_study(self, quantity="runout"):
+        file = self.here / "accuracy.json"
+        study = json.loads(self.study(small, [0.1]).read_text())
+        study["accuracy"] = {"quantity": quantity, "draws": 2, "ladders": [
+            {"name": "cells", "steps": [["/mpm/cell_size=4"], ["=2"]]}]}
+        file.write_text(json.dumps(study))
+        return file
+
+    def test_error_against_run_time(self):
+        shown = self.breach("accuracy", self.accuracy_study(), "--watch").stdout
+        self.assertRegex(shown, r"cells +/mpm/cell_size=4 +[-0-9.]+ +[0-9.e-]+ +2 ")
+        self.assertIn("it is the reference", shown)
+        self.assertRegex(shown, "(The cheapest setting within|No setting)")
+        table = json.loads(self.breach("accuracy", "--of", "latest", "--json").stdout)
+        self.assertGreater(table["rows"][0]["standard_deviation"], 0, "a moved lattice gives another runout")
+        self.assertGreater(table["rows"][0]["peak_memory_MB"], 1)
+        self.assertEqual(set(table["rows"][0]["cpu_seconds_by_phase"]), {"fem_solver", "transfer_tool", "mpm_solver"})
+        refused = self.breach("accuracy", self.accuracy_study("runnout"), code=65)
+        self.assertIn("/accuracy/quantity", refused.stderr)
+        self.assertIn("remedy", refused.stderr)
+
     def export_explains_itself(self, run):
         out = self.here / "exported"
         self.breach("export", run, out)

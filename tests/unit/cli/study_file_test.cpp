@@ -31,6 +31,20 @@ TEST_F(StudyFile, GetsTheSceneThatItNamesRelativeToItself) {
     EXPECT_EQ(study["scene"]["fem"]["msh_file"], (folder_ / "mesh/slope.msh").string());
 }
 
+TEST_F(StudyFile, ResolvesPathsInTheRungsOfAnAccuracyStudy) {
+    write("scenes/dam.json", R"({"name": "dam"})");
+    const auto study = read_study(
+        write("study.json",
+              R"({"scene": "scenes/dam.json", "accuracy": {"base": ["/fem/motion/file=m.csv"],
+            "ladders": [{"steps": [["/fem/msh_file=coarse.msh"], ["/fem/msh_file=/fine.msh"]]}]}})"),
+        {});
+    const std::string scenes = (folder_ / "scenes").string();
+    EXPECT_EQ(study["accuracy"]["base"][0], "/fem/motion/file=" + scenes + "/m.csv");
+    EXPECT_EQ(
+        study["accuracy"]["ladders"][0]["steps"],
+        nlohmann::json({{"/fem/msh_file=" + scenes + "/coarse.msh"}, {"/fem/msh_file=/fine.msh"}}));
+}
+
 TEST_F(StudyFile, ResolvesPathsInOverridesLikeTheEntriesThatTheyReplace) {
     write("scenes/dam.json", R"({"name": "dam"})");
     const auto study = read_study(

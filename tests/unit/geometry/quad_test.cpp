@@ -53,6 +53,40 @@ TEST(GaussRule, IsExactToItsDegree) {
     }
 }
 
+TEST(ShiftedRule, IsExactToOneDegreeLessAndItsPointsMove) {
+    for (int n = 1; n <= 8; ++n)
+        for (const double shift : {-0.9, -0.3, 0.5, 0.9}) {
+            const GaussRule rule = shifted_rule(n, 1, shift);
+            const GaussRule plain = gauss_legendre(n);
+            for (int degree = 0; degree <= 2 * n - 2; ++degree) {
+                double sum = 0.0;
+                for (int i = 0; i < n; ++i)
+                    sum += rule.weight[i] * std::pow(rule.position[i], degree);
+                EXPECT_NEAR(sum, degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0, 1e-13)
+                    << n << " points, degree " << degree;
+            }
+            for (int i = 0; i < n; ++i) {
+                EXPECT_GT(shift * (rule.position[i] - plain.position[i]), 0.0);
+                EXPECT_LT(std::abs(rule.position[i]), 1.0);
+                EXPECT_GT(rule.weight[i], 0.0);
+            }
+        }
+}
+
+// Radau's two points: -1/3 and the border, with weights 3/2 and 1/2.
+TEST(ShiftedRule, EndsAtRadaus) {
+    const GaussRule rule = shifted_rule(2, 1, 1.0 - 1e-12);
+    EXPECT_NEAR(rule.position[0], -1.0 / 3.0, 1e-9);
+    EXPECT_NEAR(rule.position[1], 1.0, 1e-9);
+    EXPECT_NEAR(rule.weight[0], 1.5, 1e-9);
+    EXPECT_NEAR(rule.weight[1], 0.5, 1e-9);
+}
+
+TEST(ShiftedRule, WithoutAShiftIsGausssToTheLastBit) {
+    EXPECT_EQ(shifted_rule(3, 4, 0.0).position, gauss_legendre(3, 4).position);
+    EXPECT_EQ(shifted_rule(3, 4, 0.0).weight, gauss_legendre(3, 4).weight);
+}
+
 TEST(Quad, ClosedFormIntegralsAgreeWithQuadrature) {
     const GaussRule rule = gauss_legendre(4);
     for (int i = 0; i < 4; ++i)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mpm_solver/body/overburden.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
@@ -51,6 +53,23 @@ TEST(Fill, CellsOfARectangleGetTheirGaussLikeLattice) {
     EXPECT_NEAR(state.position[0].x(), 1.25, 1e-14);
     EXPECT_NEAR(state.position[0].y(), 0.25, 1e-14);
     for (const double volume : state.volume) EXPECT_NEAR(volume, 0.25, 1e-14);
+}
+
+TEST(Fill, AMovedLatticeIsTheSameSoil) {
+    const scene::Polygon slope{{0.3, 0.0}, {9.7, 0.0}, {6.1, 3.3}, {4.0, 1.7}, {1.9, 4.4}};
+    scene::Scene scene = one_soil(elastic(1e6, 0.3), 2000.0, slope, 1.0, 10.0, 6.0);
+    const auto plain = fill_section(scene);
+    scene.mpm->fill_shift = {0.3, 0.8};
+    const auto moved = fill_section(scene);
+    EXPECT_NEAR(moved.regions[0].sampled_area, plain.regions[0].sampled_area, 1e-12);
+    EXPECT_NEAR(moved.regions[0].sampled_level, plain.regions[0].sampled_level, 1e-12);
+    // A square that no edge cuts, 0.3 and 0.8 squares of half a metre from where it was.
+    const auto has = [&](double x, double y) {
+        return std::ranges::any_of(moved.state.position, [&](const mechanics::Vec2& each) {
+            return std::abs(each.x() - x) < 1e-12 && std::abs(each.y() - y) < 1e-12;
+        });
+    };
+    EXPECT_TRUE(has(3.25 + 0.15, 0.75 + 0.4));
 }
 
 TEST(Fill, LevelsBetweenGridLinesKeepTheirHeight) {

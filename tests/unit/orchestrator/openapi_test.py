@@ -135,6 +135,11 @@ class Described(unittest.TestCase):
         get("/v1/tasks/{id}/frames/{name}/points", f"/v1/tasks/{transfer['id']}/frames/none.vtkhdf/points", 404)
         get("/v1/artifacts/{sha256}", f"/v1/artifacts/{artifact}")
         get("/v1/events", f"/v1/events?after=0&run={run}")
+        judged = {**study([0.5]), "accuracy": {"quantity": "runout", "ladders": [
+            {"name": "cells", "steps": [["/mpm/cell_size=1"], ["=0.5"]]}]}}
+        accurate = json.loads(post("/v1/runs", "/v1/runs", 202, judged))["id"]
+        get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy")
+        get("/v1/runs/{id}/accuracy", f"/v1/runs/{run}/accuracy", 404)
         post("/v1/sweeps/{id}/extend", f"/v1/sweeps/{run}/extend", 202, {"transfer_times": [0.25, 0.75]})
         self.wait()
         criterion = {"kind": "criterion", "when": "time > 0.1"}

@@ -399,7 +399,11 @@ TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {
     Connection(file(), Access::read_only)
         .query("SELECT name FROM pragma_table_info('sweep_results')", {},
                [&](const Row& row) { columns.insert(row.text(0)); });
-    for (const ResultColumn& each : result_columns()) EXPECT_TRUE(columns.contains(each.name));
+    for (const ResultColumn& each : result_columns()) {
+        // What the error is comes from other runs; the service works it out beside the database.
+        const bool worked_out = std::string_view(each.name).starts_with("runout_error");
+        EXPECT_EQ(columns.contains(each.name), !worked_out) << each.name;
+    }
     EXPECT_FALSE(columns.contains("outdated"));
 }
 

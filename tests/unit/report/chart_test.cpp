@@ -59,6 +59,25 @@ TEST(Chart, DrawsAPointByWhatItsValueIsWorth) {
     EXPECT_THROW(as_svg(chart), std::invalid_argument);
 }
 
+TEST(Chart, DrawsKnownErrorsAsABand) {
+    Chart chart = sample();
+    EXPECT_EQ(as_svg(chart).find("fill-opacity=\"0.16\""), std::string::npos);
+    chart.series[0].error = {0.05, 0.02, std::numeric_limits<double>::quiet_NaN()};
+    const std::string svg = as_svg(chart);
+    const auto count = [&](const std::string& text) {
+        std::size_t found = 0;
+        for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++found;
+        return found;
+    };
+    EXPECT_EQ(count("stroke-opacity=\"0.7\""), 2u) << "a whisker where the error is known";
+    EXPECT_EQ(count("fill-opacity=\"0.16\""), 1u) << "a band between neighbours that have one";
+    EXPECT_EQ(as_csv(chart),
+              "series,\"N [-]\",\"CSR [-]\",\"error\"\n\"one\",1,0.3,0.05\n"
+              "\"one\",10,0.2,0.02\n\"one\",100,0.1,\n");
+    chart.series[0].error.pop_back();
+    EXPECT_THROW(as_svg(chart), std::invalid_argument);
+}
+
 TEST(Chart, RefusesWhatHasNoPlace) {
     Chart chart = sample();
     chart.series[0].x[0] = 0.0;

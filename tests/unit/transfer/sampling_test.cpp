@@ -74,6 +74,28 @@ TEST(Sampling, ADeformedMeshThatFitsNoCellIsStillServed) {
     }
 }
 
+TEST(Sampling, MovedPointsKeepMassVolumeAndMomentum) {
+    auto mesh = meshes::grid({.nx = 7, .ny = 5, .width = 40.0, .height = 9.0, .skew = 0.25});
+    meshes::set_in_motion(mesh);
+    const auto sums = [&](const Shift& shift) {
+        Points points =
+            place_points(mesh, shapes(mesh), one_panel_each(mesh.quads.size()).panels, 2, shift);
+        carry_nodal_fields(mesh, points);
+        double mass = 0.0, volume = 0.0;
+        Vec2 momentum = Vec2::Zero();
+        for (std::size_t p = 0; p < points.state.mass.size(); ++p) {
+            mass += points.state.mass[p];
+            volume += points.state.volume[p];
+            momentum += points.state.mass[p] * points.state.velocity[p];
+        }
+        return std::array{mass, volume, momentum.x(), momentum.y()};
+    };
+    const auto plain = sums({0.0, 0.0});
+    const auto moved = sums({0.7, -0.4});
+    for (std::size_t i = 0; i < plain.size(); ++i)
+        EXPECT_NEAR(moved[i], plain[i], 1e-12 * std::abs(plain[0])) << i;
+}
+
 TEST(Sampling, TooManyPointsAreRefusedBeforeTheyAreMade) {
     const auto mesh = narrow_and_wide();
     EXPECT_THROW(sampling_for_cells(shapes(mesh), {1e-3, {0.0, 0.0}, 4, 2}), fault::BadInput);

@@ -1,0 +1,97 @@
+#include "services/cli/accuracy_view.hpp"
+
+#include <cstdio>
+
+#include "services/cli/table.hpp"
+
+namespace breach::cli {
+
+using nlohmann::json;
+
+namespace {
+
+/// "3.2 %"; "-" for null.
+std::string percent(const json& share) {
+    if (!share.is_number()) return "-";
+    char text[32];
+    const double value = 100.0 * share.get<double>();
+    std::snprintf(text, sizeof text, value < 99.5 ? "%.2g %%" : "%.0f %%", value);
+    return text;
+}
+
+std::string setting_of(const json& row) {
+    std::string words;
+    for (const json& each : row.at("setting")) words += (words.empty() ? "" : "  ") + cell(each);
+    return words;
+}
+
+bool is_recommended(const json& row, const json& answer) {
+    const json& best = answer.at("recommended");
+    return best.is_object() && best.at("ladder") == row.at("ladder") &&
+           best.at("step") == row.at("step");
+}
+
+/// What stands behind the row: "=> on front", "?", or why there is no number.
+std::string note_of(const json& row, const json& answer) {
+    std::string note = is_recommended(row, answer) ? "=>" : "";
+    const auto add = [&](const std::string& words) { note += (note.empty() ? "" : " ") + words; };
+    if (row.at("on_pareto_front").get<bool>()) add("*");
+    if (row.at("below_noise").get<bool>()) add("~");
+    if (row.at("questionable").get<bool>()) add("?");
+    if (!row.at("reason").get<std::string>().empty()) add(" " + cell(row, "reason"));
+    return note;
+}
+
+std::string title_of(const json& answer) {
+    std::string title = cell(answer, "quantity");
+    if (answer.at("time").is_number()) title += " at " + cell(answer, "time") + " s";
+    if (answer.at("unit") != "1") title += " [" + cell(answer, "unit") + "]";
+    return title;
+}
+
+std::string legend_of(const json& answer) {
+    std::string legend;
+    const auto any = [&](const char* key) {
+        for (const json& row : answer.at("rows"))
+            if (row.at(key).get<bool>()) return true;
+        return false;
+    };
+    if (any("on_pareto_front")) legend += "*  nothing else is as cheap and as accurate\n";
+    if (any("below_noise")) legend += "~  the error is not told apart from the noise\n";
+    if (any("questionable"))
+        legend += "?  questionable (`breach results` says why): not recommended\n";
+    return legend;
+}
+
+}  // namespace
+
+std::string as_accuracy_table(const json& answer) {
+    std::vector<Cells> rows;
+    for (const json& row : answer.at("rows")) {
+        rows.push_back({cell(row, "ladder"), setting_of(row), cell(row, "value"),
+                        cell(row, "standard_deviation"), cell(row, "draws"),
+                        percent(row.at("error")), percent(row.at("error_of_a_run")),
+                        cell(row, "cpu_seconds"), cell(row, "wall_seconds"),
+                        cell(row, "peak_memory_MB"), note_of(row, answer)});
+    }
+    std::string text = as_table({{"ladder", Align::left},
+                                 {"setting", Align::left},
+                                 {title_of(answer), Align::right},
+                                 {"+-", Align::right},
+                                 {"draws", Align::right},
+                                 {"error", Align::right},
+                                 {"of a run", Align::right},
+                                 {"CPU [s]", Align::right},
+                                 {"wall [s]", Align::right},
+                                 {"memory [MB]", Align::right},
+                                 {"", Align::left}},
+                                rows);
+    text += "errors relative to " + cell(answer, "reference") +
+            "; \"of a run\": with the other ladders' error at the base, and the scatter\n" +
+            legend_of(answer) + "\n";
+    for (const json& ladder : answer.at("ladders"))
+        text += cell(ladder, "name") + ": " + cell(ladder, "message") + "\n";
+    return text + "\n" + cell(answer, "recommendation") + "\n";
+}
+
+}  // namespace breach::cli

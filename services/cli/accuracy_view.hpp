@@ -1,0 +1,12 @@
+// The table of an accuracy study for people's eyes.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace breach::cli {
+
+/// answer: of GET /v1/runs/{id}/accuracy
+std::string as_accuracy_table(const nlohmann::json& answer);
+
+}  // namespace breach::cli

@@ -1,0 +1,51 @@
+// The table of an accuracy study as plain data: every rung with its value, its error and its cost;
+// what each ladder says; which setting to take.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/accuracy/convergence.hpp"
+#include "services/orchestrator/accuracy/measured.hpp"
+#include "services/orchestrator/study/accuracy.hpp"
+
+namespace breach::orchestrator {
+
+struct AccuracyRow {
+    Setting setting;
+    std::optional<double> size = {};
+    std::optional<Repeats> value = {};  ///< of the draws that have one
+    std::optional<Cost> cost = {};      ///< mean over the draws; of memory the most
+    std::optional<double> error = {};   ///< of the mean of the draws, relative to the reference
+    /// What the base's rungs of the other ladders are off, together: what this row shares with them
+    double error_of_other_ladders = 0.0;
+    /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
+    /// a reference rung is what its ladder says of the finest.
+    std::optional<double> error_of_a_run = {};
+    bool is_reference = false;  ///< errors are measured from it: its own is not known
+    bool below_noise = false;   ///< the error is not told apart from the noise of the repeats
+    bool questionable = false;  ///< a run of it carries a flag that forbids to rely on it
+    bool on_front = false;      ///< of error against CPU seconds
+    std::string reason = {};    ///< why there is no value, or no error
+};
+
+struct LadderSummary {
+    Convergence convergence;
+    std::optional<double> reference;
+    bool reference_is_questionable = false;  ///< its rung carries such a flag
+    std::string message;                     ///< the course in a sentence
+    /// What the rung is off that is the base; nothing: no rung is the base, or its error is not known
+    std::optional<double> error_of_base;
+};
+
+struct AccuracyTable {
+    AccuracyPlan plan;
+    std::optional<double> transfer_time;  ///< [s]
+    std::vector<AccuracyRow> rows;        ///< ladder by ladder, coarse to fine
+    std::vector<LadderSummary> ladders;
+    std::optional<std::size_t> recommended;  ///< row
+    std::string recommendation;              ///< in a sentence
+};
+
+}  // namespace breach::orchestrator

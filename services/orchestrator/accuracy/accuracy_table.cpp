@@ -1,0 +1,280 @@
+#include "services/orchestrator/accuracy/accuracy_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/orchestrator/accuracy/measured.hpp"
+#include "services/orchestrator/accuracy/sentences.hpp"
+
+namespace breach::orchestrator {
+
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+std::string worst_reason(const std::vector<Measured>& draws) {
+    for (const Measured& each : draws)
+        if (!each.reason.empty()) return each.reason;
+    return "";
+}
+
+/// Means over the draws that have a value.
+std::optional<Cost> mean_cost(const std::vector<Measured>& draws) {
+    Cost mean;
+    const auto n = static_cast<double>(
+        std::ranges::count_if(draws, [](const Measured& each) { return each.value.has_value(); }));
+    if (n == 0.0) return std::nullopt;
+    for (const Measured& each : draws) {
+        if (!each.value) continue;
+        mean.cpu_seconds += each.cost.cpu_seconds / n;
+        mean.wall_seconds += each.cost.wall_seconds / n;
+        for (const auto& [phase, seconds] : each.cost.cpu_seconds_by_phase)
+            mean.cpu_seconds_by_phase[phase] += seconds / n;
+        if (each.cost.peak_memory_MB)
+            mean.peak_memory_MB =
+                std::max(mean.peak_memory_MB.value_or(0.0), *each.cost.peak_memory_MB);
+    }
+    return mean;
+}
+
+AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
+                   const std::map<std::string, Measured>& measured) {
+    AccuracyRow row{.setting = setting};
+    const std::vector<double>& sizes = plan.ladders[setting.ladder].sizes;
+    if (!sizes.empty()) row.size = sizes[setting.step];
+    std::vector<Measured> draws;
+    std::vector<double> values;
+    for (const std::string& variant : setting.variants) {
+        const auto found = measured.find(variant);
+        draws.push_back(found == measured.end() ? Measured{.reason = "its task is not there"}
+                                                : found->second);
+        if (draws.back().value) values.push_back(*draws.back().value);
+        row.questionable |= draws.back().questionable;
+    }
+    if (!values.empty()) row.value = repeats_of(values);
+    row.cost = mean_cost(draws);
+    row.reason = worst_reason(draws);
+    return row;
+}
+
+/// Rungs without a known size are taken as halved; order, limit and index are then not told.
+Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
+    std::vector<Rung> rungs;
+    bool sized = true;
+    for (const AccuracyRow* each : rows) {
+        if (!each->value) continue;
+        sized = sized && each->size.has_value();
+        const auto halvings = static_cast<double>(each->setting.step);
+        rungs.push_back({each->size.value_or(std::exp2(-halvings)), *each->value});
+    }
+    Convergence found = convergence_of(rungs);
+    if (!sized) found.order = found.limit = found.gci = std::nullopt;
+    return found;
+}
+
+std::optional<double> reference_of(const Reference& reference, const Convergence& convergence,
+                                   const AccuracyRow& finest) {
+    switch (reference.kind) {
+        case ReferenceKind::given:
+            return reference.value;
+        case ReferenceKind::richardson:
+            return convergence.limit;
+        case ReferenceKind::finest:
+            break;
+    }
+    return finest.value ? std::optional(finest.value->mean) : std::nullopt;
+}
+
+/// The errors of a ladder's rows, or why they are not known.
+void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
+                 const std::vector<AccuracyRow*>& rows) {
+    for (AccuracyRow* row : rows) {
+        if (!row->value) continue;
+        if (!ladder.reference) {
+            const bool finest = plan.reference.kind == ReferenceKind::finest;
+            row->reason = "there is no reference: " +
+                          (finest ? "the finest rung has no value" : ladder.message);
+        } else if (*ladder.reference == 0.0) {
+            row->reason = "the reference is zero, and errors are relative to it";
+        } else if (plan.reference.kind == ReferenceKind::finest && row == rows.back()) {
+            row->is_reference = true;
+            row->reason = "it is the reference";
+        } else {
+            const double off = std::abs(row->value->mean - *ladder.reference);
+            row->error = off / std::abs(*ladder.reference);
+            const auto noise = ladder.convergence.noise;
+            row->below_noise = noise && off < smallest_told_difference(*noise, row->value->count);
+        }
+    }
+}
+
+/// What a rung is off by what its own ladder says.
+std::optional<double> bias_of(const AccuracyRow& row, const LadderSummary& ladder) {
+    return row.is_reference ? ladder.convergence.error_of_finest : row.error;
+}
+
+/// A row is off by its own ladder's error, and by what the base is off on the others: a number from
+/// elsewhere as reference has all of them in it.
+void tell_errors_of_runs(AccuracyTable& table) {
+    const bool in_it = table.plan.reference.kind == ReferenceKind::given;
+    for (const AccuracyRow& row : table.rows)
+        if (row.setting.is_base && !in_it)
+            table.ladders[row.setting.ladder].error_of_base =
+                bias_of(row, table.ladders[row.setting.ladder]);
+    for (AccuracyRow& row : table.rows) {
+        const LadderSummary& own = table.ladders[row.setting.ladder];
+        for (const LadderSummary& each : table.ladders)
+            if (&each != &own) row.error_of_other_ladders += each.error_of_base.value_or(0.0);
+        if (const auto bias = bias_of(row, own))
+            row.error_of_a_run =
+                error_of_one_run(*bias + row.error_of_other_ladders, *row.value, *own.reference);
+    }
+}
+
+/// Only rows to rely on are offered, of ladders whose reference can be relied on.
+void choose(AccuracyTable& table) {
+    std::vector<Offer> offers;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        const AccuracyRow& row = table.rows[i];
+        if (!row.error_of_a_run || !row.cost || row.questionable ||
+            table.ladders[row.setting.ladder].reference_is_questionable)
+            continue;
+        offers.push_back({row.cost->cpu_seconds, *row.error_of_a_run});
+        rows.push_back(i);
+    }
+    const std::vector<bool> front = pareto_front(offers);
+    for (std::size_t k = 0; k < rows.size(); ++k) table.rows[rows[k]].on_front = front[k];
+    if (const auto best = cheapest_within(offers, table.plan.asked_error))
+        table.recommended = rows[*best];
+    table.recommendation = recommendation_in_words(table);
+}
+
+void judge(AccuracyTable& table) {
+    for (std::size_t i = 0; i < table.plan.ladders.size(); ++i) {
+        std::vector<AccuracyRow*> rows;
+        for (AccuracyRow& each : table.rows)
+            if (each.setting.ladder == i) rows.push_back(&each);
+        LadderSummary ladder;
+        ladder.convergence = convergence_of_ladder({rows.begin(), rows.end()});
+        ladder.reference = reference_of(table.plan.reference, ladder.convergence, *rows.back());
+        ladder.reference_is_questionable =
+            table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
+        ladder.message = course_in_words(ladder.convergence, table.plan, i);
+        if (ladder.reference_is_questionable)
+            ladder.message += "; its finest rung is questionable, so nothing of it is recommended";
+        tell_errors(table.plan, ladder, rows);
+        table.ladders.push_back(std::move(ladder));
+    }
+    tell_errors_of_runs(table);
+    choose(table);
+}
+
+template <class T>
+json or_null(const std::optional<T>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
+    const Ladder& ladder = plan.ladders[row.setting.ladder];
+    json answer{{"ladder", ladder.name},
+                {"step", row.setting.step + 1},
+                {"setting", ladder.steps[row.setting.step]},
+                {"variants", row.setting.variants},
+                {"size", or_null(row.size)},
+                {"value", nullptr},
+                {"standard_deviation", nullptr},
+                {"draws", 0},
+                {"error", or_null(row.error)},
+                {"error_of_other_ladders", row.error_of_other_ladders},
+                {"error_of_a_run", or_null(row.error_of_a_run)},
+                {"is_reference", row.is_reference},
+                {"below_noise", row.below_noise},
+                {"on_pareto_front", row.on_front},
+                {"questionable", row.questionable},
+                {"cpu_seconds", nullptr},
+                {"wall_seconds", nullptr},
+                {"peak_memory_MB", nullptr},
+                {"cpu_seconds_by_phase", json::object()},
+                {"reason", row.reason}};
+    if (row.value) {
+        answer["value"] = row.value->mean;
+        answer["standard_deviation"] = or_null(row.value->deviation);
+        answer["draws"] = row.value->count;
+    }
+    if (row.cost) {
+        answer["cpu_seconds"] = row.cost->cpu_seconds;
+        answer["wall_seconds"] = row.cost->wall_seconds;
+        answer["peak_memory_MB"] = or_null(row.cost->peak_memory_MB);
+        answer["cpu_seconds_by_phase"] = row.cost->cpu_seconds_by_phase;
+    }
+    return answer;
+}
+
+json as_json(const LadderSummary& ladder, const std::string& name) {
+    const Convergence& c = ladder.convergence;
+    return {{"name", name},
+            {"course", name_of(c.course)},
+            {"message", ladder.message},
+            {"order", or_null(c.order)},
+            {"limit", or_null(c.limit)},
+            {"gci", or_null(c.gci)},
+            {"error_of_finest", or_null(c.error_of_finest)},
+            {"noise_floor", or_null(c.noise)},
+            {"spread", or_null(c.spread)},
+            {"reference", or_null(ladder.reference)},
+            {"error_of_base", or_null(ladder.error_of_base)}};
+}
+
+}  // namespace
+
+std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder& data,
+                                            const std::string& run) {
+    const auto study = store.study_of(run);
+    if (!study || !study->contains("accuracy")) return std::nullopt;
+    const json scene = json::parse(*store.scene_of(run));
+    std::vector<Fault> none;  // the study was checked when it was accepted
+    AccuracyTable table;
+    table.plan = read_accuracy(study->at("accuracy"), scene, none);
+    const std::vector<Task> tasks = store.tasks_of(run);
+    for (const Task& each : tasks)
+        if (each.transfer_time) table.transfer_time = each.transfer_time;
+    const auto measured = measured_variants(tasks, table.plan.quantity, data);
+    for (const Setting& each : settings_of(table.plan, scene))
+        table.rows.push_back(row_of(table.plan, each, measured));
+    judge(table);
+    return table;
+}
+
+json as_json(const AccuracyTable& table) {
+    json rows = json::array();
+    for (const AccuracyRow& each : table.rows) rows.push_back(as_json(each, table.plan));
+    json ladders = json::array();
+    for (std::size_t i = 0; i < table.ladders.size(); ++i)
+        ladders.push_back(as_json(table.ladders[i], table.plan.ladders[i].name));
+    json recommended = nullptr;
+    if (table.recommended) {
+        const AccuracyRow& row = table.rows[*table.recommended];
+        recommended = {{"ladder", table.plan.ladders[row.setting.ladder].name},
+                       {"step", row.setting.step + 1},
+                       {"setting", table.plan.ladders[row.setting.ladder].steps[row.setting.step]},
+                       {"error_of_a_run", *row.error_of_a_run},
+                       {"cpu_seconds", row.cost->cpu_seconds}};
+    }
+    const Quantity& quantity = table.plan.quantity;
+    return {{"quantity", quantity.name},
+            {"unit", quantity.unit},
+            {"time", or_null(quantity.time)},
+            {"transfer_time", or_null(table.transfer_time)},
+            {"draws", table.plan.draws},
+            {"base", table.plan.base},
+            {"reference", reference_in_words(table.plan.reference)},
+            {"asked_error", table.plan.asked_error},
+            {"rows", std::move(rows)},
+            {"ladders", std::move(ladders)},
+            {"recommended", std::move(recommended)},
+            {"recommendation", table.recommendation}};
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,21 @@
+// The table of an accuracy study (accuracy_rows.hpp), read from the store each time, so that it
+// grows with the run.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "services/orchestrator/accuracy/accuracy_rows.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+/// Nothing: the run is no accuracy study, or there is none.
+std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder& data,
+                                            const std::string& run);
+
+/// The answer of GET /v1/runs/{id}/accuracy, without the run's id and state.
+nlohmann::json as_json(const AccuracyTable& table);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,183 @@
+#include "services/orchestrator/accuracy/convergence.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace breach::orchestrator {
+
+namespace {
+
+constexpr double highest_order = 20.0;
+constexpr double factor_of_safety = 1.25;        // Roache's for three grids
+constexpr double factor_of_safety_of_two = 3.0;  // and for two
+constexpr double two_sided_95 = 1.96;            // of the normal distribution
+
+/// change_coarse / change_fine of value = limit + C size^p: rises with p.
+double ratio_of_changes(double p, double ratio_coarse, double ratio_fine) {
+    return std::pow(ratio_fine, p) * std::expm1(p * std::log(ratio_coarse)) /
+           std::expm1(p * std::log(ratio_fine));
+}
+
+/// Of one run, over rungs that were repeated; each repeat beyond a rung's first counts once.
+std::optional<double> pooled_noise(std::span<const Rung> rungs) {
+    double squares = 0.0;
+    std::size_t freedom = 0;
+    for (const Rung& each : rungs) {
+        if (!each.value.deviation) continue;
+        const std::size_t of_rung = each.value.count - 1;
+        squares += static_cast<double>(of_rung) * *each.value.deviation * *each.value.deviation;
+        freedom += of_rung;
+    }
+    if (freedom == 0) return std::nullopt;
+    return std::sqrt(squares / static_cast<double>(freedom));
+}
+
+double spread_of(std::span<const Rung> rungs) {
+    const auto [least, most] =
+        std::ranges::minmax_element(rungs, {}, [](const Rung& each) { return each.value.mean; });
+    return most->value.mean - least->value.mean;
+}
+
+}  // namespace
+
+Repeats repeats_of(std::span<const double> values) {
+    assert(!values.empty());
+    Repeats repeats{.mean = 0.0, .deviation = std::nullopt, .count = values.size()};
+    const auto n = static_cast<double>(values.size());
+    for (const double each : values) repeats.mean += each / n;
+    if (values.size() < 2) return repeats;
+    double squares = 0.0;
+    for (const double each : values) squares += (each - repeats.mean) * (each - repeats.mean);
+    repeats.deviation = std::sqrt(squares / (n - 1.0));
+    return repeats;
+}
+
+std::string_view name_of(Course course) {
+    switch (course) {
+        case Course::too_few:
+            return "too_few";
+        case Course::monotone:
+            return "monotone";
+        case Course::oscillating:
+            return "oscillating";
+        case Course::not_falling:
+            return "not_falling";
+        case Course::below_noise:
+            break;
+    }
+    return "below_noise";
+}
+
+std::optional<double> observed_order(double ratio_coarse, double ratio_fine, double change_coarse,
+                                     double change_fine) {
+    const double wanted = change_coarse / change_fine;
+    if (!std::isfinite(wanted)) return std::nullopt;
+    double low = 0.0;  // there the ratio is ln(ratio_coarse) / ln(ratio_fine)
+    double high = highest_order;
+    if (wanted <= std::log(ratio_coarse) / std::log(ratio_fine)) return std::nullopt;
+    if (wanted > ratio_of_changes(high, ratio_coarse, ratio_fine)) return std::nullopt;
+    while (high - low > 1e-12 * high) {
+        const double middle = 0.5 * (low + high);
+        if (middle == low || middle == high) break;
+        (ratio_of_changes(middle, ratio_coarse, ratio_fine) < wanted ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+double smallest_told_difference(double noise, std::size_t repeats) {
+    return two_sided_95 * noise * std::sqrt(2.0 / static_cast<double>(repeats));
+}
+
+namespace {
+
+/// The three finest rungs, and how the value changes from one to the next.
+struct Ending {
+    const Rung& coarse;
+    const Rung& middle;
+    const Rung& fine;
+    double change_coarse = middle.value.mean - coarse.value.mean;
+    double change_fine = fine.value.mean - middle.value.mean;
+    double ratio_coarse = coarse.size / middle.size;
+    double ratio_fine = middle.size / fine.size;
+
+    bool is_noise(double noise) const {
+        const double told = smallest_told_difference(
+            noise, std::min({coarse.value.count, middle.value.count, fine.value.count}));
+        return std::abs(change_coarse) < told || std::abs(change_fine) < told;
+    }
+};
+
+double two_grid_error(double change, double ratio) {
+    return factor_of_safety_of_two * std::abs(change) / (ratio - 1.0);
+}
+
+/// What the finest rung may be off, in the unit of the value; order and limit where there are any.
+double judge(const Ending& e, Convergence& found) {
+    if (found.noise && e.is_noise(*found.noise)) {
+        found.course = Course::below_noise;
+        return std::abs(e.change_fine);
+    }
+    if (e.change_coarse * e.change_fine < 0.0) {
+        found.course = Course::oscillating;
+        const auto [least, most] =
+            std::minmax({e.coarse.value.mean, e.middle.value.mean, e.fine.value.mean});
+        return 0.5 * (most - least);
+    }
+    found.order = observed_order(e.ratio_coarse, e.ratio_fine, e.change_coarse, e.change_fine);
+    if (!found.order) {
+        found.course = Course::not_falling;
+        return two_grid_error(e.change_fine, e.ratio_fine);
+    }
+    const double left = e.change_fine / std::expm1(*found.order * std::log(e.ratio_fine));
+    found.course = Course::monotone;
+    found.limit = e.fine.value.mean + left;
+    return factor_of_safety * std::abs(left);
+}
+
+}  // namespace
+
+Convergence convergence_of(std::span<const Rung> rungs) {
+    Convergence found;
+    found.noise = pooled_noise(rungs);
+    if (!rungs.empty()) found.spread = spread_of(rungs);
+    if (rungs.size() < 2) return found;
+    const Rung& fine = rungs[rungs.size() - 1];
+    const Rung& middle = rungs[rungs.size() - 2];
+    const double error = rungs.size() < 3 ? two_grid_error(fine.value.mean - middle.value.mean,
+                                                           middle.size / fine.size)
+                                          : judge({rungs[rungs.size() - 3], middle, fine}, found);
+    if (fine.value.mean == 0.0) return found;
+    found.error_of_finest = error / std::abs(fine.value.mean);
+    if (found.order) found.gci = found.error_of_finest;
+    return found;
+}
+
+std::vector<bool> pareto_front(std::span<const Offer> offers) {
+    std::vector<bool> front(offers.size(), true);
+    for (std::size_t i = 0; i < offers.size(); ++i) {
+        front[i] = std::ranges::none_of(offers, [&](const Offer& other) {
+            return other.cpu_seconds <= offers[i].cpu_seconds && other.error <= offers[i].error &&
+                   (other.cpu_seconds < offers[i].cpu_seconds || other.error < offers[i].error);
+        });
+    }
+    return front;
+}
+
+std::optional<std::size_t> cheapest_within(std::span<const Offer> offers, double asked) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < offers.size(); ++i) {
+        if (!(offers[i].error <= asked)) continue;
+        const bool better = !best || offers[i].cpu_seconds < offers[*best].cpu_seconds ||
+                            (offers[i].cpu_seconds == offers[*best].cpu_seconds &&
+                             offers[i].error < offers[*best].error);
+        if (better) best = i;
+    }
+    return best;
+}
+
+double error_of_one_run(double bias, const Repeats& value, double reference) {
+    return std::hypot(bias, value.deviation.value_or(0.0) / std::abs(reference));
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,81 @@
+// What a ladder of settings says of its own error: observed order, limit, grid convergence index,
+// noise; which settings are worth their cost. Pure functions of numbers; nothing here knows runs.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace breach::orchestrator {
+
+/// Repeats of one setting on moved lattices.
+struct Repeats {
+    double mean = 0.0;
+    std::optional<double> deviation;  ///< standard deviation of one repeat; nothing: one repeat
+    std::size_t count = 0;
+};
+/// At least one value.
+Repeats repeats_of(std::span<const double> values);
+
+/// A setting of a ladder: how coarse it is, and what it gives.
+struct Rung {
+    double size;  ///< > 0, falling along the ladder
+    Repeats value;
+};
+
+/// How the three finest rungs of a ladder run.
+enum class Course {
+    too_few,      ///< fewer than three have a value
+    monotone,     ///< towards a limit: order, limit and index are told
+    oscillating,  ///< up and down: a spread, no order
+    not_falling,  ///< the differences do not get smaller with the size: no order
+    below_noise,  ///< a difference is within the noise of the repeats: no order
+};
+std::string_view name_of(Course course);
+
+struct Convergence {
+    Course course = Course::too_few;
+    std::optional<double> order;  ///< p of value = limit + C size^p
+    std::optional<double> limit;  ///< Richardson's
+    /// Roache's grid convergence index of the finest rung, with his factor of safety 1.25 for three
+    /// grids; relative to its value
+    std::optional<double> gci;
+    /// What the finest rung may be off, relative to its value. monotone: the index; oscillating: half
+    /// of the range of the three finest (Stern et al. 2001); below_noise: the last difference;
+    /// otherwise Roache's index for two grids, 3 |difference| / (ratio - 1), of first order
+    std::optional<double> error_of_finest;
+    std::optional<double> spread;  ///< largest minus smallest value of the rungs
+    /// Standard deviation of one run, pooled over the rungs; nothing: no rung was repeated
+    std::optional<double> noise;
+};
+
+/// rungs: from coarse to fine.
+Convergence convergence_of(std::span<const Rung> rungs);
+
+/// p of value = limit + C size^p through three values, for any ratios of their sizes (Roache 1998,
+/// 5.10.6: for unequal ratios p is the root of an equation). ratio_*: of the coarser size to the
+/// finer one, > 1; change_*: finer value minus coarser value. Nothing: the changes differ in sign,
+/// or do not fall faster than they would for p = 0, or so fast that the last one says nothing (p >
+/// 20).
+std::optional<double> observed_order(double ratio_coarse, double ratio_fine, double change_coarse,
+                                     double change_fine);
+
+/// The difference of two means of so many repeats that noise alone exceeds in one of twenty pairs.
+double smallest_told_difference(double noise, std::size_t repeats);
+
+/// What a setting costs and how far one run with it is off.
+struct Offer {
+    double cpu_seconds;
+    double error;  ///< relative
+};
+/// [offers] whether no other offer is as good in both and better in one.
+std::vector<bool> pareto_front(std::span<const Offer> offers);
+/// The cheapest whose error is at most `asked`; of equally cheap ones the more accurate.
+std::optional<std::size_t> cheapest_within(std::span<const Offer> offers, double asked);
+
+/// Root of the mean square of (one run - reference) / |reference|, of a relative bias and the
+/// scatter of repeats. reference other than zero.
+double error_of_one_run(double bias, const Repeats& value, double reference);
+
+}  // namespace breach::orchestrator

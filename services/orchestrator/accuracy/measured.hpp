@@ -1,0 +1,38 @@
+// What each variant of an accuracy study gave, and what it took: from the results of its tasks.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/study/accuracy.hpp"
+
+namespace breach::orchestrator {
+
+/// What the runs of a setting took, phase by phase and together. An answer from the cache counts as
+/// what it took when it was computed.
+struct Cost {
+    double cpu_seconds = 0.0;
+    double wall_seconds = 0.0;
+    std::optional<double> peak_memory_MB;  ///< the most of any phase
+    std::map<std::string, double> cpu_seconds_by_phase;
+};
+
+struct Measured {
+    std::optional<double> value = {};
+    Cost cost = {};
+    bool questionable = false;
+    std::string reason = {};  ///< why there is no value
+};
+
+/// By variant. tasks: of the run.
+std::map<std::string, Measured> measured_variants(const std::vector<Task>& tasks,
+                                                  const Quantity& quantity, const DataFolder& data);
+
+/// The value of a field at a time, between two lines of telemetry linearly; nothing: the telemetry
+/// ends before or lacks the field. lines: objects with "time", ascending.
+std::optional<double> value_at(const nlohmann::json& lines, const std::string& field, double time);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,205 @@
+#include "services/orchestrator/accuracy/runout_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "services/orchestrator/accuracy/accuracy_table.hpp"
+#include "services/orchestrator/accuracy/sentences.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_studies = 20;  // the newest are asked
+
+struct Estimate {
+    std::optional<double> error;  ///< [m]
+    std::string from;             ///< what tells it, or why nothing does
+};
+
+/// Recipes of the three phases; of the FEM without the times of its snapshots.
+using Question = std::tuple<std::string, std::string, std::string>;
+
+json& field(ResultRow& row, std::string_view name) {
+    const auto columns = result_columns();
+    const auto found = std::ranges::find(columns, name, &ResultColumn::name);
+    return row[static_cast<std::size_t>(found - columns.begin())];
+}
+
+class Questions {
+  public:
+    explicit Questions(const Store& store) : store_(store) {}
+
+    /// Of a task of the MPM; nothing: a phase of its chain has no recipe.
+    std::optional<Question> of(const Task& mpm, const Task& transfer, const Task& fem) {
+        if (!mpm.recipe || !transfer.recipe || !fem.recipe) return std::nullopt;
+        auto known = fems_.find(*fem.recipe);
+        if (known == fems_.end())
+            known = fems_.emplace(*fem.recipe, without_snapshots(*fem.recipe)).first;
+        return Question{*mpm.recipe, *transfer.recipe, known->second};
+    }
+
+  private:
+    std::string without_snapshots(const std::string& recipe) const {
+        const auto found = store_.recipe(recipe);
+        json part = json::parse(found->part);
+        part["fem"].erase("snapshot_times");
+        part["fem"].erase("snapshot_interval");
+        return std::to_string(found->cache_version) + " " + part.dump();
+    }
+
+    const Store& store_;
+    std::map<std::string, std::string> fems_;  ///< by recipe
+};
+
+bool is_runout(const Quantity& quantity) {
+    return quantity.reach == Reach::chain && quantity.name.starts_with("runout") &&
+           quantity.unit == "m";
+}
+
+std::string source_of(const AccuracyTable& table, const AccuracyRow& row, const std::string& run) {
+    const Ladder& ladder = table.plan.ladders[row.setting.ladder];
+    std::string words = "accuracy study " + run + ", " + ladder.name;
+    for (const std::string& each : ladder.steps[row.setting.step]) words += " " + each;
+    words += ": of " + table.plan.quantity.name;
+    if (table.transfer_time) words += " at t_T " + json(*table.transfer_time).dump() + " s";
+    return words + (row.questionable ? ", which is questionable" : "");
+}
+
+Estimate estimate_of(const AccuracyTable& table, const AccuracyRow& row, const std::string& run) {
+    const LadderSummary& ladder = table.ladders[row.setting.ladder];
+    const std::string source = source_of(table, row, run);
+    if (!row.error_of_a_run) return {std::nullopt, source + ": " + row.reason};
+    return {*row.error_of_a_run * std::abs(*ladder.reference),
+            source + (row.is_reference ? ", by how its ladder ends"
+                                       : ", against " + reference_in_words(table.plan.reference))};
+}
+
+/// A rung of several ladders: the largest of their errors.
+Estimate estimate_of(const AccuracyTable& table, const std::string& variant,
+                     const std::string& run) {
+    Estimate found{std::nullopt, "accuracy study " + run + " does not tell it"};
+    for (const AccuracyRow& row : table.rows) {
+        if (std::ranges::find(row.setting.variants, variant) == row.setting.variants.end())
+            continue;
+        Estimate each = estimate_of(table, row, run);
+        if (!found.error || (each.error && *each.error > *found.error)) found = std::move(each);
+    }
+    return found;
+}
+
+/// Rungs of the accuracy studies that there are, by what was asked of the phases.
+class Studies {
+  public:
+    Studies(const Store& store, const DataFolder& data)
+        : store_(store), data_(data), questions_(store) {
+        for (const std::string& run : store.accuracy_runs(most_studies)) take(run);
+    }
+
+    bool none() const { return rungs_.empty(); }
+
+    /// Nothing: no study has this rung.
+    std::optional<Estimate> estimate(const Task& mpm) {
+        const auto transfer = store_.task(*mpm.parent);
+        const auto fem = store_.task(*transfer->parent);
+        const auto question = questions_.of(mpm, *transfer, *fem);
+        if (!question) return std::nullopt;
+        std::optional<Estimate> best;
+        const auto [first, last] = rungs_.equal_range(*question);
+        for (auto rung = first; rung != last && !(best && best->error); ++rung) {
+            const auto& [run, variant] = rung->second;
+            auto table = tables_.find(run);
+            if (table == tables_.end())
+                table = tables_.emplace(run, accuracy_table(store_, data_, run)).first;
+            if (is_runout(table->second->plan.quantity))
+                best = estimate_of(*table->second, variant, run);
+        }
+        return best;
+    }
+
+  private:
+    void take(const std::string& run) {
+        std::map<std::string, Task> tasks;
+        for (Task& each : store_.tasks_of(run)) tasks.emplace(each.id, std::move(each));
+        for (const auto& [id, task] : tasks) {
+            if (task.phase != "mpm_solver" || !task.parent) continue;
+            const Task& transfer = tasks.at(*task.parent);
+            if (const auto question = questions_.of(task, transfer, tasks.at(*transfer.parent)))
+                rungs_.emplace(*question, std::pair{run, task.variant});
+        }
+    }
+
+    const Store& store_;
+    const DataFolder& data_;
+    Questions questions_;
+    std::multimap<Question, std::pair<std::string, std::string>> rungs_;  ///< run, variant
+    std::map<std::string, std::optional<AccuracyTable>> tables_;
+};
+
+/// Scatter of the repeats of each variant at each transfer time.
+class Scatter {
+  public:
+    Scatter(const Store& store, const std::string& run) {
+        const json study = store.study_of(run).value_or(json::object());
+        if (study.value("draws", 1) < 2) return;
+        for (const json& each : study.at("variants"))
+            repeated_.emplace(each.at("name"), repeated_variant(each));
+        for (const ResultRow& row : store.results(run))
+            if (value_of(row, "runout").is_number())
+                runouts_[place_of(row)].push_back(value_of(row, "runout"));
+    }
+
+    std::optional<Estimate> estimate(const ResultRow& row) const {
+        const auto found = runouts_.find(place_of(row));
+        if (found == runouts_.end() || found->second.size() < 2) return std::nullopt;
+        return Estimate{repeats_of(found->second).deviation,
+                        "scatter of " + std::to_string(found->second.size()) +
+                            " draws: noise, not the error of the setting"};
+    }
+
+  private:
+    using Place = std::pair<std::string, double>;
+
+    Place place_of(const ResultRow& row) const {
+        const std::string variant = value_of(row, "variant");
+        const auto found = repeated_.find(variant);
+        return {found == repeated_.end() ? variant : found->second, value_of(row, "transfer_time")};
+    }
+
+    std::map<std::string, std::string> repeated_;
+    std::map<Place, std::vector<double>> runouts_;
+};
+
+}  // namespace
+
+void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
+                        std::vector<ResultRow>& rows) {
+    Studies studies(store, data);
+    const Scatter scatter(store, run);
+    std::map<std::string, std::optional<Estimate>> by_variant;
+    for (ResultRow& row : rows) {
+        if (!value_of(row, "runout").is_number()) continue;
+        const std::string variant = value_of(row, "variant");
+        auto known = by_variant.find(variant);
+        if (known == by_variant.end()) {
+            std::optional<Estimate> found;
+            if (!studies.none())
+                found = studies.estimate(*store.task(value_of(row, "mpm_task").get<std::string>()));
+            known = by_variant.emplace(variant, std::move(found)).first;
+        }
+        std::optional<Estimate> estimate = known->second;
+        if (!estimate || !estimate->error)
+            if (auto noise = scatter.estimate(row)) estimate = std::move(noise);
+        if (!estimate)
+            estimate = Estimate{std::nullopt,
+                                "no accuracy study has this scene at this setting, and the sweep "
+                                "has no draws"};
+        if (estimate->error) field(row, "runout_error") = *estimate->error;
+        field(row, "runout_error_from") = estimate->from;
+    }
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,20 @@
+// How far a runout of any sweep is off, where something tells it: an accuracy study of the same
+// scene at the same setting, or the repeats that the sweep itself asks for. Else nothing, with the
+// reason.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+/// Fills the columns runout_error and runout_error_from. An accuracy study is found by recipe: its
+/// rung and the row have equal recipes of MPM and transfer, and of the FEM but for the times of its
+/// snapshots. So its error, measured at one transfer time, is told at others, too.
+void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
+                        std::vector<ResultRow>& rows);
+
+}  // namespace breach::orchestrator

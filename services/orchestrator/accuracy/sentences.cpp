@@ -1,0 +1,135 @@
+#include "services/orchestrator/accuracy/sentences.hpp"
+
+#include <array>
+#include <cstdio>
+
+namespace breach::orchestrator {
+
+namespace {
+
+std::string shown(double value, const char* format = "%.4g") {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+std::string percent(double share) {
+    return shown(100.0 * share, share < 0.995 ? "%.2g" : "%.0f") + " %";
+}
+
+std::string with_unit(double value, const Quantity& quantity) {
+    return shown(value) + (quantity.unit == "1" ? "" : " " + quantity.unit);
+}
+
+std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& plan) {
+    if (convergence.noise)
+        return "; one run scatters by " + with_unit(*convergence.noise, plan.quantity);
+    const bool points =
+        plan.quantity.reach == Reach::chain || plan.quantity.reach == Reach::filled_mpm;
+    return points ? "; the noise of one run is not known, \"draws\" would tell it" : "";
+}
+
+std::string setting_in_words(const AccuracyTable& table, const AccuracyRow& row) {
+    const Ladder& ladder = table.plan.ladders[row.setting.ladder];
+    std::string words = ladder.name + ":";
+    for (const std::string& each : ladder.steps[row.setting.step]) words += " " + each;
+    return words;
+}
+
+/// Ladders whose error at the base is not known, so that no row of another has it.
+std::string left_out(const AccuracyTable& table, const AccuracyRow& row) {
+    if (table.plan.reference.kind == ReferenceKind::given) return "";
+    std::string names;
+    for (std::size_t i = 0; i < table.ladders.size(); ++i)
+        if (i != row.setting.ladder && !table.ladders[i].error_of_base)
+            names += (names.empty() ? "" : ", ") + table.plan.ladders[i].name;
+    return names.empty() ? "" : "; without the error of " + names + ", not known at the base";
+}
+
+/// "one run is off by 4.8 %, 0.231 CPU s"
+std::string offer_in_words(const AccuracyTable& table, const AccuracyRow& row) {
+    return "one run is off by " + percent(*row.error_of_a_run) + left_out(table, row) + "; " +
+           shown(row.cost->cpu_seconds, "%.3g") + " CPU s";
+}
+
+/// The row that comes nearest to what is asked; nothing: no row has an error.
+const AccuracyRow* nearest(const AccuracyTable& table) {
+    const AccuracyRow* best = nullptr;
+    for (const AccuracyRow& each : table.rows) {
+        if (!each.error_of_a_run || each.questionable ||
+            table.ladders[each.setting.ladder].reference_is_questionable)
+            continue;
+        if (best == nullptr || *each.error_of_a_run < *best->error_of_a_run) best = &each;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::string course_in_words(const Convergence& convergence, const AccuracyPlan& plan,
+                            std::size_t ladder) {
+    std::string words;
+    switch (convergence.course) {
+        case Course::too_few:
+            words = "fewer than three rungs have a value: no order";
+            break;
+        case Course::oscillating:
+            words = "the three finest rungs go up and down: no order";
+            break;
+        case Course::not_falling:
+            words =
+                "the differences of the three finest rungs do not fall towards a limit: no "
+                "order";
+            break;
+        case Course::below_noise:
+            words =
+                "the three finest rungs differ by no more than the noise of the repeats: no "
+                "order";
+            break;
+        case Course::monotone:
+            if (plan.ladders[ladder].sizes.empty()) {
+                words =
+                    "the three finest rungs fall monotonically; how coarse each is was not "
+                    "given (\"sizes\"): no order";
+                break;
+            }
+            words = "order " + shown(*convergence.order, "%.2g") + ", limit " +
+                    with_unit(*convergence.limit, plan.quantity);
+            if (convergence.gci)
+                words += ", grid convergence index of the finest " + percent(*convergence.gci);
+    }
+    if (convergence.spread && convergence.course != Course::monotone)
+        words += "; spread " + with_unit(*convergence.spread, plan.quantity);
+    return words + noise_in_words(convergence, plan);
+}
+
+std::string reference_in_words(const Reference& reference) {
+    switch (reference.kind) {
+        case ReferenceKind::finest:
+            break;
+        case ReferenceKind::richardson:
+            return "Richardson's limit of each ladder";
+        case ReferenceKind::given:
+            return shown(reference.value) + " (" + reference.source + ")";
+    }
+    return "the finest rung of each ladder";
+}
+
+std::string recommendation_in_words(const AccuracyTable& table) {
+    const std::string asked = percent(table.plan.asked_error);
+    if (table.recommended) {
+        const AccuracyRow& row = table.rows[*table.recommended];
+        return "The cheapest setting within " + asked + " is " + setting_in_words(table, row) +
+               " (" + offer_in_words(table, row) + ").";
+    }
+    const AccuracyRow* best = nearest(table);
+    if (best == nullptr)
+        return "No setting can be recommended: no rung that can be relied on has an error yet.";
+    std::string words = "No setting meets " + asked + "; the nearest is " +
+                        setting_in_words(table, *best) + " (" + offer_in_words(table, *best) + ")";
+    if (best->below_noise)
+        words += "; that is the noise of single runs: the mean of several is nearer";
+    return words + ".";
+}
+
+}  // namespace breach::orchestrator

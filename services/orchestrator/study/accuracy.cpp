@@ -1,0 +1,333 @@
+#include "services/orchestrator/study/accuracy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+
+#include "core/scene/schema.hpp"
+#include "core/telemetry/columns.hpp"
+#include "services/orchestrator/records/result_columns.hpp"
+
+namespace breach::orchestrator {
+
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_variants = 1000;
+constexpr std::size_t rungs_of_an_order = 3;
+
+// ---------------------------------------------------------------- the quantity
+
+bool is_judged(const ResultColumn& column) {
+    return column.kind == ColumnKind::number && *column.pointer != '\0';
+}
+
+std::string names_of_results() {
+    std::string names;
+    for (const ResultColumn& each : result_columns())
+        if (is_judged(each)) names.append(names.empty() ? "" : ", ").append(each.name);
+    return names;
+}
+
+std::optional<Quantity> of_telemetry(const std::string& text, std::size_t at) {
+    const std::string name = text.substr(0, at);
+    const telemetry::Column* column = telemetry::column_named(name);
+    char* end = nullptr;
+    const std::string number = text.substr(at + 1);
+    const double time = std::strtod(number.c_str(), &end);
+    if (column == nullptr || number.empty() || *end != '\0' || !std::isfinite(time) || time < 0.0)
+        return std::nullopt;
+    return Quantity{name, Reach::fem, "", column->unit, time};
+}
+
+std::optional<Quantity> quantity_named(const std::string& text, const json& scene) {
+    if (const std::size_t at = text.find('@'); at != std::string::npos)
+        return of_telemetry(text, at);
+    if (text == "factor_of_safety")
+        return Quantity{text, Reach::lem, "/factor_of_safety", "1", std::nullopt};
+    for (const ResultColumn& each : result_columns())
+        if (each.name == text && is_judged(each))
+            return Quantity{text, scene.contains("fem") ? Reach::chain : Reach::filled_mpm,
+                            each.pointer, each.unit, std::nullopt};
+    return std::nullopt;
+}
+
+Quantity read_quantity(const json& entry, const json& scene, std::vector<Fault>& faults) {
+    const std::string text = entry.at("quantity");
+    if (auto known = quantity_named(text, scene)) return std::move(*known);
+    faults.push_back({"/accuracy/quantity", "\"" + text + "\" is nothing that a result has",
+                      "give one of " + names_of_results() +
+                          "; factor_of_safety; or a field of the FEM's telemetry with its time, "
+                          "like crest_displacement@4.5"});
+    return {text, Reach::chain, "", "", std::nullopt};
+}
+
+// ---------------------------------------------------------------- ladders
+
+/// "=9" takes the pointer of the same place of the first rung.
+std::vector<std::string> whole(const std::vector<std::string>& step,
+                               const std::vector<std::string>& first, const std::string& at,
+                               std::vector<Fault>& faults) {
+    std::vector<std::string> overrides = step;
+    for (std::size_t i = 0; i < overrides.size(); ++i) {
+        if (!overrides[i].starts_with('=')) continue;
+        const std::size_t equals = i < first.size() ? first[i].find('=') : std::string::npos;
+        if (equals == std::string::npos || equals == 0) {
+            faults.push_back({at + "/" + std::to_string(i),
+                              "the first rung has no pointer at this place",
+                              "write \"/json/pointer=value\""});
+            continue;
+        }
+        overrides[i].insert(0, first[i].substr(0, equals));
+    }
+    return overrides;
+}
+
+std::vector<std::vector<std::string>> read_steps(const json& ladder, const std::string& at,
+                                                 std::size_t least, std::vector<Fault>& faults) {
+    const auto given = ladder.at("steps").get<std::vector<std::vector<std::string>>>();
+    std::vector<std::vector<std::string>> steps;
+    for (std::size_t k = 0; k < given.size(); ++k)
+        steps.push_back(whole(given[k], given[0], at + "/steps/" + std::to_string(k), faults));
+    if (steps.size() < least)
+        faults.push_back(
+            {at + "/steps",
+             "the ladder has " + std::to_string(steps.size()) + " rung" +
+                 (steps.size() == 1 ? "" : "s") +
+                 (least > 2 ? ", and a limit is told by three" : ": there is nothing to compare"),
+             least > 2 ? "give three rungs or more, or another reference"
+                       : "give two rungs or more; with three an order can be observed"});
+    return steps;
+}
+
+/// The value of the rung's first override where it is a positive number.
+std::optional<double> first_value(const std::vector<std::string>& step) {
+    const std::string text = step.front().substr(step.front().find('=') + 1);
+    const json value = json::parse(text, nullptr, false);
+    if (!value.is_number() || value.get<double>() <= 0.0) return std::nullopt;
+    return value.get<double>();
+}
+
+/// Falling values are sizes; rising ones count what a length is cut into.
+std::vector<double> sizes_of(const std::vector<std::vector<std::string>>& steps) {
+    std::vector<double> values;
+    for (const auto& each : steps) {
+        const auto value = first_value(each);
+        if (!value) return {};
+        values.push_back(*value);
+    }
+    if (std::ranges::adjacent_find(values, std::less_equal<>()) == values.end()) return values;
+    if (std::ranges::adjacent_find(values, std::greater_equal<>()) != values.end()) return {};
+    for (double& each : values) each = 1.0 / each;
+    return values;
+}
+
+std::vector<double> read_sizes(const json& ladder, const std::string& at,
+                               const std::vector<std::vector<std::string>>& steps,
+                               std::vector<Fault>& faults) {
+    if (!ladder.contains("sizes")) return sizes_of(steps);
+    const auto sizes = ladder.at("sizes").get<std::vector<double>>();
+    if (sizes.size() != steps.size())
+        faults.push_back({at + "/sizes",
+                          "there are " + std::to_string(sizes.size()) + " sizes of " +
+                              std::to_string(steps.size()) + " rungs",
+                          "give one size for each rung, or leave \"sizes\" out"});
+    if (std::ranges::adjacent_find(sizes, std::less_equal<>()) != sizes.end())
+        faults.push_back({at + "/sizes", "the sizes do not fall",
+                          "order the rungs from coarse to fine, the last one finest"});
+    return sizes;
+}
+
+std::vector<Ladder> read_ladders(const json& entries, ReferenceKind reference,
+                                 std::vector<Fault>& faults) {
+    const bool limit = reference == ReferenceKind::richardson;
+    std::vector<Ladder> ladders;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::string at = "/accuracy/ladders/" + std::to_string(i);
+        Ladder ladder{.name = entries[i].at("name"),
+                      .steps = read_steps(entries[i], at, limit ? rungs_of_an_order : 2, faults),
+                      .sizes = {}};
+        ladder.sizes = read_sizes(entries[i], at, ladder.steps, faults);
+        if (std::ranges::find(ladders, ladder.name, &Ladder::name) != ladders.end())
+            faults.push_back({at + "/name", "the name \"" + ladder.name + "\" is given twice",
+                              "give each ladder a name of its own"});
+        if (limit && ladder.sizes.empty())
+            faults.push_back({at + "/sizes", "a limit needs to know how coarse each rung is",
+                              "give \"sizes\", one falling number for each rung"});
+        ladders.push_back(std::move(ladder));
+    }
+    return ladders;
+}
+
+Reference read_reference(const json& entry, std::vector<Fault>& faults) {
+    const json& reference = entry.at("reference");
+    if (reference == "finest") return {};
+    if (reference == "richardson") return {ReferenceKind::richardson, 0.0, ""};
+    if (reference.at("value") == 0.0)
+        faults.push_back({"/accuracy/reference/value",
+                          "errors are relative to the reference, and it is zero",
+                          "judge a quantity that is not zero, such as runout_largest"});
+    return {ReferenceKind::given, reference.at("value"), reference.at("source")};
+}
+
+// ---------------------------------------------------------------- lattices
+
+/// The k-th place of the R2 sequence (Roberts 2018), which fills the unit square evenly however far
+/// it is taken; the 0-th is the corner.
+std::array<double, 2> place_of_draw(std::size_t draw) {
+    constexpr std::array step{0.7548776662466927, 0.5698402909980532};
+    const auto k = static_cast<double>(draw);
+    return {std::fmod(k * step[0], 1.0), std::fmod(k * step[1], 1.0)};
+}
+
+std::string override_of(const char* pointer, double a, double b) {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "%s=[%.4f,%.4f]", pointer, a, b);
+    return text.data();
+}
+
+/// Another lattice of points; none for the first draw, which is the scene as it stands.
+std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
+    if (draw == 0) return {};
+    const auto [a, b] = place_of_draw(draw);
+    if (reach == Reach::filled_mpm) return {override_of("/mpm/fill_shift", a, b)};
+    constexpr double largest_shift = 0.9;  // that the scene allows, to either side
+    return {override_of("/transfer/point_shift", largest_shift * (2.0 * a - 1.0),
+                        largest_shift * (2.0 * b - 1.0))};
+}
+
+std::string name_of_draw(const std::string& variant, std::size_t draw) {
+    if (draw == 0) return variant;
+    return variant + "_d" + std::to_string(draw + 1);
+}
+
+std::string name_of_rung(const Ladder& ladder, std::size_t step) {
+    return ladder.name + "_" + std::to_string(step + 1);
+}
+
+std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
+                                      std::size_t step) {
+    std::vector<std::string> overrides = plan.base;
+    const auto& own = plan.ladders[ladder].steps[step];
+    overrides.insert(overrides.end(), own.begin(), own.end());
+    return overrides;
+}
+
+json changed(json scene, const std::vector<std::string>& overrides) {
+    for (const std::string& each : overrides) scene::apply_override(scene, each);
+    return scene;
+}
+
+}  // namespace
+
+std::vector<std::string> phases_of(Reach reach) {
+    switch (reach) {
+        case Reach::chain:
+            break;
+        case Reach::filled_mpm:
+            return {"mpm_solver"};
+        case Reach::fem:
+            return {"fem_solver"};
+        case Reach::lem:
+            return {"lem_tool"};
+    }
+    return {"fem_solver", "transfer_tool", "mpm_solver"};
+}
+
+AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fault>& faults) {
+    AccuracyPlan plan;
+    plan.quantity = read_quantity(entry, scene, faults);
+    plan.reference = read_reference(entry, faults);
+    plan.ladders = read_ladders(entry.at("ladders"), plan.reference.kind, faults);
+    plan.base = entry.at("base").get<std::vector<std::string>>();
+    plan.draws = entry.at("draws");
+    plan.asked_error = entry.at("asked_error");
+    const bool points =
+        plan.quantity.reach == Reach::chain || plan.quantity.reach == Reach::filled_mpm;
+    if (plan.draws > 1 && !points)
+        faults.push_back({"/accuracy/draws",
+                          "repeats move the lattice of material points, and " +
+                              phases_of(plan.quantity.reach).front() + " has none",
+                          "leave \"draws\" out: this quantity has no such noise"});
+    std::size_t rungs = 0;
+    for (const Ladder& each : plan.ladders) rungs += each.steps.size();
+    if (rungs * plan.draws > most_variants)
+        faults.push_back({"/accuracy/draws",
+                          "rungs times draws are more than " + std::to_string(most_variants),
+                          "ask for fewer draws, or split the study"});
+    return plan;
+}
+
+std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {
+    std::vector<Setting> settings;
+    std::vector<json> scenes;
+    const json base = changed(scene, plan.base);
+    for (std::size_t i = 0; i < plan.ladders.size(); ++i) {
+        for (std::size_t k = 0; k < plan.ladders[i].steps.size(); ++k) {
+            Setting setting{.ladder = i, .step = k, .variants = {}};
+            scenes.push_back(changed(scene, overrides_of(plan, i, k)));
+            setting.is_base = scenes.back() == base;
+            const auto same = std::ranges::find(scenes, scenes.back());
+            const auto first = static_cast<std::size_t>(same - scenes.begin());
+            // Within a ladder equal rungs are a slip, which is told elsewhere.
+            if (first < settings.size() && settings[first].ladder != i) {
+                setting.variants = settings[first].variants;
+            } else {
+                for (std::size_t d = 0; d < plan.draws; ++d)
+                    setting.variants.push_back(name_of_draw(name_of_rung(plan.ladders[i], k), d));
+            }
+            settings.push_back(std::move(setting));
+        }
+    }
+    return settings;
+}
+
+std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scene) {
+    std::vector<VariantEntry> entries;
+    for (const Setting& setting : settings_of(plan, scene)) {
+        const std::string rung = name_of_rung(plan.ladders[setting.ladder], setting.step);
+        if (setting.variants.front() != rung) continue;  // that of another ladder
+        const std::string ladder = "/accuracy/ladders/" + std::to_string(setting.ladder);
+        for (std::size_t d = 0; d < plan.draws; ++d) {
+            VariantEntry entry{.name = setting.variants[d],
+                               .overrides = overrides_of(plan, setting.ladder, setting.step),
+                               .name_pointer = ladder + "/name",
+                               .pointer = ladder + "/steps/" + std::to_string(setting.step),
+                               .made_by = "accuracy"};
+            for (std::string& each : lattice_of_draw(d, plan.quantity.reach))
+                entry.overrides.push_back(std::move(each));
+            entries.push_back(std::move(entry));
+        }
+    }
+    return entries;
+}
+
+std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, std::size_t draws) {
+    std::vector<VariantEntry> entries;
+    for (const VariantEntry& each : own) {
+        for (std::size_t d = 0; d < draws; ++d) {
+            VariantEntry entry = each;
+            const bool unnamed = each.name.empty();
+            entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
+            if (unnamed || d > 0) entry.made_by = "draws";
+            for (std::string& shift : lattice_of_draw(d, Reach::chain))
+                entry.overrides.push_back(std::move(shift));
+            entries.push_back(std::move(entry));
+        }
+    }
+    return entries;
+}
+
+std::string repeated_variant(const json& variant) {
+    const std::string& name = variant.at("name").get_ref<const std::string&>();
+    if (variant.value("made_by", "") != "draws") return name;
+    const std::size_t suffix = name.rfind("_d");
+    return suffix == std::string::npos ? "" : name.substr(0, suffix);
+}
+
+}  // namespace breach::orchestrator

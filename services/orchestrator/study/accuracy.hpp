@@ -1,0 +1,87 @@
+// The study's own repeats: the entry "accuracy" (ladders of settings, each rung on some lattices of
+// points) and the entry "draws" (every variant on some lattices). Both become ordinary variants;
+// which variant is which rung follows from the study alone. What they say of the error is in
+// accuracy/.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::orchestrator {
+
+/// How far a study's tasks go: FEM, transfer and MPM; the MPM alone, from the section itself; the
+/// FEM alone; lem_tool alone.
+enum class Reach { chain, filled_mpm, fem, lem };
+/// The executables of a variant, first to last.
+std::vector<std::string> phases_of(Reach reach);
+
+/// A number that an accuracy study judges.
+struct Quantity {
+    std::string name;  ///< "runout", "crest_displacement", "factor_of_safety"
+    Reach reach;
+    std::string pointer;         ///< in the last phase's result.json; empty: FEM's telemetry
+    std::string unit;            ///< "m", "1"
+    std::optional<double> time;  ///< of the telemetry [s]
+};
+
+struct Ladder {
+    std::string name;
+    std::vector<std::vector<std::string>> steps;  ///< overrides in full, coarse to fine
+    std::vector<double> sizes;  ///< of each rung, falling; empty: they cannot be told
+};
+
+enum class ReferenceKind { finest, richardson, given };
+struct Reference {
+    ReferenceKind kind = ReferenceKind::finest;
+    double value = 0.0;  ///< given
+    std::string source;  ///< of the given one
+};
+
+struct AccuracyPlan {
+    Quantity quantity;
+    std::vector<Ladder> ladders;
+    std::vector<std::string> base;
+    std::size_t draws = 1;
+    Reference reference;
+    double asked_error = 0.05;
+};
+
+/// A variant before its scene is checked.
+struct VariantEntry {
+    std::string name;
+    std::vector<std::string> overrides;
+    std::string name_pointer;  ///< of the study's entry that its name comes from
+    std::string pointer;       ///< of the entry that its overrides come from
+    std::string made_by;       ///< "draws", "accuracy"; empty: it is the study's own
+};
+
+/// A rung of a ladder and the variants that give its value. Rungs that come to the same scene, as
+/// those of two ladders can, have the same variants.
+struct Setting {
+    std::size_t ladder;
+    std::size_t step;
+    std::vector<std::string> variants;  ///< one per draw, the unmoved lattice first
+    bool is_base = false;               ///< it is what the other ladders leave as it is
+};
+
+/// The entry, which the schema has found sound; faults have the study's pointers. `scene`: with the
+/// study's own overrides, to know whether it has a FEM.
+AccuracyPlan read_accuracy(const nlohmann::json& entry, const nlohmann::json& scene,
+                           std::vector<fault::Fault>& faults);
+
+std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json& scene);
+/// All variants of the plan, each once, in the order of the settings.
+std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const nlohmann::json& scene);
+
+/// The study's own variants, each on `draws` lattices: "soft", "soft_d2", "soft_d3"; of a study
+/// without variants "d1", "d2", "d3".
+std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, std::size_t draws);
+/// What a variant of the completed study repeats: "soft_d2" -> "soft"; its own name when it is no
+/// repeat. variant: {name, made_by}.
+std::string repeated_variant(const nlohmann::json& variant);
+
+}  // namespace breach::orchestrator

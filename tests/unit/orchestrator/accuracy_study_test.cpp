@@ -1,0 +1,259 @@
+// The entries "accuracy" and "draws" of a study: what they become, and what is refused.
+#include <gtest/gtest.h>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/accuracy/measured.hpp"
+#include "services/orchestrator/study/graph.hpp"
+
+namespace breach::orchestrator {
+namespace {
+
+using nlohmann::json;
+
+const Numerics numerics{
+    {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}, {"lem_tool", 1}};
+
+json column_scene() {
+    return json::parse(R"({
+      "format": "breachline-scene/1", "name": "column",
+      "materials": {"sand": {"density": 1800, "law": {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3,
+        "c_kPa": 1, "phi_deg": 30}}},
+      "section": {"regions": [{"name": "column", "material": "sand",
+        "polygon": [[0, 0], [10, 0], [10, 20], [0, 20], [0, 0]],
+        "mesh": {"type": "block", "divisions": [10, 20]}}]},
+      "fem": {"supports": [{"name": "base", "from": [0, 0], "to": [10, 0], "fixes": "xy"}],
+        "stages": [{"type": "static", "name": "geostatic"},
+          {"type": "dynamic", "name": "failure", "duration": 0.75, "time_step": 0.005}],
+        "crest": [10, 20]},
+      "transfer": {},
+      "mpm": {"cell_size": 1.0, "domain_x": [0, 60], "domain_y": [0, 24],
+        "floor": {"level": 0, "friction": [{"from": 0, "to": 60, "coefficient": 0.5}]},
+        "duration": "until_rest", "runout": {"toe": [10, 0]}}})");
+}
+
+json accuracy_entry() {
+    return {{"quantity", "runout"},
+            {"ladders",
+             {{{"name", "cells"}, {"steps", {{"/mpm/cell_size=4"}, {"=2"}, {"=1"}}}},
+              {{"name", "points"},
+               {"steps", {{"/transfer/points_per_cell=4"}, {"=9"}, {"=16"}}},
+               {"sizes", {0.5, 0.3333, 0.25}}}}}};
+}
+
+json study_with(const json& accuracy) {
+    return {{"format", "breachline-study/1"},
+            {"name", "error"},
+            {"scene", column_scene()},
+            {"transfer_times", {0.4}},
+            {"accuracy", accuracy}};
+}
+
+std::size_t count(const TaskGraph& graph, const std::string& phase) {
+    return static_cast<std::size_t>(std::ranges::count(graph.tasks, phase, &TaskPlan::phase));
+}
+
+/// The fault with this pointer; fails when there is none.
+fault::Fault refusal(const json& study, const std::string& pointer) {
+    std::string found;
+    try {
+        read_study(study.dump());
+    } catch (const fault::BadInput& error) {
+        for (const fault::Fault& each : error.faults()) {
+            if (each.pointer == pointer) return each;
+            found += each.pointer + ": " + each.cause + "\n";
+        }
+    }
+    ADD_FAILURE() << "no fault at " << pointer << "; there are:\n" << found;
+    return {};
+}
+
+TEST(AccuracyStudy, EveryRungIsAnOrdinaryVariant) {
+    const Study study = read_study(study_with(accuracy_entry()).dump());
+    ASSERT_EQ(study.variants.size(), 6u);
+    EXPECT_EQ(study.variants[1].name, "cells_2");
+    EXPECT_EQ(study.variants[1].scene["mpm"]["cell_size"], 2);
+    EXPECT_EQ(study.variants[4].overrides, std::vector<std::string>{"/transfer/points_per_cell=9"});
+    EXPECT_EQ(study.document["variants"][3]["made_by"], "accuracy");
+    const TaskGraph graph = plan_tasks(study, numerics);
+    EXPECT_EQ(count(graph, "fem_solver"), 1u) << "no rung changes the FEM";
+    EXPECT_EQ(count(graph, "mpm_solver"), 6u);
+    EXPECT_EQ(count(graph, "lem_tool"), 0u);
+}
+
+TEST(AccuracyStudy, DrawsMoveTheLatticeAndTheFirstDoesNot) {
+    json accuracy = accuracy_entry();
+    accuracy["draws"] = 3;
+    const Study study = read_study(study_with(accuracy).dump());
+    ASSERT_EQ(study.variants.size(), 18u);
+    EXPECT_EQ(study.variants[2].name, "cells_1_d3");
+    const json& unmoved = study.variants[0].scene["transfer"]["point_shift"];
+    EXPECT_EQ(unmoved, json({0, 0}));
+    EXPECT_NE(study.variants[1].scene["transfer"]["point_shift"], unmoved);
+    EXPECT_NE(study.variants[1].scene["transfer"]["point_shift"],
+              study.variants[2].scene["transfer"]["point_shift"]);
+    EXPECT_EQ(study.variants[1].scene["mpm"], study.variants[0].scene["mpm"]);
+}
+
+TEST(AccuracyStudy, RungsOfTwoLaddersThatAreOneSceneAreOneVariant) {
+    json accuracy = accuracy_entry();
+    accuracy["ladders"][1] = {{"name", "steps"},
+                              {"steps", {{"/mpm/cfl=0.2"}, {"/mpm/cell_size=1"}}}};
+    const Study study = read_study(study_with(accuracy).dump());
+    EXPECT_EQ(study.variants.size(), 4u);
+    const auto settings = settings_of(
+        [&] {
+            std::vector<fault::Fault> none;
+            return read_accuracy(study.document["accuracy"], study.scene, none);
+        }(),
+        study.scene);
+    ASSERT_EQ(settings.size(), 5u);
+    EXPECT_EQ(settings[4].variants, settings[2].variants);
+}
+
+TEST(AccuracyStudy, ReadAgainItIsTheSame) {
+    json accuracy = accuracy_entry();
+    accuracy["draws"] = 2;
+    const Study once = read_study(study_with(accuracy).dump());
+    json stored = once.document;
+    stored["scene"] = once.scene;
+    const Study again = read_study(stored.dump());
+    EXPECT_EQ(again.document, once.document);
+    ASSERT_EQ(again.variants.size(), once.variants.size());
+    EXPECT_EQ(again.variants.back().scene, once.variants.back().scene);
+}
+
+TEST(AccuracyStudy, RunsOnlyWhatTheQuantityNeeds) {
+    json study = study_with(
+        {{"quantity", "crest_displacement@0.5"},
+         {"ladders",
+          {{{"name", "step"}, {"steps", {{"/fem/stages/1/time_step=0.01"}, {"=0.005"}}}}}}});
+    study.erase("transfer_times");
+    TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
+    EXPECT_EQ(graph.tasks.size(), 2u);
+    EXPECT_EQ(count(graph, "fem_solver"), 2u);
+    EXPECT_NE(graph.tasks[0].variant, graph.tasks[1].variant);
+
+    study["scene"].erase("fem");
+    study["accuracy"] = {
+        {"quantity", "runout"},
+        {"draws", 2},
+        {"ladders", {{{"name", "cells"}, {"steps", {{"/mpm/cell_size=2"}, {"=1"}}}}}}};
+    graph = plan_tasks(read_study(study.dump()), numerics);
+    EXPECT_EQ(graph.tasks.size(), 4u);
+    EXPECT_EQ(count(graph, "mpm_solver"), 4u) << "a scene without FEM fills its section";
+    EXPECT_EQ(graph.tasks[0].release, Release::at_once);
+    EXPECT_TRUE(graph.tasks[1].overrides.back().starts_with("/mpm/fill_shift="));
+}
+
+TEST(AccuracyStudy, FallingValuesAreSizesAndRisingOnesCounts) {
+    json accuracy = accuracy_entry();
+    accuracy["ladders"][1].erase("sizes");
+    std::vector<fault::Fault> faults;
+    json entry = read_study(study_with(accuracy).dump()).document["accuracy"];
+    const AccuracyPlan plan = read_accuracy(entry, column_scene(), faults);
+    EXPECT_EQ(plan.ladders[0].sizes, (std::vector{4.0, 2.0, 1.0}));
+    EXPECT_EQ(plan.ladders[1].sizes, (std::vector{1.0 / 4, 1.0 / 9, 1.0 / 16}));
+    EXPECT_TRUE(faults.empty());
+}
+
+TEST(AccuracyStudy, RefusesWhatCannotBeJudged) {
+    const auto with = [](const std::string& at, const json& value) {
+        json study = study_with(accuracy_entry());
+        study[json::json_pointer(at)] = value;
+        return study;
+    };
+    const auto unknown = refusal(with("/accuracy/quantity", "runnout"), "/accuracy/quantity");
+    EXPECT_NE(unknown.remedy.find("runout_beyond_toe"), std::string::npos);
+    refusal(with("/accuracy/quantity", "crest_dispacement@0.5"), "/accuracy/quantity");
+    refusal(with("/accuracy/quantity", "crest_displacement@soon"), "/accuracy/quantity");
+    refusal(with("/accuracy/quantity", "crest_displacement@9"), "/accuracy/quantity");
+    refusal(with("/accuracy/quantity", "crest_displacement@0.5"), "/transfer_times");
+    refusal(with("/accuracy/quantity", "factor_of_safety"), "/scene/lem");
+    refusal(with("/accuracy/ladders/0/steps", json::array({{"/mpm/cell_size=2"}})),
+            "/accuracy/ladders/0/steps");
+    refusal(with("/accuracy/ladders/0/steps/1/0", "=1"), "/accuracy/ladders/0/steps/2");
+    refusal(with("/accuracy/ladders/0/steps/0/0", "=1"), "/accuracy/ladders/0/steps/0/0");
+    refusal(with("/accuracy/ladders/0/steps/0/0", "/mpm/cell_sise=1"),
+            "/accuracy/ladders/0/steps/0");
+    refusal(with("/accuracy/ladders/1/name", "cells"), "/accuracy/ladders/1/name");
+    refusal(with("/accuracy/ladders/1/sizes", {1, 2, 3}), "/accuracy/ladders/1/sizes");
+    refusal(with("/accuracy/ladders/1/sizes", {2, 1}), "/accuracy/ladders/1/sizes");
+    refusal(with("/accuracy/reference", {{"value", 0}, {"source", "none"}}),
+            "/accuracy/reference/value");
+    refusal(with("/variants", json::array({{{"name", "soft"}}})), "/variants");
+    refusal(with("/triggers", json::array({{{"kind", "manual"}, {"name", "now"}}})), "/triggers");
+    refusal(with("/transfer_times", {0.2, 0.4}), "/transfer_times");
+    refusal(with("/draws", 3), "/draws");
+}
+
+TEST(AccuracyStudy, RefusesARungThatNoPhaseReads) {
+    json accuracy = accuracy_entry();
+    accuracy["ladders"][0]["steps"] = {{"/mpm/cell_size=2"}, {"/mpm/cell_size=2", "/title=finer"}};
+    refusal(study_with(accuracy), "/accuracy/ladders/0/steps/1");
+    json of_fem =
+        study_with({{"quantity", "crest_displacement@0.5"},
+                    {"ladders", {{{"name", "cells"}, {"steps", {{"/mpm/cell_size=2"}, {"=1"}}}}}}});
+    of_fem.erase("transfer_times");
+    const auto fault = refusal(of_fem, "/accuracy/ladders/0/steps/1");
+    EXPECT_NE(fault.cause.find("fem_solver"), std::string::npos);
+}
+
+TEST(AccuracyStudy, ALimitNeedsThreeRungsAndTheirSizes) {
+    json accuracy = accuracy_entry();
+    accuracy["reference"] = "richardson";
+    accuracy["ladders"][0]["steps"].erase(2);
+    refusal(study_with(accuracy), "/accuracy/ladders/0/steps");
+    accuracy = accuracy_entry();
+    accuracy["reference"] = "richardson";
+    accuracy["ladders"][0]["steps"][1][0] = "/mpm/kernel=b_spline";
+    refusal(study_with(accuracy), "/accuracy/ladders/0/sizes");
+}
+
+TEST(AccuracyStudy, RepeatsNeedALattice) {
+    json study = study_with(
+        {{"quantity", "crest_displacement@0.5"},
+         {"draws", 3},
+         {"ladders",
+          {{{"name", "step"}, {"steps", {{"/fem/stages/1/time_step=0.01"}, {"=0.005"}}}}}}});
+    study.erase("transfer_times");
+    refusal(study, "/accuracy/draws");
+}
+
+TEST(Draws, OfASweepAreVariantsOfTheirOwn) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study["draws"] = 2;
+    Study read = read_study(study.dump());
+    ASSERT_EQ(read.variants.size(), 2u);
+    EXPECT_EQ(read.variants[0].name, "d1");
+    EXPECT_EQ(repeated_variant(read.document["variants"][1]), "");
+
+    study["variants"] =
+        json::array({{{"name", "soft_dam"}},
+                     {{"name", "stiff"}, {"overrides", {"/materials/sand/law/E_MPa=40"}}}});
+    read = read_study(study.dump());
+    ASSERT_EQ(read.variants.size(), 4u);
+    EXPECT_EQ(read.variants[1].name, "soft_dam_d2");
+    EXPECT_EQ(repeated_variant(read.document["variants"][0]), "soft_dam");
+    EXPECT_EQ(repeated_variant(read.document["variants"][1]), "soft_dam");
+    json stored = read.document;
+    stored["scene"] = read.scene;
+    EXPECT_EQ(read_study(stored.dump()).document, read.document);
+    study["variants"][0]["name"] = std::string(31, 'a');
+    refusal(study, "/variants/0/name");
+}
+
+TEST(ValueAt, LiesBetweenTheLinesAndNeverBeyond) {
+    const json lines = json::array({{{"time", 0.0}, {"crest", 0.0}},
+                                    {{"time", 1.0}, {"crest", 2.0}},
+                                    {{"time", 1.5}, {"crest", 3.0}}});
+    EXPECT_DOUBLE_EQ(*value_at(lines, "crest", 0.5), 1.0);
+    EXPECT_DOUBLE_EQ(*value_at(lines, "crest", 1.0), 2.0);
+    EXPECT_DOUBLE_EQ(*value_at(lines, "crest", 1.5), 3.0);
+    EXPECT_FALSE(value_at(lines, "crest", 1.6));
+    EXPECT_FALSE(value_at(lines, "toe", 1.0));
+    EXPECT_FALSE(value_at(json::array(), "crest", 1.0));
+}
+
+}  // namespace
+}  // namespace breach::orchestrator

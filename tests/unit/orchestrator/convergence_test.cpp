@@ -1,0 +1,132 @@
+// The statistics of an accuracy study against closed forms.
+#include "services/orchestrator/accuracy/convergence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace breach::orchestrator {
+namespace {
+
+Rung rung(double size, double value, std::optional<double> deviation = {}, std::size_t count = 1) {
+    return {.size = size, .value = {.mean = value, .deviation = deviation, .count = count}};
+}
+
+/// limit + C size^p, exactly.
+std::vector<Rung> power_law(double limit, double C, double p, const std::vector<double>& sizes) {
+    std::vector<Rung> rungs;
+    for (const double h : sizes) rungs.push_back(rung(h, limit + C * std::pow(h, p)));
+    return rungs;
+}
+
+TEST(Convergence, FindsOrderAndLimitOfAPowerLaw) {
+    for (const double p : {0.5, 1.0, 1.7, 2.0, 4.0}) {
+        for (const std::vector<double>& sizes :
+             {std::vector{4.0, 2.0, 1.0}, std::vector{5.0, 3.0, 2.5}, std::vector{1.0, 0.9, 0.3}}) {
+            const Convergence found = convergence_of(power_law(40.0, -3.0, p, sizes));
+            ASSERT_EQ(found.course, Course::monotone) << p;
+            EXPECT_NEAR(*found.order, p, 1e-6);
+            EXPECT_NEAR(*found.limit, 40.0, 1e-6);
+        }
+    }
+}
+
+TEST(Convergence, IndexIsRoachesWithHisFactorForThreeGrids) {
+    // Halved twice, second order: 1.25 |f_2 - f_1| / (f_1 (2^2 - 1)).
+    const auto rungs = power_law(10.0, 0.4, 2.0, {4.0, 2.0, 1.0});
+    const double f_1 = 10.4;
+    const double f_2 = 11.6;
+    EXPECT_NEAR(*convergence_of(rungs).gci, 1.25 * (f_2 - f_1) / (3.0 * f_1), 1e-9);
+}
+
+TEST(Convergence, OnlyTheThreeFinestRungsCount) {
+    auto rungs = power_law(10.0, 0.4, 2.0, {4.0, 2.0, 1.0});
+    rungs.insert(rungs.begin(), rung(8.0, -100.0));
+    EXPECT_NEAR(*convergence_of(rungs).order, 2.0, 1e-9);
+    EXPECT_NEAR(*convergence_of(rungs).spread, 116.4, 1e-9) << "the spread is that of all";
+}
+
+TEST(Convergence, OscillatingRungsGetASpreadAndNoOrder) {
+    const Convergence found =
+        convergence_of(std::array{rung(4, 10.0), rung(2, 12.0), rung(1, 11.0)});
+    EXPECT_EQ(found.course, Course::oscillating);
+    EXPECT_FALSE(found.order || found.limit || found.gci);
+    EXPECT_DOUBLE_EQ(*found.spread, 2.0);
+    EXPECT_DOUBLE_EQ(*found.error_of_finest, 1.0 / 11.0) << "half of the range";
+}
+
+TEST(Convergence, DifferencesThatDoNotFallGiveNoOrder) {
+    EXPECT_EQ(convergence_of(std::array{rung(4, 10.0), rung(2, 11.0), rung(1, 13.0)}).course,
+              Course::not_falling);
+    EXPECT_EQ(convergence_of(std::array{rung(4, 10.0), rung(2, 11.0), rung(1, 12.0)}).course,
+              Course::not_falling)
+        << "equal differences are a logarithm of the size: no limit";
+    EXPECT_EQ(convergence_of(std::array{rung(4, 10.0), rung(2, 11.0), rung(1, 11.0)}).course,
+              Course::not_falling);
+}
+
+TEST(Convergence, WithoutAnOrderTheFinestIsOffByTheIndexForTwoGrids) {
+    const auto three = std::array{rung(4, 10.0), rung(2, 11.0), rung(1, 13.0)};
+    EXPECT_DOUBLE_EQ(*convergence_of(three).error_of_finest, 3.0 * 2.0 / 13.0);
+    const auto two = std::array{rung(1.5, 10.0), rung(1, 11.0)};
+    EXPECT_DOUBLE_EQ(*convergence_of(two).error_of_finest, 3.0 * 1.0 / 0.5 / 11.0);
+    EXPECT_FALSE(convergence_of(two).gci);
+}
+
+TEST(Convergence, TwoRungsHaveNoOrder) {
+    EXPECT_EQ(convergence_of(std::array{rung(2, 10.0), rung(1, 11.0)}).course, Course::too_few);
+    EXPECT_EQ(convergence_of({}).course, Course::too_few);
+}
+
+TEST(Convergence, ADifferenceBelowTheNoiseIsNotToldAsAnOrder) {
+    // Differences 3 and 1; the mean of 4 runs that scatter by 1 is told apart from 1.96 / sqrt 2 on.
+    const auto with_noise = [](double deviation) {
+        return convergence_of(std::array{rung(4, 14.0, deviation, 4), rung(2, 11.0, deviation, 4),
+                                         rung(1, 10.0, deviation, 4)});
+    };
+    EXPECT_EQ(with_noise(1.0).course, Course::below_noise);
+    EXPECT_FALSE(with_noise(1.0).order);
+    EXPECT_DOUBLE_EQ(*with_noise(1.0).noise, 1.0);
+    EXPECT_EQ(with_noise(0.7).course, Course::monotone);
+    EXPECT_NEAR(smallest_told_difference(1.0, 4), 1.96 / std::sqrt(2.0), 1e-12);
+}
+
+TEST(Convergence, NoiseIsPooledByTheNumberOfRepeats) {
+    const Convergence found =
+        convergence_of(std::array{rung(2, 1.0, 2.0, 3), rung(1, 1.0, 1.0, 2), rung(0.5, 1.0)});
+    EXPECT_NEAR(*found.noise, std::sqrt((2 * 4.0 + 1 * 1.0) / 3.0), 1e-12);
+}
+
+TEST(Repeats, HaveTheDeviationOfASample) {
+    const Repeats found = repeats_of(std::array{1.0, 2.0, 3.0, 4.0});
+    EXPECT_DOUBLE_EQ(found.mean, 2.5);
+    EXPECT_NEAR(*found.deviation, std::sqrt(5.0 / 3.0), 1e-15);
+    EXPECT_FALSE(repeats_of(std::array{7.0}).deviation) << "one run says nothing of its noise";
+}
+
+TEST(Repeats, ErrorOfOneRunHasBiasAndScatter) {
+    EXPECT_DOUBLE_EQ(error_of_one_run(0.3, {.mean = 13.0, .deviation = 4.0, .count = 5}, -10.0),
+                     0.5);
+    EXPECT_DOUBLE_EQ(error_of_one_run(0.1, {.mean = -9.0, .deviation = {}, .count = 1}, -10.0),
+                     0.1);
+}
+
+TEST(Pareto, KeepsWhatNothingBeatsInBoth) {
+    const std::array offers{Offer{1, 0.3}, Offer{2, 0.1}, Offer{3, 0.2}, Offer{4, 0.05},
+                            Offer{2, 0.1}};
+    EXPECT_EQ(pareto_front(offers), (std::vector{true, true, false, true, true}));
+    EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(Pareto, CheapestWithinTheAskedErrorOrNone) {
+    const std::array offers{Offer{1, 0.3}, Offer{3, 0.05}, Offer{3, 0.04}, Offer{9, 0.01}};
+    EXPECT_EQ(cheapest_within(offers, 0.05), 2u);
+    EXPECT_EQ(cheapest_within(offers, 0.01), 3u);
+    EXPECT_EQ(cheapest_within(offers, 0.001), std::nullopt);
+    const std::array unknown{Offer{1, std::nan("")}};
+    EXPECT_EQ(cheapest_within(unknown, 1.0), std::nullopt);
+}
+
+}  // namespace
+}  // namespace breach::orchestrator
