@@ -49,11 +49,10 @@ void read_loads(Reader& reader, const Scene& scene, const json& lem, Lem& result
 
 Water water_from(Reader& reader, const Scene& scene, const json& water,
                  const std::string& pointer) {
-    Water result{
-        line_from(reader, water.at("line"), pointer + "/line"),
-        water.at("density"),
-        word_at<PhreaticCorrection>(water, "correction"),
-        {}};
+    Water result{line_from(reader, water.at("line"), pointer + "/line"),
+                 water.at("density"),
+                 word_at<PhreaticCorrection>(water, "correction"),
+                 {}};
     if (!water.contains("regions")) return result;
     for (std::size_t i = 0; i < water.at("regions").size(); ++i) {
         const auto region = region_named(reader, scene, water.at("regions")[i],
