@@ -75,8 +75,8 @@ Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
     points.xi.reserve(count);
     points.first.push_back(0);
     for (std::size_t e = 0; e < mesh.quads.size(); ++e)
-        place_in_element(mesh, e, shifted_rule(n, panels[e][0], shift[0]),
-                         shifted_rule(n, panels[e][1], shift[1]), points);
+        place_in_element(mesh, e, geometry::shifted_rule(n, panels[e][0], shift[0]),
+                         geometry::shifted_rule(n, panels[e][1], shift[1]), points);
     s.gap.assign(count, 0.0);
     return points;
 }

@@ -133,8 +133,8 @@ std::vector<std::size_t> counts(const std::vector<Corners>& elements,
     const int n = demand.points_per_panel;
     std::vector<std::size_t> count(cover.share.size(), 0);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-        const GaussRule along = shifted_rule(n, panels[e][0], demand.shift[0]);
-        const GaussRule across = shifted_rule(n, panels[e][1], demand.shift[1]);
+        const GaussRule along = geometry::shifted_rule(n, panels[e][0], demand.shift[0]);
+        const GaussRule across = geometry::shifted_rule(n, panels[e][1], demand.shift[1]);
         for (const double eta : across.position)
             for (const double xi : along.position)
                 ++count[cover.cell(elements[e] * shape_functions({xi, eta}))];

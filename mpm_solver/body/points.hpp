@@ -71,7 +71,7 @@ struct Zone {
     materials::LawLanes lanes;  ///< the same for the loops
     mechanics::Elasticity elasticity;
     VolumeRule volume_rule;
-    double viscosity;  ///< eta [Pa s]
+    double viscosity;        ///< eta [Pa s]
     double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
     std::size_t begin;
     std::size_t end;
