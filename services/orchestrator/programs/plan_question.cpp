@@ -12,7 +12,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-
 /// What the program prints until it ends.
 std::string answer_of(const std::filesystem::path& program, const std::filesystem::path& scene) {
     const CommandResult result =
