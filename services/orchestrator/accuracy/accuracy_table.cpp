@@ -5,6 +5,7 @@
 
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
+#include "services/orchestrator/records/or_null.hpp"
 
 namespace breach::orchestrator {
 
@@ -169,11 +170,6 @@ void judge(AccuracyTable& table) {
     }
     tell_errors_of_runs(table);
     choose(table);
-}
-
-template <class T>
-json or_null(const std::optional<T>& value) {
-    return value ? json(*value) : json(nullptr);
 }
 
 json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {

@@ -23,14 +23,14 @@ constexpr std::size_t rungs_of_an_order = 3;
 
 // ---------------------------------------------------------------- the quantity
 
-bool is_judged(const ResultColumn& column) {
+bool can_be_judged(const ResultColumn& column) {
     return column.kind == ColumnKind::number && *column.pointer != '\0';
 }
 
 std::string names_of_results() {
     std::string names;
     for (const ResultColumn& each : result_columns())
-        if (is_judged(each)) names.append(names.empty() ? "" : ", ").append(each.name);
+        if (can_be_judged(each)) names.append(names.empty() ? "" : ", ").append(each.name);
     return names;
 }
 
@@ -51,7 +51,7 @@ std::optional<Quantity> quantity_named(const std::string& text, const json& scen
     if (text == "factor_of_safety")
         return Quantity{text, Reach::lem, "/factor_of_safety", "1", std::nullopt};
     for (const ResultColumn& each : result_columns())
-        if (each.name == text && is_judged(each))
+        if (each.name == text && can_be_judged(each))
             return Quantity{text, scene.contains("fem") ? Reach::chain : Reach::filled_mpm,
                             each.pointer, each.unit, std::nullopt};
     return std::nullopt;
