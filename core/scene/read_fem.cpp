@@ -44,6 +44,8 @@ GroundWater water_from(Reader& reader, const json& water) {
                        .bulk_modulus = 1e6 * water.at("bulk_modulus_MPa").get<double>(),
                        .above = word_at<AboveWater>(water, "above"),
                        .pressure_stabilisation = water.at("pressure_stabilisation"),
+                       .pressure_integration =
+                           word_at<PressureIntegration>(water, "pressure_integration"),
                        .boundaries = {}};
     for (const json& each : water.at("boundaries")) {
         PressureBoundary boundary{each.at("name"), point_from(each.at("from")),

@@ -255,6 +255,10 @@ struct PressureBoundary {
     std::optional<double> level;  ///< [m]
 };
 
+/// How the ssp quad integrates storage and conduction: at one point, which is blind to a pressure
+/// that alternates from node to node, or fully.
+enum class PressureIntegration { full, one_point };
+
 /// Pore water below a phreatic line.
 struct GroundWater {
     std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
@@ -262,6 +266,7 @@ struct GroundWater {
     double bulk_modulus;     ///< K_f [Pa]
     AboveWater above;
     double pressure_stabilisation;  ///< alpha over h^2 / (K + 4G/3) [-]
+    PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mechanics/excess_pressure.hpp"
+
 namespace breach::fem {
 
 Watch::Watch(const scene::Fem& fem, const Model& model)
@@ -42,8 +44,9 @@ void Watch::read_water(const Model& model, const Motion& motion, const Beginning
     }
     reading.excess_pressure_avg = mass > 0.0 ? sum / mass : 0.0;
     if (nodes_.empty()) return;
-    const std::vector<double> r_u = pore_pressure_ratio(
-        {motion.p.data(), nodes}, {beginning.p.data(), nodes}, beginning.sigma_v0, least_stress_);
+    const std::vector<double> excess = mechanics::nodal_excess_pressure(
+        body_.nodes, body_.quads, {motion.p.data(), nodes}, {beginning.p.data(), nodes});
+    const std::vector<double> r_u = pore_pressure_ratio(excess, beginning.sigma_v0, least_stress_);
     for (const std::int32_t i : nodes_) reading.r_u_max = std::max(reading.r_u_max, r_u[i]);
     reading.liquefaction_depth = liquefaction_depth(body_, nodes_, r_u, window_);
 }

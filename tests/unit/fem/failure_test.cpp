@@ -79,8 +79,8 @@ TEST(Liquefaction, RatioIsExcessPressureOverInitialVerticalStress) {
     EXPECT_DOUBLE_EQ(sigma_v0[0], 30e3);
     EXPECT_DOUBLE_EQ(sigma_v0[4], 20e3) << "the middle node has all four elements";
     EXPECT_DOUBLE_EQ(sigma_v0[8], 10e3);
-    const std::vector<double> u_0(9, 5e3), u(9, 20e3);
-    const auto r_u = pore_pressure_ratio(u, u_0, sigma_v0, 12e3);
+    const std::vector<double> excess(9, 15e3);
+    const auto r_u = pore_pressure_ratio(excess, sigma_v0, 12e3);
     EXPECT_DOUBLE_EQ(r_u[0], 0.5);
     EXPECT_DOUBLE_EQ(r_u[4], 0.75);
     EXPECT_EQ(r_u[8], 0.0) << "too little stress for a ratio";
