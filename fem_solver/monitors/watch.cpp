@@ -25,10 +25,31 @@ FailureSurfaces Watch::failure_surfaces(std::span<const double> epsilon_q) const
     return failure_surfaces_of(body_, ground_, epsilon_q, failure_strain_, failure_separation_);
 }
 
+namespace {
+
+/// Mean displacement of the body that slides against that of the sound rest [m]; 0 where none is
+/// cut off.
+double slip_across(const Model& model, const Motion& motion, const FailureSurfaces& surfaces) {
+    Vec2 of_slide = Vec2::Zero(), of_rest = Vec2::Zero();
+    double slide = 0.0, rest = 0.0;
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        if (surfaces.holds[e]) continue;
+        const Dofs8 u = gather(model.mesh.quads[e], motion.u);
+        const Vec2 moved = model.volume[e] * Eigen::Map<const Corners>(u.data()).rowwise().mean();
+        (surfaces.slides[e] ? of_slide : of_rest) += moved;
+        (surfaces.slides[e] ? slide : rest) += model.volume[e];
+    }
+    if (slide == 0.0 || rest == 0.0) return 0.0;
+    return (of_slide / slide - of_rest / rest).norm();
+}
+
+}  // namespace
+
 void Watch::read(const Model& model, const Motion& motion, const Beginning& beginning,
                  Reading& reading) const {
-    reading.failure_surfaces =
-        static_cast<double>(failure_surfaces(epsilon_q_of_elements(model, motion)).count);
+    const FailureSurfaces surfaces = failure_surfaces(epsilon_q_of_elements(model, motion));
+    reading.failure_surfaces = static_cast<double>(surfaces.count);
+    reading.slip_across_band = slip_across(model, motion, surfaces);
     if (beginning.p.size() > 0) read_water(model, motion, beginning, reading);
 }
 
