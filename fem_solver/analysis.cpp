@@ -230,16 +230,24 @@ Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
         if (step_is_too_coarse(stage, dt)) continue;
         const Distortion distortion = trial_distortion();
         if (distortion.least <= fem_.least_jacobian_ratio) {
-            entanglement_ = entanglement_of(session_.scene().section, model_, watch_, motion_,
-                                            distortion, position_.time + dt);
-            if (position_.time == 0.0) refuse_the_mesh();
-            return StageEnd::entangled;
+            if (!entanglement_) note_entanglement(distortion, position_.time + dt);
+            if (fem_.at_entanglement == scene::AtEntanglement::stop) return StageEnd::entangled;
         }
         distortion_ = distortion;
         accept(dt, next_stop(stage_end), outcome);
         if (checkpoint_is_due()) write_checkpoint();
     }
     return StageEnd::reached;
+}
+
+/// The first corner that folds: where, when and in what soil.
+void Analysis::note_entanglement(const Distortion& folded, double time) {
+    entanglement_ = entanglement_of(session_.scene().section, model_, watch_, motion_, folded, time,
+                                    fem_.at_entanglement);
+    if (position_.time == 0.0) refuse_the_mesh();
+    if (fem_.at_entanglement == scene::AtEntanglement::go_on) {
+        spdlog::warn("{}; the analysis goes on with the undeformed mesh", in_words(*entanglement_));
+    }
 }
 
 /// What folds in the very first step was never in equilibrium: no failure, a fault of the scene.
@@ -325,7 +333,7 @@ void Analysis::cut_step(const Stage& stage, const NewtonOutcome& outcome) {
     const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
     const std::string why = outcome.end == End::degenerate
                                 ? (moves ? "an element turned inside out"
-                                         : "a point of PM4Sand refused its strain increment")
+                                         : in_words(newton_->internal_force().sand_refusal()))
                                 : "out of balance " + text_of(outcome.residual) + " after " +
                                       std::to_string(outcome.iterations) + " iterations";
     give_up("no convergence at " + text_of(position_.time) + " s with the least time step " +

@@ -16,7 +16,7 @@ class Analysis {
     Analysis(process::Session& session, Model model);
 
     /// All stages, or as many as the mesh lives to see: entangled is a regular end, with the last
-    /// good state in a snapshot. Throws Breakdown when the mesh entangles in its very first step or
+    /// good state in a snapshot, unless the scene asks to go on. Throws Breakdown when the mesh entangles in its very first step or
     /// the least step does not converge; the last good state is then in a snapshot and in the
     /// checkpoint.
     process::Outcome run();
@@ -38,6 +38,7 @@ class Analysis {
     void begin_motion();
     void note_geostatic_state(const scene::Stage& stage, const NewtonOutcome& outcome);
     Distortion trial_distortion();
+    void note_entanglement(const Distortion& folded, double time);
     bool step_is_too_coarse(const scene::Stage& stage, double dt);
     double next_step_size(double stage_end) const;
     double next_stop(double stage_end) const;

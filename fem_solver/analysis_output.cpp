@@ -18,12 +18,20 @@ namespace {
 constexpr double checkpoint_interval = 20.0;  // wall clock [s]
 constexpr const char* geostatic =
     "geostatic";  // facts of stages that a resumed run does not repeat
+constexpr const char* entanglement = "entanglement";
 
 std::string shown(double value) {
     std::ostringstream text;
     text.precision(4);
     text << value;
     return text.str();
+}
+
+/// Kinetic energy over its largest value so far; 1 while nothing has moved.
+double over_peak(double energy, const std::vector<Reading>& history) {
+    double peak = energy;
+    for (const Reading& each : history) peak = std::max(peak, each.kinetic_energy);
+    return peak > 0.0 ? energy / peak : 1.0;
 }
 }  // namespace
 
@@ -41,6 +49,7 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
         reading.residual = outcome.residual;
         reading.external_work = position_.external_work;
         reading.internal_work = position_.internal_work;
+        reading.kinetic_energy_over_peak = over_peak(reading.kinetic_energy, history_);
         history_.push_back(reading);
         session_.telemetry(telemetry_line(reading));
         position_.telemetry_lines = session_.telemetry_lines();
@@ -99,6 +108,7 @@ void Analysis::write_checkpoint() {
     exchange::Archive archive = checkpoint_archive(checkpoint, session_.scene());
     const nlohmann::json& facts = session_.result();
     if (facts.contains(geostatic)) archive.texts[geostatic] = facts.at(geostatic).dump();
+    if (entanglement_) archive.texts[entanglement] = as_json(*entanglement_).dump();
     exchange::write_archive(session_.output(phases::files::checkpoint), archive,
                             session_.provenance());
     checkpoint_written_ = session_.wall_seconds();
@@ -112,6 +122,10 @@ void Analysis::resume() {
     Checkpoint checkpoint = checkpoint_from(archive, session_.scene(), model_, file.string());
     if (const auto kept = archive.texts.find(geostatic); kept != archive.texts.end()) {
         session_.result()[geostatic] = nlohmann::json::parse(kept->second);
+    }
+    if (const auto noted = archive.texts.find(entanglement); noted != archive.texts.end()) {
+        entanglement_ =
+            entanglement_from(nlohmann::json::parse(noted->second), session_.scene().section);
     }
     position_ = checkpoint.position;
     motion_ = std::move(checkpoint.motion);
@@ -193,12 +207,29 @@ void Analysis::report_crest() {
 
 namespace {
 
-/// Time of the first line with a failure surface [s].
-std::optional<double> first_surface_in(const std::vector<Reading>& history) {
-    const auto first = std::ranges::find_if(
-        history, [](const Reading& each) { return each.failure_surfaces >= 1.0; });
-    if (first == history.end()) return std::nullopt;
+/// Time of the first line where a column reaches a value [s]; null: never.
+nlohmann::json first_time(const std::vector<Reading>& history, double Reading::*column,
+                          double value) {
+    const auto first =
+        std::ranges::find_if(history, [&](const Reading& each) { return each.*column >= value; });
+    if (first == history.end()) return nullptr;
     return first->time;
+}
+
+/// The course as events that need no mesh.
+nlohmann::json milestones_in(const std::vector<Reading>& history) {
+    const auto crest = [&](double value) {
+        return first_time(history, &Reading::crest_displacement, value);
+    };
+    nlohmann::json facts{{"crest_1_m", crest(1.0)},
+                         {"crest_2_5_m", crest(2.5)},
+                         {"crest_5_m", crest(5.0)},
+                         {"slip_1_m", first_time(history, &Reading::slip_across_band, 1.0)}};
+    const auto peak = std::ranges::max_element(history, {}, &Reading::kinetic_energy);
+    if (peak != history.end()) {
+        facts["kinetic_energy_peak"] = {{"time", peak->time}, {"energy", peak->kinetic_energy}};
+    }
+    return facts;
 }
 
 }  // namespace
@@ -206,10 +237,11 @@ std::optional<double> first_surface_in(const std::vector<Reading>& history) {
 /// How it ended and what it came to, as facts and in plain words.
 void Analysis::report_end() {
     auto& facts = session_.result();
-    facts["ended"] = entanglement_ ? "entangled" : "complete";
+    const bool stopped = entanglement_ && entanglement_->then == scene::AtEntanglement::stop;
+    facts["ended"] = stopped ? "entangled" : "complete";
     facts["end_time"] = position_.time;
     if (entanglement_) {
-        facts["entanglement"] = as_json(*entanglement_);
+        facts[entanglement] = as_json(*entanglement_);
         session_.flag(flag_of(*entanglement_));
     }
     if (!position_.moving) {
@@ -218,18 +250,18 @@ void Analysis::report_end() {
     }
     Reading last = read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
     watch_.read(model_, motion_, beginning_, last);
-    const auto surface = first_surface_in(history_);
+    const nlohmann::json surface = first_time(history_, &Reading::failure_surfaces, 1.0);
     double depth = last.liquefaction_depth;
     for (const Reading& each : history_) depth = std::max(depth, each.liquefaction_depth);
     facts["crest"].update(
         {{"displacement", last.crest_displacement}, {"dx", last.crest_dx}, {"dy", last.crest_dy}});
     facts["failure_surfaces"] = static_cast<std::int64_t>(last.failure_surfaces);
-    facts["first_failure_surface_time"] =
-        surface ? nlohmann::json(*surface) : nlohmann::json(nullptr);
+    facts["first_failure_surface_time"] = surface;
+    facts["milestones"] = milestones_in(history_);
     if (fem_.liquefaction) facts["largest_liquefaction_depth"] = depth;
-    spdlog::info("{}", entanglement_ ? "ended before its duration, at " + shown(position_.time) +
-                                           " of " + shown(span_) + " s: " + in_words(*entanglement_)
-                                     : "ended as planned, at " + shown(position_.time) + " s");
+    spdlog::info("{}", stopped ? "ended before its duration, at " + shown(position_.time) + " of " +
+                                     shown(span_) + " s: " + in_words(*entanglement_)
+                               : "ended as planned, at " + shown(position_.time) + " s");
     if (facts.contains("motion")) {
         spdlog::info("shaken with a PGA of {} g, as applied, by a motion of {} s",
                      shown(facts["motion"]["pga_g"].get<double>()),
@@ -237,9 +269,11 @@ void Analysis::report_end() {
     }
     spdlog::info("the crest moved {} m (x {}, y {})", shown(last.crest_displacement),
                  shown(last.crest_dx), shown(last.crest_dy));
-    spdlog::info("{}", surface ? "the first failure surface was there at " + shown(*surface) +
-                                     " s; at the end there are " + shown(last.failure_surfaces)
-                               : std::string("no failure surface cut through to the ground"));
+    spdlog::info("{}", surface.is_null()
+                           ? std::string("no failure surface cut through to the ground")
+                           : "the first failure surface was there at " +
+                                 shown(surface.get<double>()) + " s; at the end there are " +
+                                 shown(last.failure_surfaces));
     if (fem_.liquefaction) {
         spdlog::info("{}", depth > 0.0
                                ? "liquefied to a depth of " + shown(depth) + " m where watched"

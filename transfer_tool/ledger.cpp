@@ -127,7 +127,9 @@ double elastic_energy_on_element(const Books& books, std::size_t e,
                                  const std::vector<double>& weights) {
     const MeshSnapshot& mesh = books.mesh;
     Eigen::Vector4d u = Eigen::Vector4d::Zero();
-    if (!mesh.pore_pressure.empty()) u = corner_values(mesh.pore_pressure, mesh.quads[e]);
+    if (!mesh.pore_pressure.empty()) {
+        u = corner_pressure(mesh.pore_pressure, mesh.quads[e], books.points.shape[e]);
+    }
     double energy = 0.0;
     for (std::size_t g = 0; g < weights.size(); ++g) {
         const Vec2& xi = mesh.gauss_positions[g];

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "core/exchange/excess_pressure.hpp"
 #include "transfer_tool/points.hpp"
 
 namespace breach::transfer {
@@ -52,10 +53,10 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
     : deepest_(nowhere) {
     std::vector<Edge> edges;
     const std::vector<Reach> reach = reaches(mesh, regions);
+    const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
     for (std::size_t i = 0; i < reach.size(); ++i) {
         if (!reach[i].counts) continue;
-        const double d_u = mesh.pore_pressure[i] - mesh.pore_pressure_0[i];
-        if (pore_pressure_ratio(d_u, mesh.sigma_v0[i]) <= threshold) continue;
+        if (pore_pressure_ratio(excess[i], mesh.sigma_v0[i]) <= threshold) continue;
         const Vec2& place = mesh.position_0[i];
         edges.push_back({place.x() - reach[i].left, place.y(), true});
         edges.push_back({place.x() + reach[i].right, place.y(), false});

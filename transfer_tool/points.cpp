@@ -42,14 +42,16 @@ void carry_motion(const MeshSnapshot& mesh, std::size_t e, Points& points) {
 }
 
 void carry_water(const MeshSnapshot& mesh, std::size_t e, Points& points) {
-    const Eigen::Vector4d u = corner_values(mesh.pore_pressure, mesh.quads[e]);
+    const Eigen::Vector4d u = corner_pressure(mesh.pore_pressure, mesh.quads[e], points.shape[e]);
     for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
         points.state.pore_pressure[p] = u.dot(shape_functions(points.xi[p]));
 }
 
 void carry_ratio(const MeshSnapshot& mesh, std::size_t e, Points& points) {
-    const Eigen::Vector4d d_u = corner_values(mesh.pore_pressure, mesh.quads[e]) -
-                                corner_values(mesh.pore_pressure_0, mesh.quads[e]);
+    const auto at_corners = [&](const std::vector<double>& pressure) {
+        return corner_pressure(pressure, mesh.quads[e], points.shape[e]);
+    };
+    const Eigen::Vector4d d_u = at_corners(mesh.pore_pressure) - at_corners(mesh.pore_pressure_0);
     const Eigen::Vector4d sigma_v0 = corner_values(mesh.sigma_v0, mesh.quads[e]);
     for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
         const Eigen::Vector4d N = shape_functions(points.xi[p]);

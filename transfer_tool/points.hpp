@@ -27,7 +27,8 @@ Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> sha
 
 /// By shape functions: velocity v = sum N_i v_i and its gradient L = sum v_i (dN_i/dx)^T on the
 /// deformed element, acceleration, and where the snapshot has them pore pressure u = sum N_i u_i
-/// and r_u = sum N_i (u - u_0)_i / sum N_i sigma'_v0,i (0 where no stress was).
+/// and r_u = sum N_i (u - u_0)_i / sum N_i sigma'_v0,i (0 where no stress was), u and u_0 without
+/// their alternating parts.
 void carry_nodal_fields(const exchange::MeshSnapshot& mesh, Points& points);
 
 /// (u - u_0) / sigma'_v0 [-]; 0 where sigma_v0 is not positive: nothing there can liquefy.

@@ -1,5 +1,6 @@
 #include "transfer_tool/shapes.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 
@@ -86,6 +87,16 @@ Corners undeformed_corners(const MeshSnapshot& mesh, std::size_t element) {
 Corners deformed_corners(const MeshSnapshot& mesh, std::size_t element) {
     return undeformed_corners(mesh, element) +
            corner_values(mesh.displacement, mesh.quads[element]);
+}
+
+Eigen::Vector4d corner_pressure(const std::vector<double>& pressure,
+                                const std::array<std::int32_t, 4>& quad, const Corners& x) {
+    const Eigen::Vector4d h(1.0, -1.0, 1.0, -1.0), p = corner_values(pressure, quad);
+    const Corners dN =
+        jacobian(x, Vec2::Zero()).inverse().transpose() * shape_gradients(Vec2::Zero());
+    // The amplitude of xi eta: h . p less what a linear field has of it on a skewed quad.
+    const double amplitude = 0.25 * (h.dot(p) - (x * h).dot(dN * p));
+    return p - amplitude * h;
 }
 
 Shapes shapes_of_elements(const MeshSnapshot& mesh, scene::Entangled policy,

@@ -29,6 +29,12 @@ Eigen::Vector4d corner_values(const std::vector<double>& field,
 Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 Corners deformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 
+/// Nodal pressure [Pa] at the corners of an element of shape x, without the part that alternates
+/// between them: what the FEM's forces know of it. Its mean stays, and so does a pressure that is
+/// linear in x.
+Eigen::Vector4d corner_pressure(const std::vector<double>& pressure,
+                                const std::array<std::int32_t, 4>& quad, const Corners& x);
+
 /// An element that was inverted or entangled (J <= 0 at a corner).
 struct RebuiltElement {
     std::size_t element;

@@ -43,6 +43,20 @@ std::vector<double> averages(std::span<const double> values, std::size_t n, std:
     return mean;
 }
 
+/// 1 where a corner of the deformed element is turned inside out, 0 elsewhere.
+std::vector<std::int32_t> inverted_elements(const MeshSnapshot& s) {
+    std::vector<std::int32_t> inverted;
+    for (const auto& quad : s.quads) {
+        Eigen::Matrix<double, 2, 4> before, now;
+        for (int k = 0; k < 4; ++k) {
+            before.col(k) = s.position_0[quad[k]];
+            now.col(k) = before.col(k) + s.displacement[quad[k]];
+        }
+        inverted.push_back(mechanics::jacobian_ratio(now, before).least <= 0.0 ? 1 : 0);
+    }
+    return inverted;
+}
+
 void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     std::vector<Vec2> position(s.position_0.size());
     for (std::size_t i = 0; i < position.size(); ++i)
@@ -74,6 +88,8 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(cell + "epsilon_q_plastic", averages(s.epsilon_q_plastic, 1, gauss, 1), 0, "1");
     image.array(cell + "density", s.density, 0, "kg/m3");
     image.array(cell + "region", std::span<const std::int32_t>(s.region_of_element));
+    const std::vector<std::int32_t> inverted = inverted_elements(s);
+    image.array(cell + "inverted", std::span<const std::int32_t>(inverted));
 }
 
 void write_exact(Hdf5Image& image, const MeshSnapshot& s) {

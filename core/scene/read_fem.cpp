@@ -39,12 +39,14 @@ Support support_from(const json& support) {
 }
 
 GroundWater water_from(Reader& reader, const json& water) {
-    GroundWater result{.line = line_from(reader, water.at("line"), "/fem/water/line"),
-                       .density = water.at("density"),
-                       .bulk_modulus = 1e6 * water.at("bulk_modulus_MPa").get<double>(),
-                       .above = word_at<AboveWater>(water, "above"),
-                       .pressure_stabilisation = water.at("pressure_stabilisation"),
-                       .boundaries = {}};
+    GroundWater result{
+        .line = line_from(reader, water.at("line"), "/fem/water/line"),
+        .density = water.at("density"),
+        .bulk_modulus = 1e6 * water.at("bulk_modulus_MPa").get<double>(),
+        .above = word_at<AboveWater>(water, "above"),
+        .pressure_stabilisation = water.at("pressure_stabilisation"),
+        .pressure_integration = word_at<PressureIntegration>(water, "pressure_integration"),
+        .boundaries = {}};
     for (const json& each : water.at("boundaries")) {
         PressureBoundary boundary{each.at("name"), point_from(each.at("from")),
                                   point_from(each.at("to")), std::nullopt};
@@ -118,6 +120,12 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
         reader.add("/fem/newmark_beta", "makes the scheme unstable at large steps",
                    "give at least (newmark_gamma + 0.5)^2 / 4 = " + std::to_string(stable));
     }
+    if (fem.at_entanglement == AtEntanglement::go_on &&
+        fem.kinematics != Kinematics::small_strain) {
+        reader.add("/fem/at_entanglement",
+                   "goes on where elements are inverted, which a moving mesh cannot compute",
+                   "take kinematics small_strain, or leave it out");
+    }
     if (fem.mesh.msh_file) return;
     for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
         const std::string pointer = "/section/regions/" + std::to_string(i);
@@ -181,6 +189,7 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.force_tolerance = fem.at("force_tolerance");
     result.largest_iterations = fem.at("largest_iterations");
     result.least_jacobian_ratio = fem.at("least_jacobian_ratio");
+    result.at_entanglement = word_at<AtEntanglement>(fem, "at_entanglement");
     result.crest = point_from(fem.at("crest"));
     result.strain_threshold = fem.at("strain_threshold");
     result.liquefaction = liquefaction_from(reader, scene, fem);

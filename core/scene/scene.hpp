@@ -214,6 +214,9 @@ enum class Kinematics { small_strain, updated_lagrangian };
 enum class ElementKind { bbar, ssp };
 /// Modulus of the ssp quad's stabilisation: the soil's current one, or the elastic one for ever.
 enum class HourglassKind { current, elastic };
+/// What a folded corner means to an analysis: its end, or an event that it notes. Small strain
+/// computes on the undeformed mesh and can go on.
+enum class AtEntanglement { stop, go_on };
 
 struct MeshSource {
     std::optional<std::filesystem::path> msh_file;  ///< absolute; otherwise meshed from the regions
@@ -255,6 +258,10 @@ struct PressureBoundary {
     std::optional<double> level;  ///< [m]
 };
 
+/// How the ssp quad integrates storage and conduction: at one point, which is blind to a pressure
+/// that alternates from node to node, or fully.
+enum class PressureIntegration { full, one_point };
+
 /// Pore water below a phreatic line.
 struct GroundWater {
     std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
@@ -262,6 +269,7 @@ struct GroundWater {
     double bulk_modulus;     ///< K_f [Pa]
     AboveWater above;
     double pressure_stabilisation;  ///< alpha over h^2 / (K + 4G/3) [-]
+    PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
 };
 
@@ -322,9 +330,10 @@ struct Fem {
     double rayleigh_stiffness;  ///< beta [s]
     double force_tolerance;     ///< residual norm over reference force norm [-]
     int largest_iterations;
-    double least_jacobian_ratio;  ///< entangled below this: stop with the last good state [-]
-    Vec2 crest;                   ///< monitored point; nearest node is used [m]
-    double strain_threshold;      ///< averages are over elements with epsilon_q above this [-]
+    double least_jacobian_ratio;  ///< entangled below this [-]
+    AtEntanglement at_entanglement;
+    Vec2 crest;               ///< monitored point; nearest node is used [m]
+    double strain_threshold;  ///< averages are over elements with epsilon_q above this [-]
     std::optional<LiquefactionWatch> liquefaction;
     double failure_strain;               ///< bands of elements above this are failure surfaces [-]
     double failure_separation;           ///< places of the ground closer than this are one [m]

@@ -87,6 +87,16 @@ constexpr auto words_of(HourglassKind) {
     return words::in_order<HourglassKind>({{current, "current"}, {elastic, "elastic"}});
 }
 
+constexpr auto words_of(AtEntanglement) {
+    using enum AtEntanglement;
+    return words::in_order<AtEntanglement>({{stop, "stop"}, {go_on, "go_on"}});
+}
+
+constexpr auto words_of(PressureIntegration) {
+    using enum PressureIntegration;
+    return words::in_order<PressureIntegration>({{full, "full"}, {one_point, "one_point"}});
+}
+
 constexpr auto words_of(StageKind) {
     using enum StageKind;
     return words::in_order<StageKind>({{static_equilibrium, "static"}, {dynamic, "dynamic"}});

@@ -17,6 +17,8 @@ constexpr std::array fem_table{
     Column{"crest_dx", "m", "its horizontal part"},
     Column{"crest_dy", "m", "its vertical part"},
     Column{"kinetic_energy", "J", "of the body without free-field columns"},
+    Column{"kinetic_energy_over_peak", "1",
+           "kinetic energy over its largest value so far: below 1 the peak is past"},
     Column{"external_work", "J", "of gravity and other constant loads"},
     Column{"internal_work", "J", "of the stresses"},
     Column{"jacobian_ratio_avg", "1", "the same as jacobian_centre_avg"},
@@ -32,6 +34,9 @@ constexpr std::array fem_table{
     Column{"r_u_max", "1", "largest excess pore pressure ratio of the watched nodes"},
     Column{"liquefaction_depth", "m", "of the deepest liquefied watched node"},
     Column{"failure_surfaces", "1", "bands of large strain from ground to ground"},
+    Column{"slip_across_band", "m",
+           "mean displacement of the largest body that such bands cut off, against the rest"},
+    Column{"inverted_elements", "1", "elements with a corner turned inside out"},
 };
 
 constexpr std::array run_table{

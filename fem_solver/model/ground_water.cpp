@@ -118,7 +118,8 @@ std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const Mod
                           .density = water.density,
                           .mobility = Vec2::Zero(),
                           .porosity = *material.void_ratio / (1.0 + *material.void_ratio),
-                          .stabilisation = water.pressure_stabilisation};
+                          .stabilisation = water.pressure_stabilisation,
+                          .integration = water.pressure_integration};
     }
     if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
     return fluids;

@@ -66,6 +66,7 @@ PoreWater build_pore_water(const Model& model, Wetness wetness) {
             porous.element = e;
             porous.zone = z;
             porous.skeleton_modulus = modulus;
+            porous.density = zone.density;
             for (const std::int32_t node : model.mesh.quads[e]) touched[node] = true;
         }
     }

@@ -14,19 +14,43 @@ Vec2 stabilisation_of(const Corners& x, const Fluid& fluid, double skeleton_modu
     return fluid.stabilisation / modulus * extent.array().square();
 }
 
+/// Integral of N_i N_j over the element, for a volume of 1 m3.
+Eigen::Matrix4d unit_mass(const Corners& x) {
+    Gradients gradients;
+    evaluate_gradients(x, 1.0, gradients);
+    Eigen::Matrix4d mass = Eigen::Matrix4d::Zero();
+    double volume = 0.0;
+    for (std::size_t g = 0; g < gauss_points; ++g) {
+        const Eigen::Vector4d N = shape_functions(gauss_positions()[g]);
+        mass += gradients.weight[g] * N * N.transpose();
+        volume += gradients.weight[g];
+    }
+    return mass / volume;
+}
+
 }  // namespace
 
 void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
                      const Vec2& body, PorousElement& out) {
     const Gradient& dN = geometry.dN;
-    const double V = geometry.volume;
+    const double V = geometry.volume, compliance = V * fluid.porosity / fluid.bulk_modulus;
     const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
     for (int i = 0; i < 4; ++i) {
         out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i).replicate<1, 4>();
     }
     out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
-    out.S.array() += V * fluid.porosity / fluid.bulk_modulus / 16.0;
     out.H.noalias() = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
+    if (fluid.integration == scene::PressureIntegration::full) {
+        // The gradient of xi eta, whose amplitude is gamma: blind to linear pressures, so that
+        // seepage along a line stays exact on skewed quads.
+        const Eigen::Matrix4d alternating = geometry.gamma * geometry.gamma.transpose();
+        const Vec2 kappa = 4.0 * geometry.H.diagonal();
+        const double most = alternation_time * alternation_time / out.density;
+        out.S += compliance * unit_mass(x) + kappa.dot(alpha.cwiseMax(most)) * alternating;
+        out.H += kappa.dot(fluid.mobility) * alternating;
+    } else {
+        out.S.array() += compliance / 16.0;
+    }
     out.flux.noalias() = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
 }
 

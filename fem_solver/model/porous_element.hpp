@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/scene/scene.hpp"
 #include "fem_solver/model/ssp_quad.hpp"
 
 namespace breach::fem {
@@ -22,21 +23,30 @@ struct Fluid {
     double stabilisation = 0.25;
     /// ... or one alpha for all [m2/Pa].
     std::optional<double> alpha{};
+    scene::PressureIntegration integration = scene::PressureIntegration::full;
 };
+
+/// What the part of the pressure that alternates between a single-point quad's corners is
+/// stabilised against does not change more quickly than this [s]: alpha there is tau^2 / rho where
+/// that is more.
+inline constexpr double alternation_time = 0.02;
 
 /// Operators of one saturated element.
 struct PorousElement {
     std::size_t element;
     std::size_t zone;
     double skeleton_modulus;        ///< K + 4G/3 that the stabilisation is measured by [Pa]
+    double density;                 ///< rho of soil and water [kg/m3]
     Eigen::Matrix<double, 8, 4> Q;  ///< integral of B^T m N_j dV [m2]
     Eigen::Matrix4d S;              ///< storage n / K_f and stabilisation [m3/Pa]
     Eigen::Matrix4d H;              ///< conduction [m3/(Pa s)]
     Eigen::Vector4d flux;           ///< of the body force, rho_f k b [m3/s]
 };
 
-/// Single point: one-point integrals (McGann et al. 2012). S is of rank one: on its own it leaves
-/// the pressure checkerboard free, which a drained edge holds.
+/// Single point. Q is a one-point integral (McGann et al. 2012): a pressure that alternates from
+/// node to node pushes nothing. Departs from: there L, H and the storage are one-point integrals as
+/// well, so that such a pressure costs nothing and drains nowhere; here they are full
+/// (docs/design/pore_pressure.md), unless the fluid asks for one point.
 void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
                      const Vec2& body, PorousElement& out);
 /// 2 x 2 points: full integrals; Q with the mean dilatation that the skeleton sees (B-bar).

@@ -24,6 +24,7 @@ struct Entanglement {
     double mean_epsilon_q;  ///< of the elements that share a node with it, by volume [-]
     std::size_t failure_surfaces;
     Kind kind;
+    scene::AtEntanglement then;  ///< what the scene asks for
 };
 
 /// Judged on the last good state, which is the last snapshot. Band: the elements around the folded
@@ -31,10 +32,13 @@ struct Entanglement {
 /// belongs to a failure surface. The element's own strain does not count: where a single corner
 /// folds, it is large for that reason alone.
 Entanglement entanglement_of(const scene::Section& section, const Model& model, const Watch& watch,
-                             const Motion& last_good, const Distortion& folded, double time);
+                             const Motion& last_good, const Distortion& folded, double time,
+                             scene::AtEntanglement then);
 
 /// `entanglement` of result.json.
 nlohmann::json as_json(const Entanglement& what);
+/// What as_json has written for an analysis of this section.
+Entanglement entanglement_from(const nlohmann::json& facts, const scene::Section& section);
 
 /// One sentence for people: what folded, when, where, in what state the soil around it is.
 std::string in_words(const Entanglement& what);

@@ -13,14 +13,21 @@ struct BorderEdge {
     std::size_t element;
 };
 
-/// Border edges by their first node, the body on their left.
-std::map<std::int32_t, BorderEdge> border_of(const Mesh& mesh) {
-    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> edges;
+/// Elements by their edges, each from its first node to its second, the element on the left.
+using Edges = std::map<std::pair<std::int32_t, std::int32_t>, std::size_t>;
+
+Edges edges_of(const Mesh& mesh) {
+    Edges edges;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         for (std::size_t k = 0; k < 4; ++k) {
             edges[{mesh.quads[e][k], mesh.quads[e][(k + 1) % 4]}] = e;
         }
     }
+    return edges;
+}
+
+/// Border edges by their first node, the body on their left.
+std::map<std::int32_t, BorderEdge> border_of(const Edges& edges) {
     std::map<std::int32_t, BorderEdge> border;
     for (const auto& [edge, element] : edges) {
         if (!edges.contains({edge.second, edge.first})) {
@@ -28,6 +35,25 @@ std::map<std::int32_t, BorderEdge> border_of(const Mesh& mesh) {
         }
     }
     return border;
+}
+
+/// What lies across each edge, with the whole border as its edge.
+std::vector<std::array<std::int32_t, 4>> neighbours_of(const Mesh& mesh, const Edges& edges) {
+    std::vector<std::array<std::int32_t, 4>> beside(mesh.quads.size());
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto across = edges.find({mesh.quads[e][(k + 1) % 4], mesh.quads[e][k]});
+            const bool inside = across != edges.end();
+            beside[e][k] = inside ? static_cast<std::int32_t>(across->second) : Ground::edge;
+        }
+    }
+    return beside;
+}
+
+double area_of(const Mesh& mesh, std::size_t element) {
+    const Corners x = corners_of(mesh, element);
+    const Vec2 a = x.col(2) - x.col(0), b = x.col(3) - x.col(1);
+    return 0.5 * (a.x() * b.y() - a.y() * b.x());
 }
 
 enum class Side { left, right };
@@ -75,17 +101,88 @@ std::vector<std::int32_t> bands_of(const Mesh& mesh, std::span<const double> eps
     return band;
 }
 
+/// Bands that meet the ground at more than one place.
+struct Exits {
+    std::size_t surfaces = 0;
+    std::vector<bool> holds;  ///< [elements] belongs to such a band
+};
+
+Exits exits_of(const Mesh& mesh, const Ground& ground, std::span<const double> epsilon_q,
+               double threshold, double least_separation) {
+    const std::vector<std::int32_t> band = bands_of(mesh, epsilon_q, threshold);
+    std::map<std::int32_t, double> left_ground_at;  // end of a band's last contact so far [m]
+    Exits exits{0, std::vector<bool>(mesh.quads.size(), false)};
+    std::vector<bool> is_surface(mesh.quads.size(), false);  // by band
+    for (std::size_t i = 0; i < ground.element.size(); ++i) {
+        const std::int32_t b = band[ground.element[i]];
+        if (b < 0) continue;
+        const auto met = left_ground_at.find(b);
+        if (met != left_ground_at.end() && ground.begin[i] - met->second > least_separation) {
+            ++exits.surfaces;
+            is_surface[b] = true;
+        }
+        left_ground_at[b] = ground.end[i];
+    }
+    for (std::size_t e = 0; e < band.size(); ++e) {
+        exits.holds[e] = band[e] >= 0 && is_surface[band[e]];
+    }
+    return exits;
+}
+
+/// Bodies that bands cut off from the border beside and below.
+struct CutOff {
+    std::size_t bodies = 0;     ///< of at least the least area
+    std::size_t valleys = 0;    ///< such bodies that lie within the bands of the threshold
+    std::vector<bool> largest;  ///< [elements]
+};
+
+CutOff cut_off_by(const Mesh& mesh, const Ground& ground, const std::vector<bool>& bands,
+                  const std::vector<bool>& of_threshold, double least_area) {
+    CutOff cut{0, 0, std::vector<bool>(mesh.quads.size(), false)};
+    std::vector<bool> seen = bands;
+    double largest_area = 0.0;
+    for (std::size_t first = 0; first < seen.size(); ++first) {
+        if (seen[first]) continue;
+        seen[first] = true;
+        std::vector<std::size_t> body{first};
+        bool held = false, within = true;
+        double area = 0.0;
+        for (std::size_t i = 0; i < body.size(); ++i) {
+            area += area_of(mesh, body[i]);
+            within = within && of_threshold[body[i]];
+            for (const std::int32_t next : ground.beside[body[i]]) {
+                held = held || next == Ground::edge;
+                if (next < 0 || seen[next]) continue;
+                seen[next] = true;
+                body.push_back(static_cast<std::size_t>(next));
+            }
+        }
+        if (held) continue;
+        if (area >= least_area) ++(within ? cut.valleys : cut.bodies);
+        if (area <= largest_area) continue;
+        largest_area = area;
+        cut.largest.assign(seen.size(), false);
+        for (const std::size_t e : body) cut.largest[e] = true;
+    }
+    return cut;
+}
+
 }  // namespace
 
 Ground ground_of(const Mesh& mesh) {
-    const auto border = border_of(mesh);
+    const Edges edges = edges_of(mesh);
+    const auto border = border_of(edges);
     const std::int32_t last = upper_corner(mesh, border, Side::left);
     // The border runs counter-clockwise: along the ground from right to left.
     Ground ground;
+    ground.beside = neighbours_of(mesh, edges);
     std::vector<double> length;
     for (std::int32_t node = upper_corner(mesh, border, Side::right); node != last;) {
         const BorderEdge& edge = border.at(node);
         ground.element.push_back(edge.element);
+        const Quad& quad = mesh.quads[edge.element];
+        const auto k = std::ranges::find(quad, node) - quad.begin();
+        ground.beside[edge.element][static_cast<std::size_t>(k)] = Ground::air;
         length.push_back((mesh.nodes[edge.to] - mesh.nodes[node]).norm());
         node = edge.to;
     }
@@ -103,23 +200,23 @@ Ground ground_of(const Mesh& mesh) {
 FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
                                     std::span<const double> epsilon_q, double threshold,
                                     double least_separation) {
-    const std::vector<std::int32_t> band = bands_of(mesh, epsilon_q, threshold);
-    std::map<std::int32_t, double> left_ground_at;  // end of a band's last contact so far [m]
-    FailureSurfaces surfaces{0, std::vector<bool>(mesh.quads.size(), false)};
-    std::vector<bool> is_surface(mesh.quads.size(), false);  // by band
-    for (std::size_t i = 0; i < ground.element.size(); ++i) {
-        const std::int32_t b = band[ground.element[i]];
-        if (b < 0) continue;
-        const auto met = left_ground_at.find(b);
-        if (met != left_ground_at.end() && ground.begin[i] - met->second > least_separation) {
-            ++surfaces.count;
-            is_surface[b] = true;
+    const double least_area = least_separation * least_separation;
+    Exits exits = exits_of(mesh, ground, epsilon_q, threshold, least_separation);
+    FailureSurfaces surfaces{exits.surfaces, std::move(exits.holds),
+                             std::vector<bool>(mesh.quads.size(), false)};
+    if (surfaces.count == 0) return surfaces;
+    CutOff cut = cut_off_by(mesh, ground, surfaces.holds, surfaces.holds, least_area);
+    std::size_t valleys = 0;
+    for (const double times : {1.25, 1.5, 2.0, 3.0}) {
+        std::vector<bool> ridges = surfaces.holds;
+        for (std::size_t e = 0; e < ridges.size(); ++e) {
+            if (epsilon_q[e] <= times * threshold) ridges[e] = false;
         }
-        left_ground_at[b] = ground.end[i];
+        const CutOff between = cut_off_by(mesh, ground, ridges, surfaces.holds, least_area);
+        valleys = std::max(valleys, between.valleys);
     }
-    for (std::size_t e = 0; e < band.size(); ++e) {
-        surfaces.holds[e] = band[e] >= 0 && is_surface[band[e]];
-    }
+    surfaces.count = std::max(surfaces.count, cut.bodies) + valleys;
+    surfaces.slides = std::move(cut.largest);
     return surfaces;
 }
 

@@ -1,6 +1,7 @@
 // Bands of large strain that cut the section from ground to ground: failure surfaces, counted.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct Ground {
     std::vector<std::size_t> element;
     std::vector<double> begin;
     std::vector<double> end;
+    /// [elements] what lies across each edge: an element, or one of the two below
+    std::vector<std::array<std::int32_t, 4>> beside;
+    static constexpr std::int32_t air = -1;   ///< the ground
+    static constexpr std::int32_t edge = -2;  ///< the rest of the border
 };
 
 /// The border from the highest node of the left side to the highest of the right side. The mesh is
@@ -23,11 +28,16 @@ Ground ground_of(const Mesh& mesh);
 struct FailureSurfaces {
     std::size_t count = 0;
     std::vector<bool> holds;  ///< [elements] belongs to a band that holds a surface
+    /// [elements] belongs to the largest body that the bands cut off from the rest of the section
+    std::vector<bool> slides;
 };
 
 /// Elements with epsilon_q above `threshold` that share nodes form bands; a band that meets the
 /// ground at k separate places holds k - 1 surfaces. Places closer than `least_separation` [m]
-/// along the ground are one. epsilon_q: [elements].
+/// along the ground are one. Surfaces with common places are told by the bodies between them, of
+/// least_separation squared or more: each body that the bands cut off from the rest of the border
+/// lies above a surface of its own, and so does each valley within a band that ridges of up to
+/// three times the threshold enclose. A wide band has no such body inside. epsilon_q: [elements].
 FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
                                     std::span<const double> epsilon_q, double threshold,
                                     double least_separation);

@@ -19,11 +19,11 @@ std::vector<double> nodal_vertical_stress(const Mesh& mesh, std::span<const doub
     return sum;
 }
 
-std::vector<double> pore_pressure_ratio(std::span<const double> u, std::span<const double> u_0,
+std::vector<double> pore_pressure_ratio(std::span<const double> excess,
                                         std::span<const double> sigma_v0, double least_stress) {
-    std::vector<double> r_u(u.size(), 0.0);
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        if (sigma_v0[i] >= least_stress) r_u[i] = (u[i] - u_0[i]) / sigma_v0[i];
+    std::vector<double> r_u(excess.size(), 0.0);
+    for (std::size_t i = 0; i < excess.size(); ++i) {
+        if (sigma_v0[i] >= least_stress) r_u[i] = excess[i] / sigma_v0[i];
     }
     return r_u;
 }

@@ -16,9 +16,9 @@ std::vector<double> nodal_vertical_stress(const Mesh& mesh, std::span<const doub
                                           std::span<const double> volume);
 
 /// Excess pore pressure ratio r_u = (u - u_0) / sigma'_v0 [-] at the nodes (Sordo et al. 2024, Eq.
-/// 1). u, u_0, sigma_v0: [nodes] Pa. 0 where sigma'_v0 is below `least_stress` [Pa]: near the
-/// ground the ratio says nothing.
-std::vector<double> pore_pressure_ratio(std::span<const double> u, std::span<const double> u_0,
+/// 1). excess = u - u_0, sigma_v0: [nodes] Pa. 0 where sigma'_v0 is below `least_stress` [Pa]: near
+/// the ground the ratio says nothing.
+std::vector<double> pore_pressure_ratio(std::span<const double> excess,
                                         std::span<const double> sigma_v0, double least_stress);
 
 /// Which nodes are looked at, and from where depth is measured.

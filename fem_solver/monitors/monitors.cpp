@@ -22,6 +22,7 @@ const std::vector<Column>& columns() {
         Named{"crest_dx", &R::crest_dx},
         Named{"crest_dy", &R::crest_dy},
         Named{"kinetic_energy", &R::kinetic_energy},
+        Named{"kinetic_energy_over_peak", &R::kinetic_energy_over_peak},
         Named{"external_work", &R::external_work},
         Named{"internal_work", &R::internal_work},
         Named{"jacobian_ratio_avg", &R::jacobian_ratio_avg},
@@ -37,6 +38,8 @@ const std::vector<Column>& columns() {
         Named{"r_u_max", &R::r_u_max},
         Named{"liquefaction_depth", &R::liquefaction_depth},
         Named{"failure_surfaces", &R::failure_surfaces},
+        Named{"slip_across_band", &R::slip_across_band},
+        Named{"inverted_elements", &R::inverted_elements},
     };
     static const std::vector<Column> all = [] {
         std::vector<Column> made;
@@ -75,6 +78,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
             result.least = ratio.least;
             result.worst_element = e;
         }
+        if (ratio.least <= 0.0) ++result.inverted;
         if (element_epsilon_q(model, motion, e) <= strain_threshold) continue;
         volume += model.volume[e];
         centre += model.volume[e] * ratio.centre;
@@ -128,6 +132,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     r.jacobian_ratio_avg = r.jacobian_centre_avg = distortion.centre_average;
     r.jacobian_least_avg = distortion.least_average;
     r.jacobian_ratio_min = r.jacobian_least_min = distortion.least;
+    r.inverted_elements = static_cast<double>(distortion.inverted);
     double strained = 0.0, weighted = 0.0, all = 0.0;
     for (std::size_t e = 0; e < model.body.elements; ++e) {
         const double epsilon_q = element_epsilon_q(model, motion, e);
@@ -149,6 +154,7 @@ nlohmann::json telemetry_line(const Reading& reading) {
     for (const Column& column : columns()) line[column.name] = reading.*column.member;
     line["step"] = static_cast<std::int64_t>(reading.step);
     line["failure_surfaces"] = static_cast<std::int64_t>(reading.failure_surfaces);
+    line["inverted_elements"] = static_cast<std::int64_t>(reading.inverted_elements);
     line["iterations"] = static_cast<std::int64_t>(reading.iterations);
     return line;
 }

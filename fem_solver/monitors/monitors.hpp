@@ -17,6 +17,7 @@ struct Distortion {
     double least_average = 1.0;   ///< over the strained elements
     double least = 1.0;           ///< over all elements
     std::size_t worst_element = 0;
+    std::size_t inverted = 0;  ///< elements with a corner at or below 0
 };
 
 /// One row; every member is a column.
@@ -25,15 +26,16 @@ struct Reading {
     double time = 0.0;  ///< [s]
     double dt = 0.0;    ///< [s]
     double iterations = 0.0;
-    double residual = 0.0;            ///< out-of-balance over reference force [-]
-    double crest_displacement = 0.0;  ///< [m]
-    double crest_dx = 0.0;            ///< [m]
-    double crest_dy = 0.0;            ///< [m]
-    double kinetic_energy = 0.0;      ///< [J]
-    double external_work = 0.0;       ///< of gravity since the first dynamic stage [J]
-    double internal_work = 0.0;       ///< of the stresses since the first dynamic stage [J]
-    double jacobian_ratio_avg = 1.0;  ///< = jacobian_centre_avg
-    double jacobian_ratio_min = 1.0;  ///< = jacobian_least_min
+    double residual = 0.0;                  ///< out-of-balance over reference force [-]
+    double crest_displacement = 0.0;        ///< [m]
+    double crest_dx = 0.0;                  ///< [m]
+    double crest_dy = 0.0;                  ///< [m]
+    double kinetic_energy = 0.0;            ///< [J]
+    double kinetic_energy_over_peak = 1.0;  ///< over its largest value so far [-]
+    double external_work = 0.0;             ///< of gravity since the first dynamic stage [J]
+    double internal_work = 0.0;             ///< of the stresses since the first dynamic stage [J]
+    double jacobian_ratio_avg = 1.0;        ///< = jacobian_centre_avg
+    double jacobian_ratio_min = 1.0;        ///< = jacobian_least_min
     double jacobian_centre_avg = 1.0;
     double jacobian_least_avg = 1.0;
     double jacobian_least_min = 1.0;
@@ -47,7 +49,9 @@ struct Reading {
     double r_u_max = 0.0;              ///< of the watched nodes [-]
     double liquefaction_depth = 0.0;   ///< deepest watched node above the threshold [m]
     double failure_surfaces = 0.0;     ///< from ground to ground
-    double softened_share = 0.0;       ///< volume that has lost strength over volume that can [-]
+    double slip_across_band = 0.0;     ///< of the largest body that they cut off [m]
+    double inverted_elements = 0.0;
+    double softened_share = 0.0;  ///< volume that has lost strength over volume that can [-]
 };
 
 struct Column {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mechanics/excess_pressure.hpp"
+
 namespace breach::fem {
 
 Watch::Watch(const scene::Fem& fem, const Model& model)
@@ -23,10 +25,31 @@ FailureSurfaces Watch::failure_surfaces(std::span<const double> epsilon_q) const
     return failure_surfaces_of(body_, ground_, epsilon_q, failure_strain_, failure_separation_);
 }
 
+namespace {
+
+/// Mean displacement of the body that slides against that of the sound rest [m]; 0 where none is
+/// cut off.
+double slip_across(const Model& model, const Motion& motion, const FailureSurfaces& surfaces) {
+    Vec2 of_slide = Vec2::Zero(), of_rest = Vec2::Zero();
+    double slide = 0.0, rest = 0.0;
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        if (surfaces.holds[e]) continue;
+        const Dofs8 u = gather(model.mesh.quads[e], motion.u);
+        const Vec2 moved = model.volume[e] * Eigen::Map<const Corners>(u.data()).rowwise().mean();
+        (surfaces.slides[e] ? of_slide : of_rest) += moved;
+        (surfaces.slides[e] ? slide : rest) += model.volume[e];
+    }
+    if (slide == 0.0 || rest == 0.0) return 0.0;
+    return (of_slide / slide - of_rest / rest).norm();
+}
+
+}  // namespace
+
 void Watch::read(const Model& model, const Motion& motion, const Beginning& beginning,
                  Reading& reading) const {
-    reading.failure_surfaces =
-        static_cast<double>(failure_surfaces(epsilon_q_of_elements(model, motion)).count);
+    const FailureSurfaces surfaces = failure_surfaces(epsilon_q_of_elements(model, motion));
+    reading.failure_surfaces = static_cast<double>(surfaces.count);
+    reading.slip_across_band = slip_across(model, motion, surfaces);
     if (beginning.p.size() > 0) read_water(model, motion, beginning, reading);
 }
 
@@ -42,8 +65,9 @@ void Watch::read_water(const Model& model, const Motion& motion, const Beginning
     }
     reading.excess_pressure_avg = mass > 0.0 ? sum / mass : 0.0;
     if (nodes_.empty()) return;
-    const std::vector<double> r_u = pore_pressure_ratio(
-        {motion.p.data(), nodes}, {beginning.p.data(), nodes}, beginning.sigma_v0, least_stress_);
+    const std::vector<double> excess = mechanics::nodal_excess_pressure(
+        body_.nodes, body_.quads, {motion.p.data(), nodes}, {beginning.p.data(), nodes});
+    const std::vector<double> r_u = pore_pressure_ratio(excess, beginning.sigma_v0, least_stress_);
     for (const std::int32_t i : nodes_) reading.r_u_max = std::max(reading.r_u_max, r_u[i]);
     reading.liquefaction_depth = liquefaction_depth(body_, nodes_, r_u, window_);
 }

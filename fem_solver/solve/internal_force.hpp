@@ -28,6 +28,8 @@ class InternalForce {
                       LinearSystem& A);
     /// What PM4Sand's calls cost so far.
     const materials::pm4sand::Counts& sand_counts() const { return sand_.counts(); }
+    /// Why PM4Sand refused the last step that it refused.
+    const SandPass::Refusal& sand_refusal() const { return sand_.refusal(); }
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 

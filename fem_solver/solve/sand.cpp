@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace breach::fem {
 
@@ -51,11 +52,31 @@ SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
     updates_.resize(largest);
 }
 
+SandPass::Answer SandPass::refuse(Refusal::Why why, const Zone& zone, std::size_t point,
+                                  const Voigt& d_epsilon) {
+    refusal_ = {why, zone.first + point / points_, d_epsilon.cwiseAbs().maxCoeff()};
+    return Answer::refused;
+}
+
+std::string in_words(const SandPass::Refusal& refusal) {
+    std::ostringstream text;
+    text << "PM4Sand refused the strain increment of element " << refusal.element << ", "
+         << refusal.largest;
+    if (refusal.why == SandPass::Refusal::Why::strain) {
+        text << ": beyond the limit of " << SandPass::largest_strain << " (a trial that diverges)";
+    } else {
+        text << ": its evaluations were used up, below the strain limit of "
+             << SandPass::largest_strain;
+    }
+    return text.str();
+}
+
 SandPass::Answer SandPass::integrate(const materials::PM4Sand& law, const Zone& zone,
                                      std::span<const Voigt> d_epsilon, const Motion& old,
                                      Motion& trial) {
-    for (const Voigt& d : d_epsilon) {
-        if (!(d.cwiseAbs().maxCoeff() <= largest_strain)) return Answer::refused;
+    for (std::size_t i = 0; i < d_epsilon.size(); ++i) {
+        if (d_epsilon[i].cwiseAbs().maxCoeff() <= largest_strain) continue;
+        return refuse(Refusal::Why::strain, zone, i, d_epsilon[i]);
     }
     trial.sand.resize(old.sand.size());
     const std::span from = std::span(old.sand).subspan(zone.first_sand, d_epsilon.size());
@@ -63,8 +84,11 @@ SandPass::Answer SandPass::integrate(const materials::PM4Sand& law, const Zone& 
     pm4sand::integrate(law.ready, from, d_epsilon, law.options, to);
     State* point = &trial.points[zone.first * points_];
     pm4sand::State* sand = &trial.sand[zone.first_sand];
-    for (const pm4sand::Update& each : to) {
-        if (each.outcome != pm4sand::Outcome::done) return Answer::refused;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        const pm4sand::Update& each = to[i];
+        if (each.outcome != pm4sand::Outcome::done) {
+            return refuse(Refusal::Why::evaluations, zone, i, d_epsilon[i]);
+        }
         counts_ += each.counts;
         *sand++ = each.state;
         (point++)->sigma = pm4sand::stress(law.ready, each.state);

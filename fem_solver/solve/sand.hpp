@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fem_solver/model/model.hpp"
@@ -43,13 +44,30 @@ class SandPass {
     /// and tell nothing.
     static constexpr double largest_strain = 0.05;
 
+    /// Why and where the last step was refused.
+    struct Refusal {
+        enum class Why {
+            strain,       ///< an increment beyond largest_strain, or not finite
+            evaluations,  ///< more than the law may use
+        };
+        Why why = Why::strain;
+        std::size_t element = 0;
+        double largest = 0.0;  ///< component of its strain increment [-]
+    };
+    const Refusal& refusal() const { return refusal_; }
+
     const materials::pm4sand::Counts& counts() const { return counts_; }
 
-    /// Per element
   private:
-    std::size_t points_;
+    Answer refuse(Refusal::Why why, const Zone& zone, std::size_t point, const Voigt& d_epsilon);
+
+    std::size_t points_;  ///< per element
+    Refusal refusal_;
     std::vector<materials::pm4sand::Update> updates_;
     materials::pm4sand::Counts counts_;
 };
+
+/// For people: whether the strain limit or the law's evaluations ended it, and where.
+std::string in_words(const SandPass::Refusal& refusal);
 
 }  // namespace breach::fem

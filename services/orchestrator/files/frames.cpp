@@ -7,6 +7,7 @@
 #include <limits>
 #include <regex>
 
+#include "core/exchange/excess_pressure.hpp"
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
 #include "core/phases/files.hpp"
@@ -99,16 +100,16 @@ Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
     return cloud;
 }
 
-/// u and r_u = (u - u_0) / sigma'_v0 of a node, where the snapshot has them. Ground without
+/// u and r_u = (u - u_0) / sigma'_v0 of the nodes, where the snapshot has them. Ground without
 /// effective stress before the shaking has no r_u: not a number, which the page draws grey.
-void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh, std::size_t node) {
-    if (mesh.pore_pressure.empty()) return;
-    cloud.pore_pressure.push_back(static_cast<float>(mesh.pore_pressure[node]));
-    if (mesh.sigma_v0.empty()) return;
-    const double rise = mesh.pore_pressure[node] - mesh.pore_pressure_0[node];
-    const double ratio = mesh.sigma_v0[node] > 0.0 ? rise / mesh.sigma_v0[node]
-                                                   : std::numeric_limits<double>::quiet_NaN();
-    cloud.r_u.push_back(static_cast<float>(ratio));
+void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh) {
+    for (const double u : mesh.pore_pressure) cloud.pore_pressure.push_back(static_cast<float>(u));
+    const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
+    for (std::size_t node = 0; node < excess.size(); ++node) {
+        const double ratio = mesh.sigma_v0[node] > 0.0 ? excess[node] / mesh.sigma_v0[node]
+                                                       : std::numeric_limits<double>::quiet_NaN();
+        cloud.r_u.push_back(static_cast<float>(ratio));
+    }
 }
 
 /// Nodes at their displaced places; a node's strain is the mean of its elements' Gauss values, its
@@ -138,8 +139,8 @@ Cloud nodes_of(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < n_nodes; ++i) {
         const mechanics::Vec2 position = mesh.position_0[i] + mesh.displacement[i];
         cloud.add(position, mesh.velocity[i], strain[i] / std::max(1.0, touched[i]), region[i]);
-        add_water(cloud, mesh, i);
     }
+    add_water(cloud, mesh);
     return cloud;
 }
 

@@ -2,6 +2,9 @@
 // is seen by eye.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "fem_solver/monitors/failure_surface.hpp"
 #include "fem_solver/monitors/liquefaction.hpp"
 
@@ -55,6 +58,64 @@ TEST(FailureSurface, AStrainedGroundIsNone) {
     EXPECT_EQ(surfaces(mesh, epsilon_q), 0u) << "one sound element is no separation";
 }
 
+/// 40 x 16 unit squares with strain painted by column and row from the lower left.
+std::size_t painted(const std::function<double(int, int)>& epsilon_q) {
+    const Mesh mesh = level_ground(40, 16);
+    std::vector<double> strain;
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 40; ++x) strain.push_back(epsilon_q(x, y));
+    }
+    return failure_surfaces_of(mesh, ground_of(mesh), strain, 0.1, 4.0).count;
+}
+
+/// Along a trough from the ground at column `left` down to row `bottom` and up at column 34: how
+/// many elements off it (0: on it).
+int off_trough(int x, int y, int left, int bottom) {
+    const int below = std::max(bottom - y, 0);
+    const int beside = std::max({left - x, x - 34, 0});
+    if (below + beside > 0) return below + beside;
+    return std::min({y - bottom, x - left, 34 - x});
+}
+
+TEST(FailureSurface, OneWideBandIsOne) {
+    EXPECT_EQ(painted([](int x, int y) { return off_trough(x, y, 4, 3) < 5 ? 0.5 : 0.0; }), 1u);
+    EXPECT_EQ(
+        painted([](int x, int y) { return std::max(0.0, 0.5 - 0.08 * off_trough(x, y, 4, 3)); }),
+        1u)
+        << "with a ridge in its middle";
+}
+
+TEST(FailureSurface, TwoBandsWithACommonExitAreTwo) {
+    // Both come out at column 34; the body between them has no strain.
+    const auto either = [](int x, int y) {
+        return off_trough(x, y, 4, 2) == 0 || off_trough(x, y, 14, 9) == 0;
+    };
+    EXPECT_EQ(painted([&](int x, int y) { return either(x, y) ? 0.5 : 0.0; }), 2u);
+}
+
+TEST(FailureSurface, TwoBandsWithBothExitsInCommonAreTwo) {
+    // A lens without strain between an upper and a lower base.
+    const auto base = [](int x, int y, int bottom) { return x > 4 && x < 34 && y == bottom; };
+    const auto strain = [&](double between) {
+        return painted([&, between](int x, int y) {
+            const bool leg = (x == 4 || x == 34) && y >= 3;
+            if (leg || base(x, y, 3) || base(x, y, 10)) return 0.5;
+            return x > 4 && x < 34 && y > 3 && y < 10 ? between : 0.0;
+        });
+    };
+    EXPECT_EQ(strain(0.0), 2u);
+    EXPECT_EQ(strain(0.2), 2u) << "a valley above the threshold between two ridges";
+    EXPECT_EQ(strain(0.45), 1u) << "no valley: one wide band";
+}
+
+TEST(FailureSurface, ASmallSoundPocketInABandIsNoSecondOne) {
+    EXPECT_EQ(painted([](int x, int y) {
+                  if (x >= 18 && x < 21 && y >= 4 && y < 7) return 0.0;
+                  return off_trough(x, y, 4, 3) < 5 ? 0.5 : 0.0;
+              }),
+              1u);
+}
+
 TEST(Liquefaction, DepthIsThatOfTheDeepestLiquefiedNodeBelowTheWindow) {
     const Mesh mesh = level_ground(4, 5);
     const LiquefactionWindow window{{0}, {0.5, 2.5}, 5.0, 0.7};
@@ -79,8 +140,8 @@ TEST(Liquefaction, RatioIsExcessPressureOverInitialVerticalStress) {
     EXPECT_DOUBLE_EQ(sigma_v0[0], 30e3);
     EXPECT_DOUBLE_EQ(sigma_v0[4], 20e3) << "the middle node has all four elements";
     EXPECT_DOUBLE_EQ(sigma_v0[8], 10e3);
-    const std::vector<double> u_0(9, 5e3), u(9, 20e3);
-    const auto r_u = pore_pressure_ratio(u, u_0, sigma_v0, 12e3);
+    const std::vector<double> excess(9, 15e3);
+    const auto r_u = pore_pressure_ratio(excess, sigma_v0, 12e3);
     EXPECT_DOUBLE_EQ(r_u[0], 0.5);
     EXPECT_DOUBLE_EQ(r_u[4], 0.75);
     EXPECT_EQ(r_u[8], 0.0) << "too little stress for a ratio";

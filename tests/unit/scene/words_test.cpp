@@ -90,6 +90,8 @@ TEST(Words, AreTheSchemas) {
         words.are_those_of<StagePermeability>({stage + "/properties/permeability"});
     }
     words.are_those_of<AboveWater>({fem + "/water/properties/above"});
+    words.are_those_of<AtEntanglement>({fem + "/at_entanglement"});
+    words.are_those_of<PressureIntegration>({fem + "/water/properties/pressure_integration"});
     words.are_those_of<MotionAt>({fem + "/base/properties/motion_at"});
     words.are_those_of<BaseNodes>({fem + "/base/properties/nodes"});
     words.are_those_of<Baseline>({fem + "/motion/properties/baseline"});

@@ -126,6 +126,50 @@ TEST(Failure, AnEntangledMeshIsARegularEndWithTheLastGoodState) {
     EXPECT_TRUE(std::filesystem::exists(run.folder() / "history.h5"));
 }
 
+TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
+    json scene = unsupported_column();
+    scene["fem"]["stages"][1]["duration"] = 1.5;
+    bench::Run stopping(scene);
+    stopping.go();
+    const json& known = stopping.session().result().at("entanglement");
+    EXPECT_EQ(known.at("went_on"), false);
+    scene["fem"]["at_entanglement"] = "go_on";
+    bench::Run run(scene);
+    const std::vector<Reading>& history = run.go().history();
+    json facts = run.session().result();
+    EXPECT_EQ(facts.at("ended"), "complete");
+    EXPECT_EQ(facts.at("end_time"), 1.5);
+    EXPECT_EQ(facts.at("entanglement").at("went_on"), true);
+    facts["entanglement"].erase("went_on");
+    json same = known;
+    same.erase("went_on");
+    EXPECT_EQ(facts.at("entanglement"), same) << "the first corner that folds, as without";
+    ASSERT_EQ(run.session().flags().size(), 1u);
+    EXPECT_EQ(run.session().flags()[0].code, "entangled");
+    EXPECT_EQ(run.session().flags()[0].pointer, "/fem/at_entanglement");
+    EXPECT_GT(history.back().inverted_elements, 0.0);
+    const json& milestones = facts.at("milestones");
+    const double crest_1 = milestones.at("crest_1_m");
+    for (const Reading& each : history) {
+        EXPECT_EQ(each.crest_displacement >= 1.0, each.time >= crest_1) << each.time << " s";
+    }
+    EXPECT_EQ(milestones.at("kinetic_energy_peak").at("time"), history.back().time)
+        << "it falls faster and faster";
+    EXPECT_EQ(history.back().kinetic_energy_over_peak, 1.0);
+}
+
+TEST(Failure, AMovingMeshCannotGoOnWhereItFolds) {
+    json scene = unsupported_column();
+    scene["fem"]["kinematics"] = "updated_lagrangian";
+    scene["fem"]["at_entanglement"] = "go_on";
+    try {
+        bench::parse(scene);
+        FAIL();
+    } catch (const fault::BadInput& fault) {
+        EXPECT_EQ(fault.faults().at(0).pointer, "/fem/at_entanglement");
+    }
+}
+
 TEST(Failure, AMeshThatFoldsInItsFirstStepIsAFaultOfTheScene) {
     json scene = unsupported_column();
     scene["fem"]["least_jacobian_ratio"] = 0.999999;  // any strain is too much
@@ -154,7 +198,8 @@ Entanglement judged(const std::function<double(std::size_t)>& epsilon_q) {
     Distortion folded;
     folded.least = 0.0;
     folded.worst_element = 55;
-    return entanglement_of(scene.section, model, watch, motion, folded, 6.7);
+    return entanglement_of(scene.section, model, watch, motion, folded, 6.7,
+                           scene::AtEntanglement::stop);
 }
 
 TEST(Entangled, OneCornerInSoundSoilIsNoFailureOfTheDam) {
@@ -187,6 +232,65 @@ TEST(Entangled, OnAThinBandFromGroundToGroundItIsTheEndOfTheFailure) {
     EXPECT_LT(what.mean_epsilon_q, 0.1);
     EXPECT_EQ(what.failure_surfaces, 1u);
     EXPECT_EQ(what.kind, Entanglement::Kind::band);
+}
+
+TEST(Entangled, IsReadBackAsItWasWritten) {
+    Entanglement what = judged([](std::size_t) { return 0.3; });
+    what.then = scene::AtEntanglement::go_on;
+    const scene::Scene scene = bench::parse(bench::scene_of({}));
+    EXPECT_EQ(as_json(entanglement_from(as_json(what), scene.section)), as_json(what));
+    EXPECT_EQ(entanglement_from(as_json(what), scene.section).region, 0u);
+}
+
+TEST(Slip, IsThatOfTheBodyCutOffAgainstTheRest) {
+    bench::Block block{.width = 20.0, .height = 10.0, .columns = 20, .rows = 10};
+    json scene = bench::scene_of(block);
+    scene["fem"]["failure_surfaces"]["separation"] = 3;
+    const scene::Scene parsed = bench::parse(scene);
+    const Model model = bench::model_of(parsed);
+    const Watch watch(scene::fem_of(parsed), model);
+    Motion motion = at_rest(model);
+    // A trough from column 5 to column 14, four rows deep; what lies in it moves by 0.3, -0.4 m.
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        const std::size_t column = e % 20, row = e / 20;
+        const bool within = column >= 5 && column <= 14 && row >= 6;
+        const bool wall = within && (column == 5 || column == 14 || row == 6);
+        for (std::size_t g = 0; wall && g < model.points_per_element; ++g) {
+            motion.strain[e * model.points_per_element + g] = Voigt(0.0, 0.0, 0.0, 0.5);
+        }
+        if (!within || wall) continue;
+        for (const std::int32_t node : model.mesh.quads[e]) {
+            motion.u.segment<2>(2 * static_cast<Eigen::Index>(node)) = Vec2(0.3, -0.4);
+        }
+    }
+    Reading reading;
+    watch.read(model, motion, {}, reading);
+    EXPECT_EQ(reading.failure_surfaces, 1.0);
+    EXPECT_NEAR(reading.slip_across_band, 0.5, 1e-12);
+}
+
+TEST(Refusal, SaysWhetherTheStrainLimitOrTheEvaluationsWereHit) {
+    bench::Block block{.columns = 2};
+    block.law = {{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
+    const Model model = bench::model_of(bench::parse(bench::scene_of(block)));
+    Motion motion = at_rest(model);
+    for (State& point : motion.points) point.sigma = Voigt(-25e3, -50e3, -25e3, 0.0);
+    begin_sand(model, motion);
+    materials::PM4Sand law = *materials::sand_in(model.zones[0].law);
+    SandPass pass(model);
+    Motion trial = motion;
+    std::vector<Voigt> d_epsilon(model.points(), Voigt::Zero());
+    d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.06);
+    ASSERT_EQ(pass.integrate(law, model.zones[0], d_epsilon, motion, trial),
+              SandPass::Answer::refused);
+    EXPECT_EQ(pass.refusal().element, 1u) << "four points in each";
+    EXPECT_NE(in_words(pass.refusal()).find("beyond the limit of 0.05"), std::string::npos);
+    law.options.most_evaluations = 1;
+    d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.04);
+    ASSERT_EQ(pass.integrate(law, model.zones[0], d_epsilon, motion, trial),
+              SandPass::Answer::refused);
+    EXPECT_EQ(pass.refusal().element, 1u);
+    EXPECT_NE(in_words(pass.refusal()).find("evaluations were used up"), std::string::npos);
 }
 
 TEST(Crest, FarFromEveryNodeIsSaid) {

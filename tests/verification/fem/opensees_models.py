@@ -34,7 +34,7 @@ def scene(name, materials, regions, supports, line, motion, crest, duration, **f
     return {"format": "breachline-scene/1", "name": name, "gravity": 9.81, "materials": materials,
             "section": {"regions": regions},
             "fem": {"element": "ssp", "supports": supports, "crest": crest,
-                    "water": {"line": line, "bulk_modulus_MPa": 2200},
+                    "water": {"line": line, "bulk_modulus_MPa": 2200, "pressure_integration": "one_point"},
                     "base": {"density": 2243, "V_s": 760},
                     "motion": {"file": motion},
                     "newmark_beta": 4 / 9, "newmark_gamma": 5 / 6,

@@ -25,6 +25,7 @@ TEST(Terzaghi, AgreesWithOpenSees) {
     Fluid fluid = column.fluid(column.k);
     fluid.mobility.setConstant(column.k / 9810.0);
     fluid.alpha = 6e-9;
+    fluid.integration = scene::PressureIntegration::one_point;
     model.water = bench::water_of(model, {fluid}, 10.0, Vec2::Zero());
     Steps c(std::move(model));
     const double T_1 = 100.0 * 9.81 / (1e-5 * 12000.0);
@@ -101,7 +102,8 @@ TEST(CoupledElement, StepsLikeAnIndependentCode) {
                       .density = 1.0,
                       .mobility = Vec2(0.01, 0.02),
                       .porosity = 0.6 / 1.6,
-                      .alpha = 1e-4};
+                      .alpha = 1e-4,
+                      .integration = scene::PressureIntegration::one_point};
     model.water =
         build_pore_water(model, {{fluid}, {true}, {std::nullopt, std::nullopt, 0.0, 0.0}, body});
     Steps c(std::move(model), 1e-13);

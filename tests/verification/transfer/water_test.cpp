@@ -51,6 +51,20 @@ TEST(PorePressure, ALinearFieldIsCarriedExactlyOnADeformedMesh) {
     }
 }
 
+TEST(PorePressure, LosesWhatAlternatesFromCornerToCorner) {
+    Ground g = ground([](const Vec2&) { return 0.0; });
+    const auto even = meshes::transferred(g.mesh, g.scene);
+    for (std::size_t i = 0; i < g.mesh.position_0.size(); ++i) {
+        const Vec2& x = g.mesh.position_0[i];
+        g.mesh.pore_pressure[i] += std::lround(x.x() + x.y()) % 2 == 0 ? 30e3 : -30e3;
+    }
+    const auto alternating = meshes::transferred(g.mesh, g.scene);
+    for (std::size_t p = 0; p < even.state.size(); ++p) {
+        EXPECT_NEAR(alternating.state.pore_pressure[p], even.state.pore_pressure[p], 1e-9);
+        EXPECT_NEAR(alternating.state.r_u[p], even.state.r_u[p], 1e-12);
+    }
+}
+
 // sigma_total = sigma' - u I, and nothing else changes.
 TEST(Stress, TotalIsEffectiveLessThePorePressure) {
     Ground g = ground([](const Vec2&) { return 0.3; });
@@ -80,13 +94,14 @@ TEST(Stress, WithoutFrictionItIsAlwaysTotal) {
 }
 
 TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
-    // r_u = 1 down to y = 4 m for x < 3 m, at one level only: what lies above liquefies with it.
-    Ground g = ground([](const Vec2& x) { return x.x() < 3.0 && std::abs(x.y() - 4.0) < 0.1; });
+    // r_u = 1 at y = 4 and 5 m for x < 4 m: what lies above liquefies with it. At x = 3, where half of
+    // the elements have it, the mean is 0.6.
+    Ground g = ground([](const Vec2& x) { return x.x() < 3.5 && std::abs(x.y() - 4.5) < 0.6; });
     g.scene.transfer->liquefied = scene::LiquefiedZone{
         .regions = {0}, .r_u = 0.7, .layers = {{0.0, 36e3, 1}, {36e3, 40e3, 2}}};
     const auto t = meshes::transferred(g.mesh, g.scene);
     ASSERT_TRUE(t.liquefaction.has_value());
-    EXPECT_EQ(t.liquefaction->nodes, 3u);
+    EXPECT_EQ(t.liquefaction->nodes, 6u);
     EXPECT_EQ(t.liquefaction->deepest_level, 4.0);
     for (std::size_t p = 0; p < t.state.size(); ++p) {
         const Vec2& x = t.state.position[p];
