@@ -38,6 +38,10 @@ not json
     EXPECT_EQ(line.values[0] + (std::isnan(line.values[1]) ? 0.0 : 100.0), 2.0);
 }
 
+TEST_F(Telemetry, AStepThatIsNoWholeNumberIsNone) {
+    EXPECT_EQ(of(R"({"time":1,"step":1e300})").at(0).step, 0);
+}
+
 TEST_F(Telemetry, WithoutTimesOrWithoutAFileIsRefused) {
     EXPECT_THROW(of("{\"energy\":1}\n"), fault::BadInput);
     EXPECT_THROW(read_telemetry("/nowhere/telemetry.jsonl"), fault::IoError);
