@@ -15,8 +15,13 @@ as_root() {
 
 # install_packages LIST...: the Debian packages named in the files that are not there yet.
 install_packages() {
+    # shellcheck disable=SC2046
+    need_packages $(sed 's/#.*//' "$@")
+}
+
+need_packages() {
     local missing=() package
-    for package in $(sed 's/#.*//' "$@"); do
+    for package in "$@"; do
         # Node.js may have come from elsewhere than Debian, with an npm of its own that Debian's would displace.
         case $package in
             nodejs) command -v node >/dev/null && continue ;;
@@ -30,12 +35,13 @@ install_packages() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# build programs|tests [PRESET]: configures and builds; the preset is release unless given. Programs alone need no test libraries; a folder that
-# has been configured with tests keeps them.
+# build programs|tests [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
+# need no test libraries; a folder that has been configured with tests keeps them.
 build() {
     local options=() preset=${2:-release}
     [ "$1" = tests ] && options=(-DBREACH_TESTS=ON)
     [ "$1" = programs ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
+    options+=("${@:3}")
     say "building ($1, $preset)"
     (cd "$root" && cmake --preset "$preset" "${options[@]}" && cmake --build --preset "$preset")
 }

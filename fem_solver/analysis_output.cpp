@@ -137,7 +137,10 @@ void Analysis::resume() {
     session_.truncate_telemetry(position_.telemetry_lines);
     before_ = {position_.step, checkpoint.counts.iterations};
     make_newton(fem_.stages[position_.stage], checkpoint.counts);
-    newton_->restore(checkpoint.newton);
+    if (!newton_->restore(checkpoint.newton))
+        throw fault::BadInput(file.string(), {{"/breachline/reals/newton.values",
+                                               "the matrix is not that of this mesh",
+                                               "resume with the same scene, or start afresh"}});
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
     spdlog::info("goes on at {} s (step {})", position_.time, position_.step);
 }

@@ -1,5 +1,7 @@
 #include "fem_solver/checkpoint.hpp"
 
+#include <stdexcept>
+
 #include "core/materials/pm4sand/fields.hpp"
 
 namespace breach::fem {
@@ -101,9 +103,13 @@ Motion motion_from(const exchange::Archive& archive) {
     const Reals& stress = archive.reals.at("stress");
     const Reals& strain = archive.reals.at("strain");
     const Reals& epsilon_q = archive.reals.at("epsilon_q");
+    const auto tensor_at = [](const Reals& numbers, std::size_t p) {
+        return Voigt(numbers.at(4 * p), numbers.at(4 * p + 1), numbers.at(4 * p + 2),
+                     numbers.at(4 * p + 3));
+    };
     for (std::size_t p = 0; p < epsilon_q.size(); ++p) {
-        motion.points.push_back({Voigt(&stress.at(4 * p)), epsilon_q[p]});
-        motion.strain.push_back(Voigt(&strain.at(4 * p)));
+        motion.points.push_back({tensor_at(stress, p), epsilon_q[p]});
+        motion.strain.push_back(tensor_at(strain, p));
     }
     take_sand(archive, motion);
     if (!archive.reals.contains("hourglass")) return motion;
@@ -126,6 +132,67 @@ Beginning beginning_from(const exchange::Archive& archive) {
             .p = vector_from(archive.reals.at("beginning.p")),
             .sigma_v0 = archive.reals.at("beginning.sigma_v0"),
             .skeleton_modulus = archive.reals.at("beginning.skeleton_modulus")};
+}
+
+/// What is absent until its stage may be empty.
+template <class Values>
+bool empty_or(const Values& values, std::size_t size) {
+    return values.size() == 0 || static_cast<std::size_t>(values.size()) == size;
+}
+
+bool fits(const Position& position, const scene::Fem& fem) {
+    const auto stages = static_cast<std::int64_t>(fem.stages.size());
+    return position.stage >= 0 && position.stage < stages && position.next_snapshot >= 0 &&
+           position.telemetry_lines >= 0;
+}
+
+bool fits(const Motion& motion, const Model& model) {
+    const Motion rest = at_rest(model);
+    std::size_t sand = 0;
+    for (const Zone& zone : model.zones)
+        if (materials::sand_in(zone.law)) sand += zone.count * model.points_per_element;
+    return motion.u.size() == rest.u.size() && motion.v.size() == rest.v.size() &&
+           motion.a.size() == rest.a.size() && motion.force.size() == rest.force.size() &&
+           motion.p.size() == rest.p.size() && motion.p_rate.size() == rest.p_rate.size() &&
+           motion.points.size() == rest.points.size() &&
+           motion.hourglass.size() == rest.hourglass.size() && empty_or(motion.sand, sand);
+}
+
+bool fits(const Beginning& beginning, const Model& model) {
+    return empty_or(beginning.base_reaction, model.mesh.nodes.size() * 2) &&
+           empty_or(beginning.p, model.mesh.nodes.size()) &&
+           empty_or(beginning.sigma_v0, model.body.nodes) &&
+           empty_or(beginning.skeleton_modulus, model.water.elements.size());
+}
+
+/// Everything but whose it is. Throws std::out_of_range when a number is missing.
+Checkpoint read(const exchange::Archive& archive) {
+    Checkpoint c;
+    c.position = position_from(archive);
+    c.motion = motion_from(archive);
+    c.beginning = beginning_from(archive);
+    c.stage_force = vector_from(archive.reals.at("stage_force"));
+    c.newton.values = archive.reals.at("newton.values");
+    const Reals& rule = archive.reals.at("newton.rule");
+    c.newton.rule = {rule.at(0), rule.at(1)};
+    const auto& state = archive.integers.at("newton.state");
+    c.newton.has_matrix = state.at(0) != 0;
+    c.newton.last_iterations = static_cast<int>(state.at(1));
+    const auto& counts = archive.integers.at("newton.counts");
+    c.counts = {counts.at(0), counts.at(1), counts.at(2), counts.at(3)};
+    exchange::Archive history;
+    for (const auto& [name, values] : archive.reals) {
+        if (name.starts_with(history_prefix)) {
+            history.reals[name.substr(std::string(history_prefix).size())] = values;
+        }
+    }
+    c.history = history_from(history);
+    return c;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& where,
+                         const std::string& cause) {
+    throw fault::BadInput(file, {{where, cause, "resume with the same scene, or start afresh"}});
 }
 
 }  // namespace
@@ -154,35 +221,21 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
 
 Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
                            const Model& model, const std::string& file) {
-    const auto dofs = static_cast<std::size_t>(model.dofs());
-    const bool same_scene = archive.texts.at("scene") == exchange::sha256_of_text(scene.completed);
-    if (!same_scene || archive.reals.at("u").size() != dofs ||
-        archive.reals.at("epsilon_q").size() != model.points()) {
-        throw fault::BadInput(
-            file, {{"/breachline/texts/scene", "the checkpoint belongs to another scene",
-                    "resume with the same scene, or start afresh"}});
+    const auto scene_there = archive.texts.find("scene");
+    if (scene_there == archive.texts.end() ||
+        scene_there->second != exchange::sha256_of_text(scene.completed)) {
+        refuse(file, "/breachline/texts/scene", "the checkpoint belongs to another scene");
     }
-    Checkpoint c;
-    c.position = position_from(archive);
-    c.motion = motion_from(archive);
-    c.beginning = beginning_from(archive);
-    c.stage_force = vector_from(archive.reals.at("stage_force"));
-    c.newton.values = archive.reals.at("newton.values");
-    const Reals& rule = archive.reals.at("newton.rule");
-    c.newton.rule = {rule.at(0), rule.at(1)};
-    const auto& state = archive.integers.at("newton.state");
-    c.newton.has_matrix = state.at(0) != 0;
-    c.newton.last_iterations = static_cast<int>(state.at(1));
-    const auto& counts = archive.integers.at("newton.counts");
-    c.counts = {counts.at(0), counts.at(1), counts.at(2), counts.at(3)};
-    exchange::Archive history;
-    for (const auto& [name, values] : archive.reals) {
-        if (name.starts_with(history_prefix)) {
-            history.reals[name.substr(std::string(history_prefix).size())] = values;
-        }
+    try {
+        Checkpoint checkpoint = read(archive);
+        const bool whole = fits(checkpoint.position, scene::fem_of(scene)) &&
+                           fits(checkpoint.motion, model) && fits(checkpoint.beginning, model) &&
+                           empty_or(checkpoint.stage_force, model.mesh.nodes.size() * 2);
+        if (whole) return checkpoint;
+    } catch (const std::out_of_range&) {
+        // An array is missing or too short: said below.
     }
-    c.history = history_from(history);
-    return c;
+    refuse(file, "/breachline/reals", "the checkpoint's arrays are not those of this mesh");
 }
 
 }  // namespace breach::fem

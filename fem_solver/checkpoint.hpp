@@ -40,7 +40,7 @@ struct Checkpoint {
 };
 
 exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene);
-/// Throws BadInput when the archive belongs to another scene or mesh.
+/// Throws BadInput when the archive belongs to another scene or mesh, or lacks something.
 Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
                            const Model& model, const std::string& file);
 

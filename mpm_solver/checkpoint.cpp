@@ -12,6 +12,11 @@ constexpr const char* kind = "mpm_checkpoint";
 constexpr int version = 6;
 constexpr const char* records_prefix = "records.";
 
+[[noreturn]] void refuse(const std::string& file, const std::string& where,
+                         const std::string& cause) {
+    throw fault::BadInput(file, {{where, cause, "start afresh without --resume"}});
+}
+
 /// The numbers of the run that are not per point. Calls visit(name, value).
 template <class AnyClock, class AnyStart, class AnyTally, class Visit>
 void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& visit) {
@@ -41,6 +46,37 @@ void refuse_if_different(const Archive& archive, const std::string& name, const 
     throw fault::BadInput(file, {{"/" + name, "is not that of this run",
                                   "resume with the scene, overrides and input of the run that was "
                                   "stopped, or start afresh without --resume"}});
+}
+
+/// Arrays of one length, and indices that lie in what they point into: a checkpoint that another
+/// program changed is refused here rather than read past its ends.
+void refuse_if_ragged(const Points& points, std::size_t soils, const std::string& file) {
+    const std::size_t n = points.size();
+    if (n == 0) refuse(file, "/x", "holds no points");
+    for_each_real(points, [&](const char* name, const std::vector<double>& values) {
+        if (values.size() != n) refuse(file, std::string("/").append(name), "has another length");
+    });
+    for_each_integer(points, [&](const char* name, const std::vector<std::int32_t>& values) {
+        if (values.size() != n) refuse(file, std::string("/").append(name), "has another length");
+    });
+    for (std::size_t p = 0; p < n; ++p) {
+        if (points.region[p] < 0 || static_cast<std::size_t>(points.region[p]) >= soils)
+            refuse(file, "/region", "names a soil that the scene does not have");
+        if (points.number[p] < 0 || static_cast<std::size_t>(points.number[p]) >= n)
+            refuse(file, "/number", "names a point that is not there");
+    }
+    const Carried& carried = points.carried;
+    if (!carried.r_u.empty() && carried.r_u.size() != n) refuse(file, "/r_u", "has another length");
+    if (!carried.stress_of_soils.empty() && carried.stress_of_soils.size() != soils)
+        refuse(file, "/stress_of_soils", "has another length");
+}
+
+/// Homes are cells inside the row of ghost nodes.
+void refuse_if_homeless(const Points& points, const Grid& grid, const std::string& file) {
+    for (const std::int32_t home : points.home) {
+        if (home < grid.rows || home >= grid.nodes() || home % grid.rows == 0)
+            refuse(file, "/home", "names a cell outside the grid");
+    }
 }
 
 Points load_points(const Archive& archive) {
@@ -111,6 +147,8 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
     refuse_if_different(archive, "inputs", digests(provenance), file.string());
     try {
         ZonedPoints points{load_points(archive), {}};
+        refuse_if_ragged(points.points, scene::soils_of(scene).size(), file.string());
+        refuse_if_homeless(points.points, make_grid(scene::mpm_of(scene)), file.string());
         points.zones = zones_of(scene, points.points);
         Body body = make_body(scene, std::move(points), file.string(), computing);
         Clock clock;
@@ -127,8 +165,7 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         return {Simulation(scene, std::move(body), clock, start, std::move(records)),
                 archive.integers.at("run.telemetry_lines").at(0)};
     } catch (const std::out_of_range&) {
-        throw fault::BadInput(file.string(), {{"/", "lacks an array of a checkpoint",
-                                               "start afresh without --resume"}});
+        refuse(file.string(), "/", "lacks an array of a checkpoint");
     }
 }
 

@@ -17,14 +17,16 @@ constexpr const char* file_pointer = "/fem/motion/file";
 
 std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Findings& findings) {
     const std::string file = wanted.file.string();
-    if (!std::filesystem::exists(wanted.file)) {
+    std::error_code ignored;  // a path longer than one can be does not exist
+    if (!std::filesystem::exists(wanted.file, ignored)) {
         refuse(findings, file_pointer, "does not exist: " + file,
                "give a path relative to the scene file, or the absolute path on the machine that "
                "computes");
         return std::nullopt;
     }
     try {
-        if (std::filesystem::is_directory(wanted.file)) throw fault::IoError(file + " is a folder");
+        if (std::filesystem::is_directory(wanted.file, ignored))
+            throw fault::IoError(file + " is a folder");
         return motion::read_motion(wanted.file);
     } catch (const fault::BadInput& error) {
         for (const fault::Fault& each : error.faults())

@@ -56,9 +56,11 @@ std::set<std::string> surface_names(std::istream& in) {
 /// read when it is used.
 void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& file,
                      Findings& findings) {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file)) {
-        const bool exists = std::filesystem::exists(file);
+    std::ifstream in;
+    std::error_code error;  // a device or a pipe never ends
+    if (std::filesystem::is_regular_file(file, error)) in.open(file);
+    if (!in.is_open()) {
+        const bool exists = std::filesystem::exists(file, error);
         refuse(findings, mesh_pointer,
                (exists ? "cannot be read: " : "does not exist: ") + file.string(),
                "give a path relative to the scene file, or the absolute path on the machine that "

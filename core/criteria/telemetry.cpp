@@ -27,7 +27,7 @@ std::vector<TelemetryLine> read_telemetry(const std::filesystem::path& file) {
         if (!lines.empty() && line.time <= lines.back().time) continue;
         for (const auto& [name, value] : entry.items())
             if (value.is_number()) line.values[name] = value;
-        if (entry.contains("step") && entry["step"].is_number()) line.step = entry["step"];
+        if (entry.contains("step") && entry["step"].is_number_integer()) line.step = entry["step"];
         lines.push_back(std::move(line));
     }
     if (lines.empty())

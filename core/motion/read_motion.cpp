@@ -43,11 +43,15 @@ std::vector<std::string> words_of(std::string text) {
     return words;
 }
 
+/// Beyond it squares are no numbers any more, and nothing moves so.
+constexpr double largest_number = 1e100;
+
 std::optional<double> number_from(std::string word) {
     if (!word.empty() && word.front() == '+') word.erase(0, 1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+    if (error != std::errc() || end != word.data() + word.size() ||
+        !(std::abs(value) <= largest_number)) {
         return std::nullopt;
     }
     return value;
@@ -187,7 +191,6 @@ Recording read_peer(std::istream& in, const std::string& name) {
     }
     recording.quantity = unit->quantity;
     recording.series.dt = size->dt;
-    recording.series.values.reserve(size->count);
     while (lines.next(line)) {
         for (const std::string& word : words_of(line)) {
             const double value = needed_number(word, name, lines.number);
@@ -237,8 +240,10 @@ Recording read_csv(std::istream& in, const std::string& name) {
 }
 
 Recording read_motion(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) throw fault::IoError("cannot open the motion " + file.string());
+    std::ifstream in;
+    std::error_code error;  // a device or a pipe never ends
+    if (std::filesystem::is_regular_file(file, error)) in.open(file);
+    if (!in.is_open()) throw fault::IoError("cannot open the motion " + file.string());
     const std::string ending = upper(file.extension().string()), name = file.string();
     if (ending == ".AT2" || ending == ".VT2" || ending == ".DT2") return read_peer(in, name);
     if (ending == ".CSV") return read_csv(in, name);

@@ -14,7 +14,7 @@ std::optional<std::size_t> index_of(Reader& reader, const List& list, const json
                                     const std::string& pointer, const std::string& remedy) {
     if (!reader.sound("/section") || !reader.sound("/materials")) return std::nullopt;
     for (std::size_t i = 0; i < list.size(); ++i) {
-        if (list[i].name == name) return i;
+        if (json(list[i].name) == name) return i;
     }
     reader.add(pointer, "is " + name.dump() + ", which does not exist", remedy);
     return std::nullopt;

@@ -289,10 +289,11 @@ void read_section(Reader& reader, Scene& scene) {
                            "add the material, or name one that exists");
             }
         }
-        if (reader.sound(pointer + "/polygon")) {
+        const bool drawn = reader.sound(pointer + "/polygon");
+        if (drawn) {
             region.polygon = polygon_from(reader, each.at("polygon"), pointer + "/polygon");
         }
-        if (reader.sound(pointer + "/mesh")) {
+        if (drawn && reader.sound(pointer + "/mesh")) {
             read_region_mesh(reader, each.at("mesh"), each.at("polygon"), pointer + "/mesh",
                              region);
         }

@@ -33,7 +33,8 @@ std::string text_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
-    if (!stream || std::filesystem::is_directory(file)) {
+    std::error_code error;
+    if (!stream || std::filesystem::is_directory(file, error)) {
         throw fault::IoError(file.string() +
                              ": cannot be read; check the path and its permissions");
     }

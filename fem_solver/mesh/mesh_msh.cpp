@@ -25,8 +25,10 @@ struct RawMesh {
 
 class MshReader {
   public:
-    explicit MshReader(const std::filesystem::path& file) : file_(file), in_(file) {
-        if (!in_) throw fault::IoError(file.string() + ": cannot be opened");
+    explicit MshReader(const std::filesystem::path& file) : file_(file) {
+        std::error_code error;  // a device or a pipe never ends
+        if (std::filesystem::is_regular_file(file, error)) in_.open(file);
+        if (!in_.is_open()) throw fault::IoError(file.string() + ": cannot be opened");
     }
 
     RawMesh read() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "core/telemetry/columns.hpp"
@@ -174,8 +175,9 @@ std::vector<Reading> history_from(const exchange::Archive& archive) {
     std::vector<Reading> history(archive.reals.at("step").size());
     for (const Column& column : columns()) {
         const std::vector<double>& values = archive.reals.at(column.name);
+        if (values.size() != history.size()) throw std::out_of_range(column.name);
         for (std::size_t i = 0; i < history.size(); ++i) {
-            history[i].*column.member = values.at(i);
+            history[i].*column.member = values[i];
         }
     }
     return history;

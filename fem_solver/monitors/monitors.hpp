@@ -77,6 +77,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
 
 nlohmann::json telemetry_line(const Reading& reading);
 exchange::Archive history_archive(const std::vector<Reading>& history);
+/// Throws std::out_of_range when a column is missing or has another length.
 std::vector<Reading> history_from(const exchange::Archive& archive);
 
 std::size_t nearest_node(const Mesh& mesh, const Vec2& point);

@@ -98,14 +98,16 @@ NewtonMemory Newton::memory() const {
     return copy;
 }
 
-void Newton::restore(const NewtonMemory& memory) {
+bool Newton::restore(const NewtonMemory& memory) {
+    if (memory.has_matrix && memory.values.size() != matrix_.values().size()) return false;
     memory_ = memory;
-    if (!memory.has_matrix) return;
+    if (!memory.has_matrix) return true;
     const Stopwatch watch(seconds_, &Seconds::factor);
     std::ranges::copy(memory.values, matrix_.values().begin());
     memory_.has_matrix = matrix_.factorise() == Factorisation::done;
     matrix_.copy_diagonal(metric_);
     metric_.array() *= share_.array();
+    return true;
 }
 
 void Newton::add_inertia_and_water(const TimeRule& rule) {

@@ -68,7 +68,8 @@ class Newton {
     const NewtonCounts& counts() const { return counts_; }
     void set_counts(const NewtonCounts& counts) { counts_ = counts; }
     NewtonMemory memory() const;
-    void restore(const NewtonMemory& memory);
+    /// False: the matrix in memory is not one of this problem, and nothing was taken.
+    bool restore(const NewtonMemory& memory);
     InternalForce& internal_force() { return internal_force_; }
 
   private:

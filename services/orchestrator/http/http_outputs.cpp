@@ -98,8 +98,9 @@ void points(Service& service, Call& call) {
     const Task task = wanted_task(service, call.parts[0]);
     const std::string& name = call.parts[1];
     const auto file = service.data.output(task) / name;
+    std::error_code error;  // a name longer than a file's can be
     if (!is_frame_name(name) ||
-        !std::filesystem::is_regular_file(std::filesystem::symlink_status(file)))
+        !std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)))
         throw not_found("frame " + name + " of task " + task.id);
     const auto stride = static_cast<std::size_t>(call.whole_number("stride", 1, 1, largest_count));
     try {

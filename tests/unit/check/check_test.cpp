@@ -68,6 +68,9 @@ TEST(Check, WindowsAreReadAndAskForWhatIsRecorded) {
 
 TEST(Check, AMeshFileThatIsMissingOrNoMeshIsRefused) {
     expect_only(changed("slope", {"/fem/msh_file=nowhere.msh"}), "/fem/msh_file", "does not exist");
+    expect_only(changed("slope", {"/fem/msh_file=/dev/zero"}), "/fem/msh_file", "cannot be read");
+    expect_only(changed("slope", {"/fem/msh_file=/" + std::string(5000, 'a')}), "/fem/msh_file",
+                "does not exist");
     expect_only(changed("slope", {"/fem/msh_file=slope.json"}), "/fem/msh_file",
                 "does not begin with $MeshFormat");
 }

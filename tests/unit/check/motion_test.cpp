@@ -52,6 +52,10 @@ TEST_F(Motion, AFileThatIsNotThereIsNamed) {
                 "does not exist: /nowhere/motion.csv");
     expect_only(changed("mochikoshi", {"/fem/motion/file=/tmp"}), "/fem/motion/file",
                 "is a folder");
+    expect_only(changed("mochikoshi", {"/fem/motion/file=/dev/zero"}), "/fem/motion/file",
+                "cannot open");
+    expect_only(changed("mochikoshi", {"/fem/motion/file=/" + std::string(5000, 'a')}),
+                "/fem/motion/file", "does not exist");
 }
 
 TEST_F(Motion, ColumnsHeaderAndNumbersAreRead) {

@@ -47,6 +47,10 @@ TEST_F(Telemetry, ALineThatIsNoJsonIsRefusedByItsNumberUnlessItIsStillBeingWritt
     EXPECT_EQ(of("{\"time\":0.5}\n{\"time\":1.0,\"ene").size(), 1u);
 }
 
+TEST_F(Telemetry, AStepThatIsNoWholeNumberIsNone) {
+    EXPECT_EQ(of(R"({"time":1,"step":1e300})").at(0).step, 0);
+}
+
 TEST_F(Telemetry, WithoutTimesOrWithoutAFileIsRefused) {
     EXPECT_THROW(of("{\"energy\":1}\n"), fault::BadInput);
     EXPECT_THROW(read_telemetry("/nowhere/telemetry.jsonl"), fault::IoError);

@@ -12,6 +12,9 @@ namespace {
 
 using samples::Folder;
 
+/// Files, groups, datasets, types and attributes that were not closed again.
+ssize_t open_identifiers() { return H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL); }
+
 std::string whole_file(const Folder& folder) {
     write_mesh_snapshot(folder / "whole.vtkhdf", samples::mesh(3), samples::provenance());
     return samples::content(folder / "whole.vtkhdf");
@@ -32,6 +35,7 @@ TEST(DamagedFile, TruncatedAnywhereIsBadInputThatNamesTheFile) {
         }
     }
     EXPECT_EQ(refused, tried);
+    EXPECT_EQ(open_identifiers(), 0);
 }
 
 TEST(DamagedFile, AnyFlippedByteIsRefusedOrHarmless) {
@@ -59,6 +63,7 @@ TEST(DamagedFile, AnyFlippedByteIsRefusedOrHarmless) {
     std::cout << "  refused " << refused << ", harmless (space that nothing uses) " << harmless
               << " of " << whole.size() << " bytes\n";
     EXPECT_GT(refused, harmless / 2);
+    EXPECT_EQ(open_identifiers(), 0);
 }
 
 /// Runs HDF5 on the file as another program would.

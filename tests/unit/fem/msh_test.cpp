@@ -78,6 +78,8 @@ TEST_F(Msh, ATornFileIsRefused) {
     EXPECT_NE(cause(""), "");
 }
 
+TEST_F(Msh, ADeviceIsNotReadWithoutEnd) { EXPECT_THROW(read_msh("/dev/zero", {}), fault::IoError); }
+
 TEST_F(Msh, AMissingNodeIsRefused) {
     EXPECT_NE(cause(replaced(version_2, "2 3 6 5\n", "2 3 99 5\n")).find("99"), std::string::npos);
 }

@@ -93,5 +93,14 @@ TEST(Motion, ThatIsMissingIsAnIoError) {
     EXPECT_THROW(read_motion("/nowhere/quake.AT2"), fault::IoError);
 }
 
+TEST(Motion, ThatIsADeviceIsNotReadWithoutEnd) {
+    EXPECT_THROW(read_motion("/dev/zero"), fault::IoError);
+}
+
+TEST(Motion, ThatIsTooLargeForItsUnitIsRefused) {
+    EXPECT_EQ(fault_of(read_two_columns, "0 1e308\n0.01 2\n"),
+              "line 1: '1e308' is not a finite number");
+}
+
 }  // namespace
 }  // namespace breach::motion

@@ -123,6 +123,57 @@ TEST(Simulation, AGridTooSmallIsABreakdownThatSaysWhere) {
     EXPECT_GT(good.time, 0.0);
 }
 
+/// A checkpoint that another program changed.
+class ChangedCheckpoint : public testing::Test {
+  protected:
+    ChangedCheckpoint() : scene_(heap()) {
+        save_checkpoint(file_, fresh(scene_), 0, provenance_);
+        archive_ = exchange::read_archive(file_, "mpm_checkpoint", 6);
+    }
+    ~ChangedCheckpoint() override { std::filesystem::remove(file_); }
+
+    void expect_refused(const std::string& where) {
+        exchange::write_archive(file_, archive_, provenance_);
+        try {
+            load_checkpoint(file_, scene_, provenance_);
+            FAIL() << where << " was taken";
+        } catch (const fault::BadInput& refusal) {
+            EXPECT_EQ(refusal.faults().at(0).pointer, where);
+        }
+    }
+
+    const std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) / "changed_checkpoint.h5";
+    const exchange::Provenance provenance_{};
+    const scene::Scene scene_;
+    exchange::Archive archive_;
+};
+
+TEST_F(ChangedCheckpoint, WithAShortArrayIsRefused) {
+    archive_.reals.at("sxy").pop_back();
+    expect_refused("/sxy");
+}
+
+TEST_F(ChangedCheckpoint, WithoutPointsIsRefused) {
+    archive_.reals.at("x").clear();
+    expect_refused("/x");
+}
+
+TEST_F(ChangedCheckpoint, WithAnUnknownSoilIsRefused) {
+    archive_.integers.at("region").back() = 1;
+    expect_refused("/region");
+}
+
+TEST_F(ChangedCheckpoint, WithAPointThatIsNotThereIsRefused) {
+    archive_.integers.at("number").front() = 1 << 20;
+    expect_refused("/number");
+}
+
+TEST_F(ChangedCheckpoint, WithAHomeOutsideTheGridIsRefused) {
+    archive_.integers.at("home").back() = 1 << 20;
+    expect_refused("/home");
+}
+
 TEST(Simulation, AStepFarTooLargeIsABreakdownNotAResult) {
     scene::Scene scene = heap();
     scene.mpm->time_step = 0.02;  // CFL 2.3

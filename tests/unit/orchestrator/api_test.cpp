@@ -264,6 +264,7 @@ TEST_F(Api, FramesAreListedAndADamagedOneIsRefused) {
     EXPECT_EQ(frames[0].at("kind"), "mesh");
     EXPECT_EQ(frames[0].at("sha256").get<std::string>().size(), 64u);
     const std::string base = "/v1/tasks/" + task("fem") + "/frames/";
+    EXPECT_EQ(service->get(base + std::string(300, 'a') + ".vtkhdf/points").status, 404);
     const int damaged = service->get(base + "snapshot_0.250000.vtkhdf/points")
                             .status;  // the fakes write plain text
     EXPECT_TRUE(damaged == 410 || damaged == 422) << damaged;

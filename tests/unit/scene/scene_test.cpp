@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 #include <set>
@@ -78,6 +79,19 @@ TEST(Scene, NamesAllFaultsOfOneBadSceneTogether) {
                                          "/section/regions/0/polygon",
                                          "/section/regions/0/material", "/mpm/cell_sise"};
     EXPECT_EQ(fault_pointers(bad), expected);
+}
+
+TEST(Scene, AMeshWithoutAPolygonIsAFaultOfThePolygon) {
+    for (const char* polygon : {"", "false", "[[0, 0], 1]"}) {
+        json document = column();
+        json& region = document["section"]["regions"][0];
+        region.erase("polygon");
+        if (*polygon != 0) region["polygon"] = json::parse(polygon);
+        const auto pointers = fault_pointers(document);
+        EXPECT_TRUE(std::ranges::any_of(pointers, [](const std::string& pointer) {
+            return pointer.starts_with("/section/regions/0");
+        })) << polygon;
+    }
 }
 
 TEST(Scene, RefusesWhatTheSchemaCannotSee) {

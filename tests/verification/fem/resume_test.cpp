@@ -136,16 +136,63 @@ INSTANTIATE_TEST_SUITE_P(Kinematics, Resume,
                                         : "MovingMesh";
                          });
 
+/// As it is written in the dynamic stage.
+exchange::Archive archive_in_failure(bench::Run& run) {
+    const Analysis& a = run.analysis();
+    Position position = a.position();
+    position.stage = 1;
+    return checkpoint_archive({position, a.motion(), a.beginning(), {}, {}, {}, a.history()},
+                              run.session().scene());
+}
+
 TEST(Checkpoint, OfAnotherSceneIsRefused) {
     bench::Run run(failing_column(scene::Kinematics::small_strain));
     const Analysis& a = run.go();
-    const Checkpoint checkpoint{a.position(), a.motion(), a.beginning(), {}, {}, {}, a.history()};
-    exchange::Archive archive = checkpoint_archive(checkpoint, run.session().scene());
+    exchange::Archive archive = archive_in_failure(run);
     json other = failing_column(scene::Kinematics::small_strain);
     other["materials"]["soil"]["density"] = 1999;
     EXPECT_THROW(checkpoint_from(archive, bench::parse(other), a.model(), "checkpoint.h5"),
                  fault::BadInput);
     EXPECT_NO_THROW(checkpoint_from(archive, run.session().scene(), a.model(), "checkpoint.h5"));
+}
+
+TEST(Checkpoint, WithArraysThatAreNotTheMeshsIsRefused) {
+    bench::Run run(failing_column(scene::Kinematics::small_strain));
+    const Analysis& a = run.go();
+    const exchange::Archive sound = archive_in_failure(run);
+    const auto expect_refused = [&](const exchange::Archive& changed, const std::string& name) {
+        EXPECT_THROW(checkpoint_from(changed, run.session().scene(), a.model(), "checkpoint.h5"),
+                     fault::BadInput)
+            << name;
+    };
+    for (const auto& [name, values] : sound.reals) {
+        if (values.empty() || name == "newton.values") continue;
+        exchange::Archive changed = sound;
+        changed.reals[name].pop_back();
+        expect_refused(changed, name);
+    }
+    for (const auto& [name, values] : sound.integers) {
+        exchange::Archive changed = sound;
+        changed.integers.erase(name);
+        expect_refused(changed, name);
+    }
+    exchange::Archive beyond = sound;
+    beyond.integers.at("position").at(0) = 2;  // stages are 0 and 1
+    expect_refused(beyond, "stage");
+}
+
+TEST(Checkpoint, WithTheMatrixOfAnotherMeshIsRefused) {
+    const json scene = failing_column(scene::Kinematics::small_strain);
+    bench::Run run(scene);
+    run.go();
+    const auto file = run.folder() / "checkpoint.h5";
+    exchange::Archive archive = archive_in_failure(run);
+    archive.reals.at("newton.values").assign(3, 1.0);
+    archive.integers.at("newton.state").at(0) = 1;
+    exchange::write_archive(file, archive, run.session().provenance());
+    process::Session session(bench::settings_for(run.folder(), process::Start::resume),
+                             bench::parse(scene));
+    EXPECT_THROW(Analysis(session, bench::model_of(session.scene())), fault::BadInput);
 }
 
 }  // namespace

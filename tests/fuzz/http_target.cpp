@@ -1,0 +1,149 @@
+// The bytes of HTTP requests, parsed as the server parses them and answered by all routes of a
+// service that knows one run. Nothing runs: the service has no slots. (The server's own doors, which
+// need a socket, are held by tests/unit/orchestrator.)
+#include <httplib.h>
+#include <spdlog/spdlog.h>
+
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/records/identity.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+using namespace breach;
+using namespace breach::orchestrator;
+
+namespace {
+
+/// What a client sent, and what it is answered.
+class Wire : public httplib::Stream {
+  public:
+    explicit Wire(std::string_view sent) : sent_(sent) {}
+    bool is_readable() const override { return true; }
+    bool is_writable() const override { return true; }
+    ssize_t read(char* to, std::size_t most) override {
+        const std::size_t count = sent_.copy(to, most);
+        sent_.remove_prefix(count);
+        return static_cast<ssize_t>(count);
+    }
+    ssize_t write(const char* from, std::size_t count) override {
+        answer_.append(from, count);
+        return static_cast<ssize_t>(count);
+    }
+    void get_remote_ip_and_port(std::string& ip, int& port) const override {
+        ip = "127.0.0.1";
+        port = 1;
+    }
+    void get_local_ip_and_port(std::string& ip, int& port) const override {
+        get_remote_ip_and_port(ip, port);
+    }
+    socket_t socket() const override { return -1; }
+    const std::string& answer() const { return answer_; }
+
+  private:
+    std::string_view sent_;
+    std::string answer_;
+};
+
+class NoExecutor : public Executor {
+  public:
+    void submit(const AttemptFolder&, const Order&) override {
+        throw fault::IoError("there are no slots");
+    }
+    Vitals probe(const AttemptFolder&) override { return {Life::gone}; }
+    void stop(const AttemptFolder&, StopReason) override {}
+    void clear_away(const AttemptFolder&, const std::string&) override {}
+    AtStop at_stop() const override { return AtStop::leaves_them; }
+};
+
+struct TemporaryFolder {
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "breach_fuzz_XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    std::filesystem::path path;
+};
+
+NewRun known_run() {
+    return {.id = "run",
+            .name = "known",
+            .title = "",
+            .study = R"({"transfer_times":[0.5]})",
+            .scene = "{}",
+            .tasks = {{.phase = "fem_solver",
+                       .label = "fem",
+                       .transfer_time = {},
+                       .parent = {},
+                       .release = Release::at_once,
+                       .input = "",
+                       .overrides = {}}}};
+}
+
+DispatchSettings without_slots(const std::filesystem::path& bin) {
+    DispatchSettings settings;
+    settings.bin = bin;
+    settings.slots = 0;
+    return settings;
+}
+
+/// The service with everything but a socket and phases.
+class Stand : public httplib::Server {
+  public:
+    Stand()
+        : data_(folder_.path),
+          store_(data_.database()),
+          dispatcher_(store_, data_, executor_, board_, without_slots(folder_.path)),
+          service_{store_,
+                   data_,
+                   dispatcher_,
+                   board_,
+                   frames_,
+                   folder_.path,
+                   {{"lem_tool", 1}, {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}},
+                   BREACH_ROOT "/services/web/static",
+                   BREACH_ROOT "/workflows"} {
+        spdlog::set_level(spdlog::level::off);
+        store_.write([](Transaction& transaction) { transaction.add_run(known_run()); });
+        add_run_routes(router_, service_);
+        add_trigger_routes(router_, service_);
+        add_output_routes(router_, service_);
+        add_event_routes(router_, service_, stopping_);
+        add_example_routes(router_, service_);
+        add_metric_routes(router_, service_);
+        add_page_routes(router_, service_);
+        const Handler door = [this](const httplib::Request& request, httplib::Response& response) {
+            router_.answer(request, response);
+        };
+        Get(".*", door).Post(".*", door).Put(".*", door).Delete(".*", door);
+    }
+
+    std::string answer_to(std::string_view sent) {
+        Wire wire(sent);
+        bool closed = false;
+        process_request(wire, true, closed, nullptr);
+        return wire.answer();
+    }
+
+  private:
+    TemporaryFolder folder_;
+    DataFolder data_;
+    Store store_;
+    ProgressBoard board_;
+    NoExecutor executor_;
+    FrameReader frames_;
+    Dispatcher dispatcher_;
+    Service service_;
+    Router router_;
+    std::atomic<bool> stopping_ = true;  // a stream of events ends at once
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static Stand stand;
+    const std::string answer = stand.answer_to(fuzz::text_of(data, size));
+    fuzz::require(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is HTTP");
+    fuzz::require(!answer.starts_with("HTTP/1.1 500"), "no request is an internal fault");
+    return 0;
+}
