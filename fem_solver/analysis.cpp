@@ -10,6 +10,7 @@
 #include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/model/pore_water.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
+#include "fem_solver/solve/trial.hpp"
 
 namespace breach::fem {
 
@@ -47,7 +48,9 @@ Analysis::Analysis(process::Session& session, Model model)
       trial_(motion_),
       watch_(fem_, model_),
       crest_node_(nearest_node(watch_.body(), fem_.crest)) {
-    if (session.settings().switches.contains(profile_switch)) seconds_.clock = cpu_clock;
+    const auto& switches = session.settings().switches;
+    if (switches.contains(profile_switch) || switches.contains(trial_switch))
+        seconds_.clock = cpu_clock;
     for (const Stage& stage : fem_.stages) span_ += stage.duration;
     prediction_ = prediction_for(model_);
     report_crest();

@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
         .inputs = {0, 0, "takes no input beside the scene"},
         .plan = breach::fem::plan,
         .run = breach::fem::run,
-        .numerics = breach::fem::numerics};
+        .numerics = breach::fem::numerics,
+        .measure = breach::fem::measure};
     phase.switches.push_back(
         {breach::fem::profile_switch, "print CPU seconds by kind of work at the end"});
     return breach::process::run_phase(argc, argv, phase);

@@ -11,6 +11,9 @@ inline constexpr int numerics = 5;
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
 process::Outcome run(process::Session& session);
 
+/// Ten steps of the first dynamic stage, after the stages before it.
+process::Cost measure(process::Session& session);
+
 process::Plan plan(const scene::Scene& scene);
 
 }  // namespace breach::fem

@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
                            "filled with points at rest"},
         .plan = mpm::plan,
         .run = mpm::run,
-        .numerics = mpm::numerics};
+        .numerics = mpm::numerics,
+        .measure = mpm::measure};
     phase.switches.push_back({.name = "--until-rest",
                               .purpose = "run until the soil rests, at most for "
                                          "/mpm/longest_duration: --set /mpm/duration=until_rest",

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/phases/files.hpp"
-#include "mpm_solver/body/fill.hpp"
+#include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "mpm_solver/results.hpp"
 #include "mpm_solver/simulation.hpp"
@@ -18,40 +18,6 @@ using nlohmann::json;
 using process::Outcome;
 using process::Session;
 
-Computing computing_of(const Session& session) { return {.threads = session.settings().threads}; }
-
-void log_sampling(const std::vector<SampledRegion>& regions) {
-    for (const SampledRegion& region : regions) {
-        spdlog::log(
-            is_faithful(region) ? spdlog::level::info : spdlog::level::warn,
-            "region {}: {} points hold {:.6f} m2 of the polygon's {:.6f} m2, their centroid "
-            "lies at {:.4f} m, the polygon's at {:.4f} m",
-            region.name, region.points, region.sampled_area, region.polygon_area,
-            region.sampled_level, region.polygon_level);
-    }
-}
-
-Body fresh_body(const scene::Scene& scene, const exchange::ParticleState& state,
-                const std::string& source, const Computing& computing) {
-    Body body = make_body(scene, zoned_points(scene, state, source), source, computing);
-    refuse_buried_points(body, source);
-    return body;
-}
-
-Simulation begin(const Session& session) {
-    const scene::Scene& scene = session.scene();
-    if (session.settings().inputs.empty()) {
-        const FilledSection filled = fill_section(scene);
-        log_sampling(filled.regions);
-        const std::string source = scene.name + " (section filled with points)";
-        return {scene, fresh_body(scene, filled.state, source, computing_of(session)), 0.0};
-    }
-    const exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
-    const std::string source = session.input().string();
-    log_sampling(sampling_of(scene, state));
-    return {scene, fresh_body(scene, state, source, computing_of(session)), state.transfer_time};
-}
-
 Simulation begin_or_resume(Session& session) {
     const auto checkpoint = session.output(phases::files::checkpoint);
     if (session.settings().start == process::Start::resume && std::filesystem::exists(checkpoint)) {
@@ -63,7 +29,8 @@ Simulation begin_or_resume(Session& session) {
         return std::move(resumed.simulation);
     }
     session.truncate_telemetry(0);
-    return begin(session);
+    Begun begun = begin(session);
+    return {session.scene(), std::move(begun.body), begun.transfer_time};
 }
 
 void save(const Session& session, const Simulation& simulation) {

@@ -13,4 +13,7 @@ process::Plan plan(const scene::Scene& scene);
 
 process::Outcome run(process::Session& session);
 
+/// Ten steps of the body as the run would begin with it, verb by verb.
+process::Cost measure(process::Session& session);
+
 }  // namespace breach::mpm

@@ -26,6 +26,7 @@ struct Arguments {
     std::filesystem::path scene;
     SessionSettings settings;
     Question question = Question::none;
+    bool measure = false;  ///< with the plan: what a step costs
 };
 
 /// The parsed arguments, or the exit code when there is nothing to run (help, version, wrong
@@ -62,6 +63,11 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
                    "/json/pointer=value, changes the scene; repeatable")
         ->allow_extra_args(false);
     app.add_flag("--plan", plan, "print what the scene needs and what is left out, and stop");
+    if (phase.measure) {
+        app.add_flag("--measure", a.measure,
+                     "with --plan: takes ten steps and prints unknowns, bytes and where their time "
+                     "went");
+    }
     app.add_flag("--check", check, "check the scene and stop");
     app.add_flag("--resume", resume,
                  "go on from the checkpoint in the output folder, if there is one");
@@ -89,6 +95,8 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
     if (progress == "json") a.settings.progress = ProgressStyle::json;
     if (progress == "bar" || (progress == "auto" && terminal))
         a.settings.progress = ProgressStyle::bar;
+    if (a.measure && a.question != Question::plan)
+        return usage_fault("--measure belongs to --plan");
     if (a.question != Question::none) return {a, ExitCode::done};
     if (a.settings.output.empty()) return usage_fault("--output is required");
     const int inputs = static_cast<int>(a.settings.inputs.size());
@@ -189,6 +197,38 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     return ExitCode::done;
 }
 
+/// A folder of its own for a trial; it goes away with everything in it.
+class ShortLived {
+  public:
+    ShortLived() {
+        std::string name = (std::filesystem::temp_directory_path() / "breach_XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw fault::IoError(name + ": cannot be made");
+        path_ = name;
+    }
+    ~ShortLived() {
+        std::error_code error;
+        std::filesystem::remove_all(path_, error);
+    }
+    ShortLived(const ShortLived&) = delete;
+    ShortLived& operator=(const ShortLived&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene& scene) {
+    const ShortLived folder;
+    SessionSettings settings = arguments.settings;
+    settings.output = folder.path();
+    settings.progress = ProgressStyle::none;
+    settings.start = Start::fresh;
+    settings.switches.clear();
+    Session session(settings, scene);
+    spdlog::set_level(spdlog::level::warn);
+    return phase.measure(session);
+}
+
 ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     scene::Scene scene = phase.read(arguments.scene, arguments.settings.overrides);
     if (arguments.question == Question::none)
@@ -196,6 +236,7 @@ ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     const Plan plan = phase.plan(scene);
     if (arguments.question == Question::plan) {
         std::cout << as_text(plan);
+        if (arguments.measure) std::cout << as_text(measured(phase, arguments, scene));
     } else {
         std::cout << arguments.scene.string() << ": no faults\n";
     }

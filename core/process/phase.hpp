@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/check/check.hpp"
+#include "core/process/cost.hpp"
 #include "core/process/plan.hpp"
 #include "core/process/session.hpp"
 #include "core/scene/scene.hpp"
@@ -47,6 +48,9 @@ struct Phase {
     /// Raised when the phase's numbers change for the same input, so that no earlier result is
     /// taken for one of this program; --version says it. 0: its results are never taken again.
     int numerics = 0;
+    /// Takes a few steps in the session's folder, which goes away after it. Empty: the phase has no
+    /// steps, and no --measure.
+    std::function<Cost(Session&)> measure = {};
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes

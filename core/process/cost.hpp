@@ -1,0 +1,21 @@
+// What one step costs with this scene, from a short trial: what --plan --measure prints.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace breach::process {
+
+struct Cost {
+    std::vector<std::pair<std::string, std::int64_t>> counts;  ///< "unknown pressures", how many
+    std::vector<std::pair<std::string, double>> memory;        ///< "points", bytes
+    std::int64_t steps = 0;                                    ///< that were tried
+    std::vector<std::pair<std::string, double>> seconds;       ///< "law", of all these steps [s]
+};
+
+/// Aligned text for people: counts, bytes, seconds per step and shares.
+std::string as_text(const Cost& cost);
+
+}  // namespace breach::process
