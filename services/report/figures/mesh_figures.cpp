@@ -5,8 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "core/exchange/excess_pressure.hpp"
-
 namespace breach::report {
 
 using exchange::MeshSnapshot;
@@ -58,16 +56,16 @@ std::vector<double> element_epsilon_q(const MeshSnapshot& mesh) {
 
 std::vector<double> element_r_u(const MeshSnapshot& mesh) {
     if (mesh.pore_pressure.empty() || mesh.sigma_v0.empty()) return {};
-    const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
     std::vector<double> average;
     for (const auto& quad : mesh.quads) {
-        double sum = 0.0;
+        double rise = 0.0;  // what alternates from corner to corner drops out
+        double sigma = 0.0;
         for (const std::int32_t node : quad) {
             const auto i = static_cast<std::size_t>(node);
-            if (mesh.sigma_v0[i] <= 0.0) continue;
-            sum += excess[i] / mesh.sigma_v0[i];
+            rise += mesh.pore_pressure[i] - mesh.pore_pressure_0[i];
+            sigma += mesh.sigma_v0[i];
         }
-        average.push_back(0.25 * sum);
+        average.push_back(sigma > 0.0 ? rise / sigma : 0.0);
     }
     return average;
 }

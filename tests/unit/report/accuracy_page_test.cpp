@@ -58,7 +58,8 @@ TEST(AccuracyPage, DrawsErrorAgainstCpuSecondsOnTwoLogarithms) {
 }
 
 TEST(AccuracyPage, HasTheTableAndWhatFollowsFromIt) {
-    const std::string page = accuracy_page({answer({row(1, 0.2, 1.0, true)})}, "accuracy");
+    const std::string page =
+        accuracy_page({answer(json::array({row(1, 0.2, 1.0, true)}))}, "accuracy");
     EXPECT_NE(
         page.find("| cells | `/mpm/cell_size=4` | 10 | - | 1 | 20 % | 20 % | 1 | 1 | - | `*` |"),
         std::string::npos)

@@ -93,10 +93,13 @@ def wet_rock_a_million_times_stiffer_gives_the_exact_column(folder):
         passed &= run.code == 0
         y, p = run.place()[:, 1], run.point("pore_pressure") / q
         if k < 1e-6:
-            for what, E, there in (("soil", M, (y > 6.9) & (y < 8.1)), ("rock", 1e6 * M, y < 3.1)):
+            # Elements' storage is a full matrix: the jump at the border dies away in the rock by a factor of 14 a node.
+            for what, E, there, allowed in (("soil", M, (y > 6.9) & (y < 8.1), 1e-9), ("rock", 1e6 * M, y < 1.6, 1e-7)):
                 exact = 1 / (1 + E * storage)
                 passed &= judge(f"undrained pressure in the {what} ({exact:.2e}), over the load",
-                                numpy.abs(p[there] - exact).max(), 1e-9)
+                                numpy.abs(p[there] - exact).max(), allowed)
+            rising = numpy.diff([p[y == at].mean() for at in numpy.unique(y[y < 6.1])])
+            passed &= judge("fall of the pressure on its way from rock to soil, over the load", max(0, -rising.min()), 1e-7)
         else:
             top = run.point("displacement")[y > 10 - 1e-9][:, 1]
             passed &= judge("drained settlement", abs(top[0] / (-q * 5 / M) - 1), 1e-5)
