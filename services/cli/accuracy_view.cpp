@@ -87,7 +87,8 @@ std::string as_accuracy_table(const json& answer) {
                                  {"", Align::left}},
                                 rows);
     text += "errors relative to " + cell(answer, "reference") +
-            "; \"of a run\": with the other ladders' error at the base, and the scatter\n" +
+            "; \"of a run\": with what the reference is off, the other ladders' error at the "
+            "base, and the scatter\n" +
             legend_of(answer) + "\n";
     for (const json& ladder : answer.at("ladders"))
         text += cell(ladder, "name") + ": " + cell(ladder, "message") + "\n";

@@ -110,24 +110,30 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
     }
 }
 
-/// What a rung is off by what its own ladder says.
-std::optional<double> bias_of(const AccuracyRow& row, const LadderSummary& ladder) {
-    return row.is_reference ? ladder.convergence.error_of_finest : row.error;
+/// What a rung is off by what its own ladder says: with the finest rung as reference its difference
+/// from that, and what that one is off itself.
+std::optional<double> bias_of(const AccuracyRow& row, const LadderSummary& ladder,
+                              ReferenceKind reference) {
+    const std::optional<double>& of_finest = ladder.convergence.error_of_finest;
+    if (row.is_reference) return of_finest;
+    if (!row.error || reference != ReferenceKind::finest) return row.error;
+    return *row.error + of_finest.value_or(0.0);
 }
 
 /// A row is off by its own ladder's error, and by what the base is off on the others: a number from
 /// elsewhere as reference has all of them in it.
 void tell_errors_of_runs(AccuracyTable& table) {
-    const bool in_it = table.plan.reference.kind == ReferenceKind::given;
+    const ReferenceKind reference = table.plan.reference.kind;
+    const bool in_it = reference == ReferenceKind::given;
     for (const AccuracyRow& row : table.rows)
         if (row.setting.is_base && !in_it)
             table.ladders[row.setting.ladder].error_of_base =
-                bias_of(row, table.ladders[row.setting.ladder]);
+                bias_of(row, table.ladders[row.setting.ladder], reference);
     for (AccuracyRow& row : table.rows) {
         const LadderSummary& own = table.ladders[row.setting.ladder];
         for (const LadderSummary& each : table.ladders)
             if (&each != &own) row.error_of_other_ladders += each.error_of_base.value_or(0.0);
-        if (const auto bias = bias_of(row, own))
+        if (const auto bias = bias_of(row, own, reference))
             row.error_of_a_run =
                 error_of_one_run(*bias + row.error_of_other_ladders, *row.value, *own.reference);
     }

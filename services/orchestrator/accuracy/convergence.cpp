@@ -101,10 +101,11 @@ struct Ending {
     double ratio_coarse = coarse.size / middle.size;
     double ratio_fine = middle.size / fine.size;
 
+    /// Coarser rungs that agree, because neither sees what the finest does, are no noise.
     bool is_noise(double noise) const {
-        const double told = smallest_told_difference(
-            noise, std::min({coarse.value.count, middle.value.count, fine.value.count}));
-        return std::abs(change_coarse) < told || std::abs(change_fine) < told;
+        const double told =
+            smallest_told_difference(noise, std::min(middle.value.count, fine.value.count));
+        return std::abs(change_fine) < told;
     }
 };
 

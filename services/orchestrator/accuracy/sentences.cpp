@@ -83,7 +83,7 @@ std::string course_in_words(const Convergence& convergence, const AccuracyPlan& 
             break;
         case Course::below_noise:
             words =
-                "the three finest rungs differ by no more than the noise of the repeats: no "
+                "the two finest rungs differ by no more than the noise of the repeats: no "
                 "order";
             break;
         case Course::monotone:
