@@ -38,8 +38,8 @@ std::string script_of(const Batch& batch, const std::string& self) {
                << " folder=" << quoted(folder.root.string()) << " ;;\n";
     }
     // The shell stays, to end what a killed supervisor would leave behind: Slurm does not reach
-    // processes that have left the job's tree.
-    script << "*) exit 64 ;;\nesac\n"
+    // processes that have left the job's tree. scancel's TERM must not end it before the supervisor.
+    script << "*) exit 64 ;;\nesac\ntrap : TERM\n"
            << "export " << attempt_mark << "=\"$attempt\"\n"
            << "exec >>\"$folder/log.txt\" 2>&1 </dev/null\n"
            << quoted(self) << " supervise --take-lock \"$folder\" ||\n"
