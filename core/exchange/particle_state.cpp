@@ -63,7 +63,7 @@ std::vector<StressMeasure> read_stress_measures(Hdf5Reader& reader, std::size_t 
         const auto measure = words::find<StressMeasure>(name);
         if (!measure)
             reader.fault(stress_of_regions, "\"" + name + "\" is neither total nor effective");
-        measures.push_back(*measure);
+        measures.push_back(measure.value_or(StressMeasure::effective));
     }
     if (measures.size() != regions)
         reader.fault(stress_of_regions, std::to_string(measures.size()) + " entries for " +
