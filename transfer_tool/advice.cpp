@@ -7,12 +7,12 @@
 #include <span>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
 
 namespace breach::transfer {
 namespace {
 
 using criteria::Criterion;
-using criteria::TelemetryLine;
 
 /// What docs/design/case.md names as signs, in the order of a failure's course.
 struct KnownSign {
@@ -30,7 +30,7 @@ constexpr std::array known_signs{
 };
 
 std::vector<std::string> missing_fields(const criteria::Expression& expression,
-                                        std::span<const TelemetryLine> telemetry) {
+                                        std::span<const telemetry::Line> telemetry) {
     std::vector<std::string> missing;
     for (const std::string& field : expression.fields)
         if (std::ranges::none_of(telemetry,
@@ -40,12 +40,12 @@ std::vector<std::string> missing_fields(const criteria::Expression& expression,
 }
 
 Sign sign_of(const std::string& name, const std::string& condition,
-             std::span<const TelemetryLine> telemetry) {
+             std::span<const telemetry::Line> telemetry) {
     const auto expression = criteria::parse(condition, criteria::Kind::condition, "");
     Sign sign{name, condition, missing_fields(expression, telemetry).empty(), {}};
     criteria::Evaluation evaluation(expression);
     bool before = false;
-    for (const TelemetryLine& line : telemetry) {
+    for (const telemetry::Line& line : telemetry) {
         const bool now = evaluation(line.time, line_for(expression, line).values) == 1.0;
         if (now && !before) sign.onsets.push_back(line.time);
         before = now;
@@ -104,13 +104,13 @@ criteria::Window window_of(const scene::Scene& scene) {
     return {std::move(lower), std::move(upper), window->hold};
 }
 
-Advice advise(const scene::Scene& scene, const std::vector<TelemetryLine>& telemetry,
+Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& telemetry,
               const std::vector<double>& snapshots) {
     criteria::Window window = window_of(scene);
     Advice advice;
     advice.begin = telemetry.front().time;
     advice.end = telemetry.back().time;
-    for (const TelemetryLine& line : telemetry) {
+    for (const telemetry::Line& line : telemetry) {
         window.take_lower(line_for(window.lower().expression(), line));
         window.take_upper(line_for(window.upper().expression(), line));
     }
@@ -133,8 +133,8 @@ Advice advise(const scene::Scene& scene, const std::vector<TelemetryLine>& telem
 }
 
 std::vector<double> snapshot_times(const std::filesystem::path& folder) {
-    constexpr std::string_view head = "snapshot_";
-    constexpr std::string_view tail = ".vtkhdf";
+    constexpr std::string_view head = phases::files::snapshot_prefix;
+    constexpr std::string_view tail = phases::files::snapshot_extension;
     std::vector<double> times;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();

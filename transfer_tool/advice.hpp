@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/criteria/telemetry.hpp"
 #include "core/criteria/window.hpp"
 #include "core/scene/scene.hpp"
 
@@ -49,7 +48,7 @@ struct Advice {
 criteria::Window window_of(const scene::Scene& scene);
 
 /// snapshots: times at which the FEM wrote one, ascending [s].
-Advice advise(const scene::Scene& scene, const std::vector<criteria::TelemetryLine>& telemetry,
+Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& telemetry,
               const std::vector<double>& snapshots);
 
 /// Times in the names of the snapshots that lie in a folder, ascending [s].

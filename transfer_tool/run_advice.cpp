@@ -1,5 +1,7 @@
 #include <spdlog/spdlog.h>
 
+#include "core/fault/fault.hpp"
+#include "core/telemetry/lines.hpp"
 #include "transfer_tool/advice.hpp"
 #include "transfer_tool/run.hpp"
 
@@ -37,9 +39,13 @@ nlohmann::json as_json(const Advice& advice) {
 process::Outcome run_advice(process::Session& session) {
     nlohmann::json& all = session.result()["advice"] = nlohmann::json::array();
     for (const std::filesystem::path& file : session.settings().inputs) {
-        const auto telemetry = criteria::read_telemetry(file);
+        const auto lines = telemetry::read(file);
+        if (lines.empty())
+            throw fault::BadInput(
+                file.string(),
+                {{"", "holds no line", "give the telemetry.jsonl of a phase that ran"}});
         const auto folder = std::filesystem::absolute(file).parent_path();
-        const Advice advice = advise(session.scene(), telemetry, snapshot_times(folder));
+        const Advice advice = advise(session.scene(), lines, snapshot_times(folder));
         spdlog::info("{}\n{}", file.string(), as_text(advice));
         all.push_back(as_json(advice));
         all.back()["telemetry"] = file.string();

@@ -1,6 +1,22 @@
 #include "core/criteria/criterion.hpp"
 
+#include <limits>
+
 namespace breach::criteria {
+
+Line line_for(const Expression& expression, const telemetry::Line& line,
+              const std::map<std::string, double>& beside) {
+    Line wanted{line.time, line.step, {}};
+    for (const std::string& field : expression.fields) {
+        const auto fixed = beside.find(field);
+        const auto own = line.values.find(field);
+        wanted.values.push_back(fixed != beside.end() ? fixed->second
+                                : own != line.values.end()
+                                    ? own->second
+                                    : std::numeric_limits<double>::quiet_NaN());
+    }
+    return wanted;
+}
 
 Criterion::Criterion(Expression condition, double hold)
     : evaluation_(std::move(condition)), hold_(hold) {}

@@ -3,11 +3,13 @@
 // same.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/criteria/evaluation.hpp"
+#include "core/telemetry/lines.hpp"
 
 namespace breach::criteria {
 
@@ -18,6 +20,11 @@ struct Line {
     std::int64_t step;
     std::vector<double> values;
 };
+
+/// The line as this expression wants it; NaN where it lacks a field. beside: numbers that stand for
+/// every line (critical_depth), before the line's own.
+Line line_for(const Expression& expression, const telemetry::Line& line,
+              const std::map<std::string, double>& beside = {});
 
 class Criterion {
   public:

@@ -11,8 +11,10 @@ std::string spelt(double time) {
     return text.data();
 }
 
-std::string snapshot_name(double time) { return "snapshot_" + spelt(time) + snapshot_extension; }
+std::string snapshot_name(double time) {
+    return snapshot_prefix + spelt(time) + snapshot_extension;
+}
 
-std::string frame_name(double time) { return "particles_" + spelt(time) + snapshot_extension; }
+std::string frame_name(double time) { return frame_prefix + spelt(time) + snapshot_extension; }
 
 }  // namespace breach::phases::files

@@ -21,6 +21,8 @@ inline constexpr const char* request = "snapshot_request";    ///< to the fem, i
 inline constexpr const char* element_tests = "element_tests.h5";
 
 inline constexpr const char* snapshot_extension = ".vtkhdf";
+inline constexpr const char* snapshot_prefix = "snapshot_";  ///< of the fem
+inline constexpr const char* frame_prefix = "particles_";    ///< of the mpm
 
 /// "0.500000": how a time is spelt in the names of snapshots and tasks.
 std::string spelt(double time);

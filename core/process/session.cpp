@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <ctime>
 #include <iostream>
+#include <limits>
 #include <string_view>
 
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
 #include "core/process/signals.hpp"
+#include "core/telemetry/lines.hpp"
 #include "core/version/version.hpp"
 
 namespace breach::process {
@@ -53,9 +55,7 @@ Session::Session(SessionSettings settings, scene::Scene scene)
     }
     const auto file = output(phases::files::telemetry);
     if (settings_.start == Start::resume && std::filesystem::exists(file)) {
-        std::ifstream old(file);
-        telemetry_lines_ = std::count(std::istreambuf_iterator<char>(old), {}, '\n');
-        truncate_telemetry(telemetry_lines_);  // drops a torn last line
+        truncate_telemetry(std::numeric_limits<std::int64_t>::max());  // but for a torn last line
     } else {
         telemetry_.open(file, std::ios::trunc);
     }
@@ -125,15 +125,10 @@ void Session::telemetry(const json& line) {
 std::int64_t Session::truncate_telemetry(std::int64_t lines) {
     const auto file = output(phases::files::telemetry);
     telemetry_.close();
-    std::ifstream old(file);
+    telemetry::LineWalk old(file);
     std::string kept;
-    std::string line;
     std::int64_t count = 0;
-    while (count < lines && std::getline(old, line) && !old.eof()) {
-        kept += line + '\n';
-        ++count;
-    }
-    old.close();
+    for (; count < lines && old.next(); ++count) kept += old.text() + '\n';
     exchange::publish_text(file, kept);
     telemetry_.clear();
     telemetry_.open(file, std::ios::app);

@@ -16,18 +16,18 @@ core = {
     "core/phases": set(),
     "core/fault": {"core/words"},
     "core/version": set(),
-    "core/criteria": {"core/fault", "core/words"},
+    "core/criteria": {"core/fault", "core/telemetry", "core/words"},
     "core/mechanics": set(),
     "core/geometry": {"core/mechanics"},
     "core/numerics": set(),
-    "core/telemetry": set(),
+    "core/telemetry": {"core/fault"},
     "core/materials": {"core/mechanics"},
     "core/grid": {"core/materials"},
     "core/scene": {"core/fault", "core/geometry", "core/grid", "core/materials", "core/mechanics", "core/words"},
     "core/exchange": {"core/fault", "core/mechanics", "core/words"},
     "core/motion": {"core/fault"},
     "core/check": {"core/criteria", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/scene", "core/telemetry"},
-    "core/process": {"core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version"},
+    "core/process": {"core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/telemetry", "core/version"},
 }
 every_core_room = set(core)
 arrows = {
@@ -38,7 +38,7 @@ arrows = {
     "mpm_solver": every_core_room,
     "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
-    "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion", "core/phases"},
+    "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion", "core/phases", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.

@@ -1,10 +1,10 @@
-// Telemetry lines as their three readers take them: criteria, the service's tail of a running phase,
-// and the API's answer.
+// Telemetry lines as they are taken: by criteria, by a watch of a running phase, and for the API's
+// answer.
 #include <fstream>
 
-#include "core/criteria/telemetry.hpp"
+#include "core/criteria/criterion.hpp"
+#include "core/telemetry/lines.hpp"
 #include "services/orchestrator/files/telemetry.hpp"
-#include "services/orchestrator/triggers/telemetry_tail.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace breach;
@@ -13,11 +13,11 @@ namespace {
 
 /// As a trigger watches a phase that writes.
 void follow(const std::filesystem::path& file) {
-    orchestrator::TelemetryTail tail(file);
+    telemetry::Tail tail(file);
     double last = -1.0;
     for (const auto& line : tail.fresh()) {
-        fuzz::require(line["time"] > last, "times ascend");
-        last = line["time"];
+        fuzz::require(line.time > last, "times ascend");
+        last = line.time;
     }
     fuzz::require(tail.fresh().empty(), "each line is given out once");
 }
@@ -27,7 +27,7 @@ void follow(const std::filesystem::path& file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const fuzz::File file(fuzz::text_of(data, size));
     fuzz::taken([&] {
-        const auto lines = criteria::read_telemetry(file.path());
+        const auto lines = telemetry::read(file.path());
         const auto expression = criteria::parse("time > 1 and rate(x, 0.5) < 2 * abs(step)",
                                                 criteria::Kind::condition, "/when");
         criteria::Criterion criterion(expression, 0.1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/phases/files.hpp"
 #include "services/orchestrator/files/telemetry.hpp"
 
 namespace breach::orchestrator {
@@ -46,7 +47,7 @@ std::optional<double> value_of(const Task& task, const Quantity& quantity, const
     // A course of more lines than one answer holds is read on.
     TelemetryWish wish{.fields = {"time", quantity.name}};
     for (;;) {
-        const json part = read_telemetry(data.output(task) / "telemetry.jsonl", wish);
+        const json part = read_telemetry(data.output(task) / phases::files::telemetry, wish);
         if (const auto value = value_at(part.at("lines"), quantity.name, *quantity.time))
             return value;
         if (part.at("next") <= wish.from + 1 || part.at("lines").empty()) return std::nullopt;

@@ -1,6 +1,6 @@
 #include "services/orchestrator/files/telemetry.hpp"
 
-#include <fstream>
+#include "core/telemetry/lines.hpp"
 
 namespace breach::orchestrator {
 
@@ -24,12 +24,11 @@ json chosen(const json& line, const std::vector<std::string>& fields) {
 json read_telemetry(const std::filesystem::path& file, const TelemetryWish& wish) {
     json lines = json::array();
     std::int64_t number = 0;
-    std::ifstream stream(file, std::ios::binary);
-    std::string text;
-    while (lines.size() < most_lines && std::getline(stream, text) && !stream.eof()) {
+    telemetry::LineWalk walk(file);
+    while (lines.size() < most_lines && walk.next()) {
         const std::int64_t here = number++;
         if (here < wish.from || here % wish.stride != 0) continue;
-        const json line = json::parse(text, nullptr, false);
+        const json line = json::parse(walk.text(), nullptr, false);
         if (line.is_object()) lines.push_back(chosen(line, wish.fields));
     }
     return {{"lines", std::move(lines)}, {"next", std::max(number, wish.from)}};

@@ -1,8 +1,8 @@
 // Triggers of a run: what became of them, and new ones.
 #include "core/phases/files.hpp"
 #include "core/scene/schema.hpp"
+#include "core/telemetry/lines.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
-#include "services/orchestrator/triggers/telemetry_tail.hpp"
 
 namespace breach::orchestrator {
 
@@ -57,9 +57,8 @@ bool runs_now(const Task& fem) {
 
 /// Simulated time of the last whole line.
 double reached(const DataFolder& data, const Task& fem) {
-    const std::vector<json> lines =
-        TelemetryTail(data.output(fem) / phases::files::telemetry).fresh();
-    return lines.empty() ? 0.0 : lines.back().at("time").get<double>();
+    const auto lines = telemetry::Tail(data.output(fem) / phases::files::telemetry).fresh();
+    return lines.empty() ? 0.0 : lines.back().time;
 }
 
 TriggerPlan checked(const Service& service, const std::string& run, const std::string& body) {

@@ -52,23 +52,6 @@ bool asks_for_critical_depth(const Work& work) {
                        asks_for_critical_depth(between->window.upper()));
 }
 
-/// critical_depth stands beside the fields of the telemetry.
-criteria::Line line_for(const criteria::Expression& expression, const json& telemetry,
-                        std::optional<double> critical_depth) {
-    criteria::Line line{telemetry.at("time"), telemetry.value("step", std::int64_t{0}), {}};
-    for (const std::string& field : expression.fields) {
-        if (field == critical_depth_field) {
-            line.values.push_back(critical_depth.value());
-            continue;
-        }
-        const auto found = telemetry.find(field);
-        const bool known = found != telemetry.end() && found->is_number();
-        line.values.push_back(known ? found->get<double>()
-                                    : std::numeric_limits<double>::quiet_NaN());
-    }
-    return line;
-}
-
 /// The values on the crossing line, by name.
 json crossing_of(const criteria::Criterion& criterion) {
     const criteria::Line& line = *criterion.crossing();
@@ -143,7 +126,7 @@ void TriggerWatch::load_open_triggers() {
                 has_regular_snapshots(task, json::parse(*store_.scene_of(task.run)));
             Fem fem{.task = std::move(task),
                     .output = output,
-                    .tail = TelemetryTail(output / phases::files::telemetry),
+                    .tail = telemetry::Tail(output / phases::files::telemetry),
                     .regular = regular};
             found = fems_.emplace(trigger.fem_task, std::move(fem)).first;
         }
@@ -168,7 +151,7 @@ void TriggerWatch::read_on(Fem& fem) {
     // Asked before reading: what ended before was written before.
     fem.ended = has_ended(fem.task.state);
     if (!fem.ended) fem.watch = watch_.add(fem.tail.file(), Notice::every_change);
-    for (json& line : fem.tail.fresh()) fem.lines.push_back(std::move(line));
+    for (telemetry::Line& line : fem.tail.fresh()) fem.lines.push_back(std::move(line));
     if (!fem.critical_depth) look_for_stability(fem);
     fem.snapshots.clear();
     for (Frame& each : frames_in(fem.output, fem.task.phase))
@@ -199,9 +182,11 @@ void TriggerWatch::feed(const Fem& fem, Armed& armed) {
     }
 }
 
-void TriggerWatch::take_line(const Fem& fem, Armed& armed, const json& line) {
+void TriggerWatch::take_line(const Fem& fem, Armed& armed, const telemetry::Line& line) {
+    std::map<std::string, double> beside;
+    if (fem.critical_depth) beside.emplace(critical_depth_field, *fem.critical_depth);
     const auto on = [&](const criteria::Criterion& criterion) {
-        return line_for(criterion.expression(), line, fem.critical_depth);
+        return criteria::line_for(criterion.expression(), line, beside);
     };
     const auto note = [&](const criteria::Criterion& criterion, bool before) {
         if (before || criterion.state() != criteria::Criterion::State::met) return;

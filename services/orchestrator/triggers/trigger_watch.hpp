@@ -13,10 +13,10 @@
 #include <chrono>
 #include <map>
 
+#include "core/telemetry/lines.hpp"
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/files/folder_watch.hpp"
 #include "services/orchestrator/store/store.hpp"
-#include "services/orchestrator/triggers/telemetry_tail.hpp"
 
 namespace breach::orchestrator {
 
@@ -50,9 +50,9 @@ class TriggerWatch {
     struct Fem {
         Task task;
         std::filesystem::path output;
-        TelemetryTail tail;
+        telemetry::Tail tail;
         int watch = -1;
-        std::vector<nlohmann::json> lines = {};  ///< all so far, for triggers that come later
+        std::vector<telemetry::Line> lines = {};  ///< all so far, for triggers that come later
         std::vector<Armed> armed = {};
         bool ended = false;
         bool regular = false;  ///< takes snapshots at an interval
@@ -68,7 +68,7 @@ class TriggerWatch {
     void arm(Fem& fem, const Trigger& trigger);
     void read_on(Fem& fem);
     void feed(const Fem& fem, Armed& armed);
-    void take_line(const Fem& fem, Armed& armed, const nlohmann::json& line);
+    void take_line(const Fem& fem, Armed& armed, const telemetry::Line& line);
     void look_for_stability(Fem& fem);
     void settle(Fem& fem, Armed& armed);
     void settle_work(Fem& fem, Armed& armed, Manual& manual);

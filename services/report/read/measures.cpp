@@ -50,7 +50,7 @@ std::optional<double> entangled_at(const PhaseFolder& fem, const Telemetry& tele
         return number_at(fem.result.value("entanglement", json::object()), "time");
     }
     if (fem.fault.find("entangled") == std::string::npos || telemetry.lines().empty()) return {};
-    return telemetry.lines().back().at("time").get<double>();
+    return telemetry.lines().back().time;
 }
 
 void measure_shaking(const Run& run, const std::optional<Paper>& paper, Measures& found) {

@@ -3,21 +3,20 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/criteria/expression.hpp"
+#include "core/telemetry/lines.hpp"
 #include "services/report/chart/chart.hpp"
 
 namespace breach::report {
 
 class Telemetry {
   public:
-    /// A last line that is not whole (the phase still writes) is left out. `beside`: numbers that
-    /// conditions may ask for as if every line had them (critical_depth). Throws IoError, or
-    /// BadInput naming the line.
+    /// The lines that telemetry::read gives, with what it throws. `beside`: numbers that conditions
+    /// may ask for as if every line had them (critical_depth).
     explicit Telemetry(const std::filesystem::path& file,
                        std::map<std::string, double> beside = {});
 
@@ -29,10 +28,10 @@ class Telemetry {
     std::optional<double> first_time(const criteria::Expression& condition) const;
     std::optional<double> first_time(const std::string& condition) const;
 
-    const std::vector<nlohmann::json>& lines() const { return lines_; }
+    const std::vector<telemetry::Line>& lines() const { return lines_; }
 
   private:
-    std::vector<nlohmann::json> lines_;
+    std::vector<telemetry::Line> lines_;
     std::map<std::string, double> beside_;
 };
 

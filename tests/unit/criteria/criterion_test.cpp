@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/criteria/window.hpp"
 
 namespace breach::criteria {
@@ -31,6 +33,17 @@ TEST(Criterion, CrossedAndUncrossedInsideTheHoldIsArmedAgain) {
     EXPECT_EQ(c.take({0.25, 5, {2}}), State::met);  // 0.25 - 0.20 is a little less than 0.05
     EXPECT_DOUBLE_EQ(c.crossing()->time, 0.20);
     EXPECT_DOUBLE_EQ(c.met_at(), 0.25);
+}
+
+TEST(Criterion, TakesOfALineWhatItsExpressionAsksForAndNumbersThatStandBeside) {
+    const Expression asked = parse("energy > 1 and depth > 2 and speed < 3", Kind::condition, "");
+    const Line line = line_for(asked, {0.5, 3, {{"energy", 2}, {"speed", 1}}}, {{"speed", 7}});
+    EXPECT_EQ(line.time, 0.5);
+    EXPECT_EQ(line.step, 3);
+    ASSERT_EQ(line.values.size(), 3u);
+    EXPECT_EQ(line.values[0], 2.0);
+    EXPECT_TRUE(std::isnan(line.values[1])) << "the line has no depth";
+    EXPECT_EQ(line.values[2], 7.0);
 }
 
 TEST(Window, UpperEdgeBeforeTheLowerOneDoesNotCount) {

@@ -20,8 +20,8 @@ scene::Scene case_scene() {
 }
 
 /// The course in docs/design/case.md: depth 18.5 m at 14.75 s, 20 % at 17.5 s.
-std::vector<criteria::TelemetryLine> course(double until) {
-    std::vector<criteria::TelemetryLine> lines;
+std::vector<telemetry::Line> course(double until) {
+    std::vector<telemetry::Line> lines;
     for (int i = 0; 0.05 * i <= until + 1e-9; ++i) {
         const double t = 0.05 * i;
         lines.push_back({t,

@@ -1,0 +1,63 @@
+// telemetry.jsonl as it lies on the disk: one JSON object per line, numbers by name, which a phase
+// may still be writing. What a whole line is and which lines count is said here and nowhere else.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace breach::telemetry {
+
+/// Goes over a file line by line. A last line without its line break is still being written: it is
+/// not given out before it is ended.
+class LineWalk {
+  public:
+    /// from: where an earlier walk had come to [bytes].
+    explicit LineWalk(const std::filesystem::path& file, std::streamoff from = 0);
+
+    /// Goes to the next line; false: there is none yet, or the file cannot be read.
+    bool next();
+    /// The line; once next() was false, what stands behind the last line break.
+    const std::string& text() const { return text_; }
+    /// Behind the line break of the last line [bytes].
+    std::streamoff position() const { return position_; }
+    bool can_be_read() const { return readable_; }
+
+  private:
+    std::ifstream stream_;
+    std::string text_;
+    std::streamoff position_;
+    bool readable_;
+};
+
+struct Line {
+    double time;                                        ///< simulated [s]
+    std::int64_t step;                                  ///< 0 where the line has none
+    std::map<std::string, double, std::less<>> values;  ///< its numbers, "time" among them
+};
+
+/// The lines that count, of a file that nobody writes any more or that may still end inside one: a
+/// line that is not later than one before it (a phase that was resumed) is left out. Throws IoError
+/// when the file cannot be read, BadInput naming a line that is no JSON object with a time.
+std::vector<Line> read(const std::filesystem::path& file);
+
+/// The same lines of a phase that runs, each once. Who watches cannot refuse what was written: what
+/// is no line with a time is passed over.
+class Tail {
+  public:
+    explicit Tail(std::filesystem::path file) : file_(std::move(file)) {}
+
+    /// What is new since the last call. A file that has become shorter is read from its beginning.
+    std::vector<Line> fresh();
+    const std::filesystem::path& file() const { return file_; }
+
+  private:
+    std::filesystem::path file_;
+    std::streamoff read_ = 0;
+    double last_time_ = -1.0;
+};
+
+}  // namespace breach::telemetry
