@@ -5,8 +5,9 @@
 #include <spdlog/spdlog.h>
 
 #include "services/orchestrator/http/http_routes.hpp"
-#include "services/orchestrator/records/identity.hpp"
+#include "tests/folder.hpp"
 #include "tests/fuzz/fuzz.hpp"
+#include "tests/unit/orchestrator/small_run.hpp"
 
 using namespace breach;
 using namespace breach::orchestrator;
@@ -54,30 +55,11 @@ class NoExecutor : public Executor {
     AtStop at_stop() const override { return AtStop::leaves_them; }
 };
 
-struct TemporaryFolder {
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "breach_fuzz_XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    std::filesystem::path path;
-};
-
 NewRun known_run() {
-    return {.id = "run",
-            .name = "known",
-            .title = "",
-            .study = R"({"transfer_times":[0.5]})",
-            .scene = "{}",
-            .tasks = {{.phase = "fem_solver",
-                       .label = "fem",
-                       .transfer_time = {},
-                       .parent = {},
-                       .release = Release::at_once,
-                       .input = "",
-                       .overrides = {}}}};
+    NewRun run = small_run();
+    run.id = "run";
+    run.study = R"({"transfer_times":[0.5]})";
+    return run;
 }
 
 DispatchSettings without_slots(const std::filesystem::path& bin) {
@@ -91,15 +73,15 @@ DispatchSettings without_slots(const std::filesystem::path& bin) {
 class Stand : public httplib::Server {
   public:
     Stand()
-        : data_(folder_.path),
+        : data_(folder_.path()),
           store_(data_.database()),
-          dispatcher_(store_, data_, executor_, board_, without_slots(folder_.path)),
+          dispatcher_(store_, data_, executor_, board_, without_slots(folder_.path())),
           service_{store_,
                    data_,
                    dispatcher_,
                    board_,
                    frames_,
-                   folder_.path,
+                   folder_.path(),
                    {{"lem_tool", 1}, {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}},
                    BREACH_ROOT "/services/web/static",
                    BREACH_ROOT "/workflows"} {
@@ -126,7 +108,7 @@ class Stand : public httplib::Server {
     }
 
   private:
-    TemporaryFolder folder_;
+    const test::Folder folder_;
     DataFolder data_;
     Store store_;
     ProgressBoard board_;

@@ -1,4 +1,4 @@
-// Small states with a different number in every place, and a folder that vanishes with the test.
+// Small states with a different number in every place.
 #pragma once
 
 #include <unistd.h>
@@ -11,28 +11,11 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
+#include "tests/folder.hpp"
 
 namespace breach::exchange::samples {
 
-class Folder {
-  public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "breach_XXXXXX").string();
-        path_ = ::mkdtemp(name.data());
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() { std::filesystem::remove_all(path_); }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-    std::size_t entries() const {
-        return static_cast<std::size_t>(
-            std::distance(std::filesystem::directory_iterator(path_), {}));
-    }
-
-  private:
-    std::filesystem::path path_;
-};
+using test::Folder;
 
 inline std::string content(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

@@ -6,18 +6,15 @@
 #include <fstream>
 
 #include "fem_solver/mesh/mesh.hpp"
+#include "tests/folder.hpp"
 
 namespace breach::fem {
 namespace {
 
 class Gmsh : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "breach_gmsh_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::filesystem::path folder_;
+    const test::Folder scratch_;
+    const std::filesystem::path& folder_ = scratch_.path();
 };
 
 /// A dam of unstructured quads on a block of foundation.

@@ -10,6 +10,8 @@
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/migrations.hpp"
 #include "services/orchestrator/store/versions.hpp"
+#include "tests/folder.hpp"
+#include "tests/unit/orchestrator/small_run.hpp"
 
 namespace breach::orchestrator {
 namespace {
@@ -18,42 +20,7 @@ using nlohmann::json;
 
 class StoreTest : public ::testing::Test {
   protected:
-    StoreTest() {
-        std::string pattern = std::filesystem::temp_directory_path() / "breachline-store-XXXXXX";
-        folder_ = mkdtemp(pattern.data());
-    }
-    ~StoreTest() override { std::filesystem::remove_all(folder_); }
     std::filesystem::path file() const { return folder_ / "test.db"; }
-
-    /// A FEM, one transfer and one MPM.
-    static NewRun small_run() {
-        return {.id = new_run_id(),
-                .name = "small",
-                .title = "",
-                .study = "{}",
-                .scene = "{}",
-                .tasks = {{.phase = "fem_solver",
-                           .label = "fem",
-                           .transfer_time = {},
-                           .parent = {},
-                           .release = Release::at_once,
-                           .input = "",
-                           .overrides = {"/a=1"}},
-                          {.phase = "transfer_tool",
-                           .label = "transfer_0.500000",
-                           .transfer_time = 0.5,
-                           .parent = 0,
-                           .release = Release::file_exists,
-                           .input = "snapshot_0.500000.vtkhdf",
-                           .overrides = {}},
-                          {.phase = "mpm_solver",
-                           .label = "mpm_0.500000",
-                           .transfer_time = 0.5,
-                           .parent = 1,
-                           .release = Release::parent_succeeded,
-                           .input = "particles.vtkhdf",
-                           .overrides = {}}}};
-    }
 
     static void bring_to_success(Store& store, const std::string& task, const json& result) {
         store.write([&](Transaction& t) {
@@ -70,7 +37,7 @@ class StoreTest : public ::testing::Test {
         });
     }
 
-    std::filesystem::path folder_;
+    const test::Folder folder_;
 };
 
 TEST_F(StoreTest, RunsTasksAttemptsAndArtifactsComeBackAsTheyWereWritten) {

@@ -16,6 +16,7 @@
 #include "services/orchestrator/records/trigger.hpp"
 #include "services/orchestrator/study/graph.hpp"
 #include "services/orchestrator/study/recipe.hpp"
+#include "tests/folder.hpp"
 
 namespace breach::orchestrator {
 namespace {
@@ -310,12 +311,9 @@ TEST(Recipe, FollowsTheNumericsThatThePhaseSays) {
 class NumericsOfPhases : public ::testing::Test {
   protected:
     void SetUp() override {
-        std::string pattern = std::filesystem::temp_directory_path() / "breach-phases-XXXXXX";
-        bin_ = mkdtemp(pattern.data());
         for (const auto& [phase, number] : numerics)
             write(phase, "echo " + phase + " 0.1.0; echo numerics " + std::to_string(number));
     }
-    void TearDown() override { std::filesystem::remove_all(bin_); }
     void write(const std::string& phase, const std::string& what) const {
         std::ofstream(bin_ / phase) << "#!/bin/sh\n" << what << "\n";
         std::filesystem::permissions(bin_ / phase, std::filesystem::perms::owner_all);
@@ -328,7 +326,8 @@ class NumericsOfPhases : public ::testing::Test {
         }
         return {};
     }
-    std::filesystem::path bin_;
+    const test::Folder folder_;
+    const std::filesystem::path& bin_ = folder_.path();
 };
 
 TEST_F(NumericsOfPhases, AreWhatTheProgramsSay) { EXPECT_EQ(numerics_of_phases(bin_), numerics); }

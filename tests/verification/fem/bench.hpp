@@ -10,6 +10,7 @@
 
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/model/build_model.hpp"
+#include "tests/folder.hpp"
 
 namespace breach::fem::bench {
 
@@ -54,21 +55,7 @@ inline Model model_of(const scene::Scene& scene) {
     return build_model(scene, build_mesh(scene, std::filesystem::temp_directory_path()));
 }
 
-/// An empty folder that goes away with the test.
-class Folder {
-  public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "breach_fem_XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+using test::Folder;
 
 inline process::SessionSettings settings_for(const std::filesystem::path& output,
                                              process::Start start = process::Start::fresh) {
