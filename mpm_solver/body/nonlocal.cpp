@@ -71,7 +71,7 @@ NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zon
 
 void NonlocalSoftening::remember(const Points& points, const std::vector<Zone>& zones) {
     for (std::size_t z = 0; z < zones.size(); ++z) {
-        if (neighbours_.empty() || neighbours_[z].empty()) continue;
+        if (neighbours_[z].empty()) continue;
         std::copy(points.epsilon_q_plastic.begin() + zones[z].begin,
                   points.epsilon_q_plastic.begin() + zones[z].end,
                   before_.begin() + zones[z].begin);

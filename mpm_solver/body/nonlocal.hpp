@@ -20,7 +20,7 @@ class NonlocalSoftening {
                       KernelKind kernel, double gimp_half_size, double widest);
 
     bool is_on() const { return !groups_.empty(); }
-    /// Before the stress update of a step: from where the strains grow.
+    /// Before the stress update of a step, where it is on: from where the strains grow.
     void remember(const Points& points, const std::vector<Zone>& zones);
     /// After it: the growth of every brittle point becomes its neighbourhood's.
     void spread(Points& points, const std::vector<Zone>& zones, const Grid& grid);

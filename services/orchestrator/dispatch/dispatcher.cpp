@@ -19,7 +19,6 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
-constexpr auto pause_after_trouble = std::chrono::seconds(1);
 
 std::string in_seconds(double time) {
     std::ostringstream text;

@@ -1,14 +1,6 @@
 #include "services/orchestrator/dispatch/task_queue.hpp"
 
-#include <chrono>
-
 namespace breach::orchestrator {
-
-namespace {
-
-constexpr auto pause_before_next_try = std::chrono::seconds(1);
-
-}  // namespace
 
 TaskQueue::TaskQueue(std::function<Handled(const Task&)> handle) : handle_(std::move(handle)) {
     thread_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
@@ -31,7 +23,7 @@ void TaskQueue::serve(std::stop_token stop) {
         lock.unlock();
         if (handle_(task) == Handled::done) continue;
         lock.lock();
-        arrived_.wait_for(lock, stop, pause_before_next_try, [] { return false; });
+        arrived_.wait_for(lock, stop, pause_after_trouble, [] { return false; });
         waiting_.push_back(std::move(task));
     }
 }

@@ -1,6 +1,7 @@
 // Tasks that a thread of their own works through, in the order of their arrival.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -10,6 +11,9 @@
 #include "services/orchestrator/records/records.hpp"
 
 namespace breach::orchestrator {
+
+/// Before what failed for a reason outside (a full disk) is tried again.
+inline constexpr auto pause_after_trouble = std::chrono::seconds(1);
 
 enum class Handled { done, again_later };
 
