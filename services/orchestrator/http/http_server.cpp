@@ -69,14 +69,6 @@ Problem problem_of(int status) {
     return {status, "/problems/bad-request", "Bad request", "the request cannot be understood"};
 }
 
-/// Debian's httplib listens with a backlog of 5: of fifty clients that knock at once, some would
-/// wait a second for their connection, or give up. Linux lets a listening socket's backlog be
-/// raised.
-class WideServer : public httplib::Server {
-  public:
-    void widen_backlog() const { ::listen(svr_sock_, 512); }
-};
-
 }  // namespace
 
 class HttpServer::Implementation {
@@ -110,6 +102,14 @@ class HttpServer::Implementation {
     }
 
   private:
+    /// Debian's httplib listens with a backlog of 5: of fifty clients that knock at once, some would
+    /// wait a second for their connection, or give up. Linux lets a listening socket's backlog be
+    /// raised.
+    class WideServer : public httplib::Server {
+      public:
+        void widen_backlog() const { ::listen(svr_sock_, 512); }
+    };
+
     void set_limits() {
         server_.new_task_queue = [] { return new httplib::ThreadPool(threads); };
         server_.set_payload_max_length(largest_body);

@@ -33,22 +33,23 @@ static constexpr auto words_of(TriggerEvent) {
 
 namespace {
 
-using S = TriggerState;
-using E = TriggerEvent;
-
 struct TriggerRule {
-    S from;
-    E event;
-    S to;
+    TriggerState from;
+    TriggerEvent event;
+    TriggerState to;
 };
 
-constexpr std::array table{
-    TriggerRule{S::armed, E::cross, S::holding},    TriggerRule{S::armed, E::fire, S::fired},
-    TriggerRule{S::armed, E::expire, S::expired},   TriggerRule{S::armed, E::disarm, S::disarmed},
-    TriggerRule{S::holding, E::uncross, S::armed},  TriggerRule{S::holding, E::fire, S::fired},
-    TriggerRule{S::holding, E::expire, S::expired}, TriggerRule{S::holding, E::disarm, S::disarmed},
-    TriggerRule{S::expired, E::rearm, S::armed},    TriggerRule{S::disarmed, E::rearm, S::armed},
-};
+constexpr auto trigger_table = [] {
+    using enum TriggerState;
+    using enum TriggerEvent;
+    return std::array{
+        TriggerRule{armed, cross, holding},    TriggerRule{armed, fire, fired},
+        TriggerRule{armed, expire, expired},   TriggerRule{armed, disarm, disarmed},
+        TriggerRule{holding, uncross, armed},  TriggerRule{holding, fire, fired},
+        TriggerRule{holding, expire, expired}, TriggerRule{holding, disarm, disarmed},
+        TriggerRule{expired, rearm, armed},    TriggerRule{disarmed, rearm, armed},
+    };
+}();
 
 constexpr double default_within_share = 0.05;    // of the dynamic stages
 constexpr double default_window_shares = 100.0;  // snapshots over the dynamic stages
@@ -130,13 +131,16 @@ criteria::Expression condition(const json& spec, const char* key) {
 }  // namespace
 
 std::optional<TriggerState> next(TriggerState from, TriggerEvent event) {
-    const auto found = std::ranges::find_if(
-        table, [&](const TriggerRule& rule) { return rule.from == from && rule.event == event; });
-    if (found == table.end()) return std::nullopt;
+    const auto found = std::ranges::find_if(trigger_table, [&](const TriggerRule& rule) {
+        return rule.from == from && rule.event == event;
+    });
+    if (found == trigger_table.end()) return std::nullopt;
     return found->to;
 }
 
-bool is_final(TriggerState state) { return state != S::armed && state != S::holding; }
+bool is_final(TriggerState state) {
+    return state != TriggerState::armed && state != TriggerState::holding;
+}
 std::string_view name_of(TriggerState state) { return words::name_of(state); }
 std::string_view name_of(TriggerEvent event) { return words::name_of(event); }
 
