@@ -1,5 +1,6 @@
 #include <string_view>
 
+#include "core/phases/phases.hpp"
 #include "core/process/phase.hpp"
 #include "fem_solver/element_bench/run.hpp"
 #include "fem_solver/run.hpp"
@@ -16,7 +17,7 @@ int main(int argc, char** argv) {
                                           breach::element_bench::calibrate_phase());
     }
     breach::process::Phase phase{
-        .name = "fem_solver",
+        .name = phases::fem.program,
         .purpose =
             "Dynamic finite elements: from geostatic stress to the failing slope. "
             "Also: fem_solver element-test, fem_solver calibrate",

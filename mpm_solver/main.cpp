@@ -1,11 +1,12 @@
 // mpm_solver: the runout of a failing mass by the material point method.
+#include "core/phases/phases.hpp"
 #include "core/process/phase.hpp"
 #include "mpm_solver/run.hpp"
 
 int main(int argc, char** argv) {
     using namespace breach;
     process::Phase phase{
-        .name = "mpm_solver",
+        .name = phases::mpm.program,
         .purpose = "Runout of a failing mass by the material point method (plane strain, explicit)",
         .inputs = {.least = 0,
                    .most = 1,

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "mpm_solver/results.hpp"
@@ -47,7 +48,7 @@ void write_frame(Session& session, Simulation& simulation) {
 
 void report(Session& session, const Simulation& simulation) {
     const Row& row = simulation.last_row();
-    json line{{"phase", "mpm_solver"}};
+    json line{{"phase", phases::mpm.program}};
     for_each_column(row, [&](const char* name, const char*, double value) { line[name] = value; });
     line["step"] = static_cast<std::int64_t>(row.step);
     line["front"] = session.scene().mpm->runout.toe.x() + row.runout_beyond_toe;

@@ -1,5 +1,6 @@
 #include <string_view>
 
+#include "core/phases/phases.hpp"
 #include "core/process/phase.hpp"
 #include "transfer_tool/run.hpp"
 
@@ -9,7 +10,7 @@ int main(int argc, char** argv) {
         return breach::process::run_phase(argc - 1, argv + 1, breach::transfer::advise_phase());
     return breach::process::run_phase(
         argc, argv,
-        {.name = "transfer_tool",
+        {.name = phases::transfer.program,
          .purpose = "From a FEM snapshot to material points, with a ledger of what was kept. "
                     "Also: transfer_tool advise",
          .inputs = {1, 1, "a FEM snapshot (.vtkhdf)"},

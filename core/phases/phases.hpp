@@ -15,14 +15,15 @@ struct Phase {
     const char* analyses;  ///< several of them
     const char* results;   ///< several results
     const char* frames;    ///< what its snapshots show: "mesh", "particles"
+    bool has_default_part = false;  ///< a scene that lacks the part is completed with it
 };
 
 inline constexpr Phase lem{
     "lem_tool", "lem", "the limit equilibrium", "stability analyses", "results of lem_tool",
     "particles"};
 inline constexpr Phase fem{"fem_solver", "fem", "the FEM", "FEM analyses", "FEM results", "mesh"};
-inline constexpr Phase transfer{"transfer_tool", "transfer",  "the transfer",
-                                "transfers",     "transfers", "particles"};
+inline constexpr Phase transfer{
+    "transfer_tool", "transfer", "the transfer", "transfers", "transfers", "particles", true};
 inline constexpr Phase mpm{"mpm_solver", "mpm", "the runout", "runouts", "runouts", "particles"};
 
 /// In the order in which their results build on each other.

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
@@ -12,6 +11,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "core/process/signals.hpp"
 #include "core/telemetry/lines.hpp"
 #include "core/version/version.hpp"
@@ -37,11 +37,11 @@ void draw_bar(double fraction, const std::string& message) {
 /// A phase answers for what it reads. The results of the others do not change with its part of the
 /// scene; variants of a study share them, and must not share its flags.
 bool concerns(const std::string& phase, const std::string& pointer) {
-    constexpr std::array<std::string_view, 4> parts{"/lem", "/fem", "/transfer", "/mpm"};
-    const std::string part = pointer.substr(0, pointer.find('/', 1));
-    std::string own = phase.substr(0, phase.find('_'));
-    own.insert(own.begin(), '/');
-    return part == own || std::ranges::find(parts, part) == parts.end();
+    const std::string_view part = std::string_view(pointer).substr(0, pointer.find('/', 1));
+    for (const phases::Phase& each : phases::all)
+        if (part.starts_with('/') && part.substr(1) == each.part)
+            return phase.starts_with(each.program);
+    return true;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/phases/phases.hpp"
 #include "core/telemetry/columns.hpp"
 
 namespace breach::fem {
@@ -151,7 +152,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
 }
 
 nlohmann::json telemetry_line(const Reading& reading) {
-    nlohmann::json line{{"phase", "fem_solver"}};
+    nlohmann::json line{{"phase", phases::fem.program}};
     for (const Column& column : columns()) line[column.name] = reading.*column.member;
     line["step"] = static_cast<std::int64_t>(reading.step);
     line["failure_surfaces"] = static_cast<std::int64_t>(reading.failure_surfaces);

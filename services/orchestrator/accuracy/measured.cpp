@@ -99,7 +99,7 @@ std::optional<double> value_at(const json& lines, const std::string& field, doub
 std::map<std::string, Measured> measured_variants(const std::vector<Task>& tasks,
                                                   const Quantity& quantity,
                                                   const DataFolder& data) {
-    const std::string last = phases_of(quantity.reach).back();
+    const std::string last = phases_of(quantity.reach).back().program;
     TasksById by_id;
     for (const Task& each : tasks) by_id[each.id] = &each;
     std::map<std::string, Measured> found;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 
@@ -125,7 +126,7 @@ class Studies {
         std::map<std::string, Task> tasks;
         for (Task& each : store_.tasks_of(run)) tasks.emplace(each.id, std::move(each));
         for (const auto& [id, task] : tasks) {
-            if (task.phase != "mpm_solver" || !task.parent) continue;
+            if (task.phase != phases::mpm.program || !task.parent) continue;
             const Task& transfer = tasks.at(*task.parent);
             if (const auto question = questions_.of(task, transfer, tasks.at(*transfer.parent)))
                 rungs_.emplace(*question, std::pair{run, task.variant});

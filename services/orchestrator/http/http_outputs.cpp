@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/files/telemetry.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
@@ -66,7 +67,7 @@ Task meant_task(const Service& service, const std::string& run, const std::strin
 void telemetry(const Service& service, Call& call) {
     call.allow_parameters({"phase", "transfer_time", "variant", "fields", "from", "stride"});
     wanted_run(service, call.parts[0]);
-    const std::string phase = call.parameter("phase").value_or("fem_solver");
+    const std::string phase = call.parameter("phase").value_or(phases::fem.program);
     const Task task = meant_task(service, call.parts[0], phase, call.number("transfer_time"),
                                  call.parameter("variant"));
     TelemetryWish wish{.fields = {},

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/exchange/provenance.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
@@ -69,7 +70,7 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
     // What a FEM was asked for on its way does not follow from its scene.
     if (!study.triggers.empty() && study.snapshot_interval <= 0.0)
         for (TaskPlan& each : graph.tasks)
-            if (each.phase == "fem_solver") each.recipe.clear();
+            if (each.phase == phases::fem.program) each.recipe.clear();
     return {.id = new_run_id(),
             .name = study.name,
             .title = study.title,

@@ -1,5 +1,6 @@
 // Triggers of a run: what became of them, and new ones.
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "core/scene/schema.hpp"
 #include "core/telemetry/lines.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
@@ -89,7 +90,7 @@ void add(Service& service, Call& call) {
     }
     std::vector<std::pair<std::string, TriggerPlan>> wanted;
     for (const Task& task : service.store.tasks_of(run)) {
-        if (task.phase != "fem_solver" || task.state == TaskState::cancelled) continue;
+        if (task.phase != phases::fem.program || task.state == TaskState::cancelled) continue;
         if (plan.kind == "manual" && !runs_now(task)) continue;
         wanted.emplace_back(task.id, plan);
         if (plan.kind == "manual") wanted.back().second.spec["after"] = reached(service.data, task);

@@ -1,5 +1,6 @@
 #include "services/orchestrator/records/firing_plan.hpp"
 
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
@@ -16,7 +17,7 @@ std::vector<TaskPlan> from_labels(const json& rows) {
         const std::string parent = row.at("parent");
         if (!places.contains(parent)) {
             places[parent] = plan.size();
-            plan.push_back({.phase = "fem_solver",
+            plan.push_back({.phase = phases::fem.program,
                             .label = parent,
                             .transfer_time = {},
                             .parent = {},

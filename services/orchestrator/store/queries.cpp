@@ -1,6 +1,7 @@
 // The reading half of the store.
 #include <algorithm>
 
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/store/views.hpp"
 
@@ -135,12 +136,12 @@ void Store::add_flags(Connection& database, std::vector<Run>& runs) {
     for (const Run& each : runs) ids.push_back(each.id);
     database.query(
         "SELECT run, code, phase, severity='questionable', count(DISTINCT task), CASE WHEN "
-        "severity<>'questionable' THEN 0 WHEN phase='mpm_solver' THEN (SELECT runouts FROM "
+        "severity<>'questionable' THEN 0 WHEN phase=?2 THEN (SELECT runouts FROM "
         "run_counts WHERE run_counts.run=flags.run) ELSE (SELECT count(*) FROM tasks WHERE "
         "tasks.run=flags.run AND tasks.phase=flags.phase AND tasks.state IN ('succeeded', "
-        "'cached')) END FROM flags WHERE run IN (SELECT value FROM json_each(?)) GROUP BY run, "
+        "'cached')) END FROM flags WHERE run IN (SELECT value FROM json_each(?1)) GROUP BY run, "
         "severity, code, phase",
-        {ids.dump()}, [&](const Row& row) {
+        {ids.dump(), phases::mpm.program}, [&](const Row& row) {
             std::ranges::find(runs, row.text(0), &Run::id)
                 ->flags.push_back({.code = row.text(1),
                                    .phase = row.text(2),
@@ -372,8 +373,8 @@ std::pair<std::int64_t, std::int64_t> Store::points_of(const std::string& run) c
     read([&](Connection& database) {
         database.query(
             "SELECT count(*), coalesce(sum(state IN ('succeeded', 'cached')), 0) FROM tasks WHERE "
-            "run=? AND phase='mpm_solver'",
-            {run}, [&](const Row& row) {
+            "run=? AND phase=?",
+            {run, phases::mpm.program}, [&](const Row& row) {
                 counts = {row.integer(0), row.integer(1)};
             });
     });
@@ -414,7 +415,9 @@ std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter
         sql +=
             "mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants ON "
             "variants.run=tasks.run AND variants.name=tasks.variant WHERE tasks.run=?1 AND "
-            "tasks.phase='mpm_solver' ORDER BY coalesce(variants.place, 0), tasks.transfer_time "
+            "tasks.phase='" +
+            std::string(phases::mpm.program) +
+            "' ORDER BY coalesce(variants.place, 0), tasks.transfer_time "
             "LIMIT ?2 OFFSET ?3) ORDER BY variant_place, transfer_time";
     } else {
         sql +=

@@ -1,4 +1,5 @@
 // Triggers and their firings in the store: the writing and the reading half.
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"
@@ -33,7 +34,7 @@ void Transaction::add_triggers(const NewRun& run) {
         database_.change("INSERT INTO firing_plans (run, tasks) VALUES (?,?)",
                          {run.id, json(run.firing_plan).dump()});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
-        if (run.tasks[i].phase != "fem_solver") continue;
+        if (run.tasks[i].phase != phases::fem.program) continue;
         for (const TriggerPlan& each : run.triggers) add_trigger(run.id, task_id(run.id, i), each);
     }
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <vector>
 
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/records/result_columns.hpp"
 
 namespace breach::orchestrator {
@@ -121,7 +122,8 @@ std::string sweep_results() {
     return columns +
            "\nFROM tasks AS mpm JOIN tasks AS transfer ON transfer.id = mpm.parent"
            "\n    LEFT JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant"
-           "\nWHERE mpm.phase = 'mpm_solver' AND transfer.phase = 'transfer_tool'";
+           "\nWHERE mpm.phase = '" +
+           phases::mpm.program + "' AND transfer.phase = '" + phases::transfer.program + "'";
 }
 
 /// By name, with the statement that makes it.

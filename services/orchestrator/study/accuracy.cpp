@@ -225,18 +225,18 @@ json changed(json scene, const std::vector<std::string>& overrides) {
 
 }  // namespace
 
-std::vector<std::string> phases_of(Reach reach) {
+std::vector<phases::Phase> phases_of(Reach reach) {
     switch (reach) {
         case Reach::chain:
             break;
         case Reach::filled_mpm:
-            return {"mpm_solver"};
+            return {phases::mpm};
         case Reach::fem:
-            return {"fem_solver"};
+            return {phases::fem};
         case Reach::lem:
-            return {"lem_tool"};
+            return {phases::lem};
     }
-    return {"fem_solver", "transfer_tool", "mpm_solver"};
+    return {phases::fem, phases::transfer, phases::mpm};
 }
 
 AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fault>& faults) {
@@ -251,8 +251,8 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
         plan.quantity.reach == Reach::chain || plan.quantity.reach == Reach::filled_mpm;
     if (plan.draws > 1 && !points)
         faults.push_back({"/accuracy/draws",
-                          "repeats move the lattice of material points, and " +
-                              phases_of(plan.quantity.reach).front() + " has none",
+                          std::string("repeats move the lattice of material points, and ") +
+                              phases_of(plan.quantity.reach).front().program + " has none",
                           "leave \"draws\" out: this quantity has no such noise"});
     std::size_t rungs = 0;
     for (const Ladder& each : plan.ladders) rungs += each.steps.size();

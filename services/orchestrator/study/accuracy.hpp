@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 
 namespace breach::orchestrator {
 
 /// How far a study's tasks go: FEM, transfer and MPM; the MPM alone, from the section itself; the
 /// FEM alone; lem_tool alone.
 enum class Reach { chain, filled_mpm, fem, lem };
-/// The executables of a variant, first to last.
-std::vector<std::string> phases_of(Reach reach);
+/// The phases of a variant, first to last.
+std::vector<phases::Phase> phases_of(Reach reach);
 
 /// A number that an accuracy study judges.
 struct Quantity {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 
@@ -77,7 +78,7 @@ class Planner {
         if (study_.reach == Reach::chain) {
             plan_chain(variant);
         } else {
-            plan_one_phase(variant, phases_of(study_.reach).front());
+            plan_one_phase(variant, phases_of(study_.reach).front().program);
         }
     }
 
@@ -98,13 +99,13 @@ class Planner {
             wishes.push_back("/fem/snapshot_interval=" + json(study_.snapshot_interval).dump());
         }
         variant_ = &variant;
-        for (const char* phase : {"fem_solver", "lem_tool", "transfer_tool", "mpm_solver"})
-            if (phase != std::string("lem_tool") || study_.stability)
-                recipes_of_variant_[phase] = recipe(phase, scene);
-        const std::size_t fem = add_first(tasks_, "fem_solver", std::move(wishes));
-        if (study_.stability) add_first(tasks_, "lem_tool", {});
+        for (const phases::Phase& each : phases::all)
+            if (each.program != std::string_view(phases::lem.program) || study_.stability)
+                recipes_of_variant_[each.program] = recipe(each.program, scene);
+        const std::size_t fem = add_first(tasks_, phases::fem.program, std::move(wishes));
+        if (study_.stability) add_first(tasks_, phases::lem.program, {});
         for (const double time : study_.transfer_times) plan_transfer(tasks_, fem, time);
-        plan_transfer(open_, add_first(open_, "fem_solver", {}), std::nullopt);
+        plan_transfer(open_, add_first(open_, phases::fem.program, {}), std::nullopt);
     }
 
     TaskGraph finished() && {
@@ -131,25 +132,25 @@ class Planner {
     }
 
     void plan_transfer(TaskList& list, std::size_t fem, std::optional<double> time) {
-        TaskPlan transfer{.phase = "transfer_tool",
+        TaskPlan transfer{.phase = phases::transfer.program,
                           .label = {},
                           .transfer_time = {},
                           .parent = fem,
                           .release = Release::file_exists,
                           .input = {},
                           .overrides = {},
-                          .recipe = recipes_of_variant_.at("transfer_tool")};
+                          .recipe = recipes_of_variant_.at(phases::transfer.program)};
         if (time) transfer = at_time(std::move(transfer), *time);
         const std::size_t parent = list.add(std::move(transfer), *variant_, Sharing::wanted);
         // Never one task for two variants: each has its row in the table of results.
-        list.add({.phase = "mpm_solver",
+        list.add({.phase = phases::mpm.program,
                   .label = {},
                   .transfer_time = time,
                   .parent = parent,
                   .release = Release::parent_succeeded,
                   .input = phases::files::particles,
                   .overrides = {},
-                  .recipe = recipes_of_variant_.at("mpm_solver")},
+                  .recipe = recipes_of_variant_.at(phases::mpm.program)},
                  *variant_, Sharing::never);
     }
 

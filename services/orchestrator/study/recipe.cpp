@@ -5,6 +5,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 #include "core/scene/file_paths.hpp"
 
 namespace breach::orchestrator {
@@ -26,14 +27,15 @@ struct Reading {
 };
 
 const std::map<std::string, Reading> readings{
-    {"lem_tool", {{"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
-    {"fem_solver", {{"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
-    {"transfer_tool",
+    {phases::lem.program, {{"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
+    {phases::fem.program,
+     {{"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    {phases::transfer.program,
      {{"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
        "/mpm/right", "/mpm/floor", "/mpm/terrain", "/mpm/kernel", "/mpm/gimp_half_size"},
       Materials::all,
       Regions::names_and_materials}},
-    {"mpm_solver",
+    {phases::mpm.program,
      {{"/gravity", "/thickness", "/mpm"}, Materials::all, Regions::names_and_materials}},
 };
 

@@ -321,8 +321,9 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
     const auto asked = [&](const Setting& setting) {
         const auto found = std::ranges::find(variants, setting.variants.front(), &Variant::name);
         std::vector<std::string> recipes;
-        for (const std::string& phase : phases_of(plan.quantity.reach))
-            if (!found->scene.is_null()) recipes.push_back(recipe_of(phase, found->scene, 0).hash);
+        for (const phases::Phase& phase : phases_of(plan.quantity.reach))
+            if (!found->scene.is_null())
+                recipes.push_back(recipe_of(phase.program, found->scene, 0).hash);
         return recipes;
     };
     for (std::size_t i = 1; i < settings.size(); ++i) {
@@ -330,13 +331,13 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
         if (setting.step == 0) continue;
         const auto recipes = asked(setting);
         if (recipes.empty() || recipes != asked(settings[i - 1])) continue;
-        std::string phases;
-        for (const std::string& each : phases_of(plan.quantity.reach))
-            phases += (phases.empty() ? "" : ", ") + each;
+        std::string readers;
+        for (const phases::Phase& each : phases_of(plan.quantity.reach))
+            readers += (readers.empty() ? "" : ", ") + std::string(each.program);
         faults.push_back({"/accuracy/ladders/" + std::to_string(setting.ladder) + "/steps/" +
                               std::to_string(setting.step),
-                          "the rung changes nothing that " + phases + " read" +
-                              (phases.find(',') == std::string::npos ? "s" : "") +
+                          "the rung changes nothing that " + readers + " read" +
+                              (readers.find(',') == std::string::npos ? "s" : "") +
                               ": it is the rung before it once more",
                           "change an entry that the quantity hangs on"});
     }
@@ -345,21 +346,6 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
 /// Whether the entry says what it wants; the schema has told what is wrong with it otherwise.
 bool wants_accuracy(const json& document, const std::vector<Fault>& of_study) {
     return document.is_object() && document.contains("accuracy") && is_sound(of_study, "/accuracy");
-}
-
-/// The parts of the scene that the study's tasks read.
-std::vector<const char*> parts_of(Reach reach) {
-    switch (reach) {
-        case Reach::chain:
-            break;
-        case Reach::filled_mpm:
-            return {"mpm"};
-        case Reach::fem:
-            return {"fem"};
-        case Reach::lem:
-            return {"lem"};
-    }
-    return {"fem", "mpm"};
 }
 
 /// One fault instead of one per entry that a study lacks.
@@ -405,7 +391,8 @@ Study read_study(std::string_view text) {
             accuracy = read_accuracy(document["accuracy"], base.scene, faults);
             study.reach = accuracy->quantity.reach;
         }
-        for (const char* part : parts_of(study.reach)) need_part(base.scene, part, faults);
+        for (const phases::Phase& phase : phases_of(study.reach))
+            if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
         scene = checked_scene(base.scene, base.overrides);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);

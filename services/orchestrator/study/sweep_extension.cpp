@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
 
@@ -39,7 +40,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
     std::map<std::string, Task> present;
     std::vector<double> known;
     for (const Task& each : run.tasks) {
-        if (each.phase == "transfer_tool") known.push_back(*each.transfer_time);
+        if (each.phase == phases::transfer.program) known.push_back(*each.transfer_time);
         present.emplace(each.label, each);
     }
     Extension extension;
@@ -65,7 +66,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
     for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
         TaskPlan& plan = graph.tasks[i];
         const auto same = present.find(plan.label);
-        const bool fem_again = plan.phase == "fem_solver" && same != present.end() &&
+        const bool fem_again = plan.phase == phases::fem.program && same != present.end() &&
                                !extension.times.empty() && !has_snapshots(same->second);
         if (same != present.end() && !fem_again) {
             existing[i] = same->second.id;

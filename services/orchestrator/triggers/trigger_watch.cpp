@@ -10,6 +10,7 @@
 #include "core/exchange/provenance.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -164,7 +165,7 @@ void TriggerWatch::look_for_stability(Fem& fem) {
     if (!std::ranges::any_of(fem.armed, asks)) return;
     constexpr std::size_t first_tasks = 8;  // a run's single tasks are made before its transfers
     const std::vector<Task> tasks = store_.tasks_of(fem.task.run, "", first_tasks);
-    const auto lem = std::ranges::find(tasks, std::string("lem_tool"), &Task::phase);
+    const auto lem = std::ranges::find(tasks, phases::lem.program, &Task::phase);
     if (lem != tasks.end() && !is_final(lem->state)) return;
     double depth = std::numeric_limits<double>::quiet_NaN();
     if (lem != tasks.end() && lem->result && lem->result->contains("critical_depth")) {

@@ -3,6 +3,7 @@
 
 #include "core/exchange/archive.hpp"
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -45,7 +46,7 @@ Table gauge_table(const Run& run) {
         "Arrival: first time at which the flow is as deep as the gauge's arrival_depth, in "
         "seconds since the transfer; - when it never is, or was not yet where the soil still "
         "moved at the end."};
-    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+    for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (!each->result.is_object() || !each->result.contains("gauges")) continue;
         for (const auto& [name, seen] : each->result.at("gauges").items()) {
             table.rows.push_back(

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/mesh_figures.hpp"
 
@@ -58,8 +60,9 @@ Figure deformed_mesh(const MeshSnapshot& mesh) {
 }  // namespace
 
 void add_mesh(const Material& from, Document& document) {
-    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
-    const auto files = fem ? timed_files(fem->files, "snapshot_") : std::vector<TimedFile>{};
+    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
+    const auto files =
+        fem ? timed_files(fem->files, phases::files::snapshot_prefix) : std::vector<TimedFile>{};
     if (files.empty()) {
         document.left_out.push_back({"contours of epsilon_q and r_u, deformed meshes",
                                      fem ? "the FEM left no snapshot" : "the run has no FEM"});

@@ -4,6 +4,7 @@
 
 #include "core/motion/read_motion.hpp"
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 
 namespace breach::report {
@@ -87,7 +88,7 @@ std::vector<Figure> figures_of(const motion::Series& a) {
 
 void add_motion(const Material& from, Document& document) {
     const std::string what = "acceleration, velocity and Arias intensity of the motion";
-    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
+    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
     const json wanted =
         fem && fem->scene.contains("fem") ? fem->scene.at("fem").value("motion", json()) : json();
     if (!wanted.is_object()) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -62,7 +63,7 @@ Table errors_of(const Run& run) {
                 "The error of a setting (bias and scatter against a reference) comes from an "
                 "accuracy study of the same scene at the same setting; draws tell the scatter "
                 "alone."};
-    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+    for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->runout_error_from.empty()) continue;
         table.rows.push_back({each->label,
                               each->transfer_time ? short_number(*each->transfer_time) : "-",
@@ -85,7 +86,7 @@ Table ledger(const Run& run) {
                 "error. What is of the nodes was the FEM's lumped mass times its nodal velocity; "
                 "its kinetic energy counts velocities that change within an element as they are "
                 "at its corners."};
-    for (const PhaseFolder* each : phases_named(run, "transfer_tool")) {
+    for (const PhaseFolder* each : phases_named(run, phases::transfer.program)) {
         if (!each->result.is_object() || !each->result.contains("ledger")) continue;
         std::vector<std::string> row = {
             each->label, each->transfer_time ? short_number(*each->transfer_time) : "-"};
@@ -141,7 +142,7 @@ void add_numbers(const Material& from, Document& document) {
                                               caption + note_of(from, "numbers_" + phase, *first)));
         }
     };
-    add("lem_tool", "Limit equilibrium",
+    add(phases::lem.program, "Limit equilibrium",
         {{"FS Bishop", "/factor_of_safety"},
          {"FS Spencer", "/spencer/factor_of_safety"},
          {"FS Ordinary", "/ordinary/factor_of_safety"},
@@ -150,7 +151,7 @@ void add_numbers(const Material& from, Document& document) {
          {"slices", "/slices"}},
         "Error: more slices say what they leave; what the method itself leaves open is the "
         "difference between Bishop and Spencer.");
-    add("fem_solver", "Finite elements",
+    add(phases::fem.program, "Finite elements",
         {{"end [s]", "/end_time"},
          {"steps", "/steps"},
          {"cut steps", "/cut_steps"},
@@ -162,13 +163,13 @@ void add_numbers(const Material& from, Document& document) {
             ? "Softening is local: a shear band is one element wide, so the time of failure "
               "depends on the mesh; only runs with other element sizes measure that error."
             : "");
-    add("transfer_tool", "Transfers",
+    add(phases::transfer.program, "Transfers",
         {{"error: largest stress outside the yield surface [kPa]", "/largest_yield_excess", 1e3}},
         "");
     if (Table kept = ledger(from.run); !kept.rows.empty()) {
         chapter.tables.push_back(std::move(kept));
     }
-    add("mpm_solver", "Runouts",
+    add(phases::mpm.program, "Runouts",
         {{"runout [m]", "/runout", 1.0, true},
          {"beyond toe [m]", "/runout_beyond_toe", 1.0, true},
          {"farthest point [m]", "/runout_largest", 1.0, true},

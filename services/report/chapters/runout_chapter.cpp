@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/particle_figures.hpp"
 #include "services/report/figures/transfer_figures.hpp"
@@ -78,9 +79,9 @@ Figure runout_against_time(const Material& from) {
 void add_before_and_after(const Material& from, const PhaseFolder& transfer,
                           const exchange::ParticleState& points, Chapter& chapter,
                           Document& document) {
-    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
+    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
     for (const TimedFile& each :
-         fem ? timed_files(fem->files, "snapshot_") : std::vector<TimedFile>{}) {
+         fem ? timed_files(fem->files, phases::files::snapshot_prefix) : std::vector<TimedFile>{}) {
         if (std::abs(each.time - points.transfer_time) > 1e-6) continue;
         const auto mesh = exchange::read_mesh_snapshot(each.file).snapshot;
         for (BeforeAndAfter& pair : compare(mesh, points, layers_of(transfer.scene))) {
@@ -145,7 +146,7 @@ std::vector<const PhaseFolder*> chosen_runouts(const Material& from) {
 
 void add_transfer(const Material& from, Document& document) {
     std::vector<const PhaseFolder*> done;
-    for (const PhaseFolder* each : phases_named(from.run, "transfer_tool")) {
+    for (const PhaseFolder* each : phases_named(from.run, phases::transfer.program)) {
         if (std::filesystem::is_regular_file(each->files / phases::files::particles))
             done.push_back(each);
     }
@@ -171,7 +172,7 @@ void add_transfer(const Material& from, Document& document) {
 void add_runout(const Material& from, Document& document) {
     const auto runouts = chosen_runouts(from);
     if (runouts.empty()) {
-        const PhaseFolder* mpm = phase_named(from.run, "mpm_solver");
+        const PhaseFolder* mpm = phase_named(from.run, phases::mpm.program);
         document.left_out.push_back(
             {"runout against transfer time, final geometries",
              mpm ? "no runout ended well: " + mpm->fault : "the run has no runout"});

@@ -1,6 +1,7 @@
 // What the FEM measured against time, with the thresholds of the transfer window.
 #include <algorithm>
 
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -151,7 +152,7 @@ std::string end_of(const PhaseFolder& fem) {
 }  // namespace
 
 void add_shaking(const Material& from, Document& document) {
-    const PhaseFolder* fem = phase_named(from.run, "fem_solver");
+    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
     if (!fem || !has_telemetry(*fem)) {
         document.left_out.push_back(
             {"courses of crest, energy, strain and distortion",

@@ -1,11 +1,12 @@
 // Limit equilibrium: section, critical surfaces, factor of safety against liquefied depth.
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/stability_figures.hpp"
 
 namespace breach::report {
 
 void add_stability(const Material& from, Document& document) {
-    const PhaseFolder* lem = phase_named(from.run, "lem_tool");
+    const PhaseFolder* lem = phase_named(from.run, phases::lem.program);
     if (!lem || !lem->result.is_object()) {
         document.left_out.push_back(
             {"section and critical surfaces, factor of safety against liquefied depth",

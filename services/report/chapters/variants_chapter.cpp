@@ -1,6 +1,7 @@
 // What each of a study's variants changes, and what that does: one row per variant.
 #include <algorithm>
 
+#include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -103,7 +104,7 @@ struct Count {
 
 Count count_of(const Run& run, const std::string& variant) {
     Count count;
-    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+    for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->variant != variant) continue;
         count.runouts.push_back(each);
         if (!each->result.is_object()) continue;
@@ -134,7 +135,7 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
     const Count count = count_of(run, variant);
     WindowEdges window;
     std::string fem_end = "-";
-    if (const PhaseFolder* fem = phase_of_variant(run, "fem_solver", variant);
+    if (const PhaseFolder* fem = phase_of_variant(run, phases::fem.program, variant);
         fem && has_telemetry(*fem)) {
         window = window_of(run, telemetry_of(run, *fem));
         fem_end = how_it_ended(*fem);

@@ -5,6 +5,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/chart/axis.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -27,7 +28,7 @@ double cpu_of(const PhaseFolder& phase) {
 }
 
 void measure_stability(const Run& run, Measures& found) {
-    const PhaseFolder* lem = phase_named(run, "lem_tool");
+    const PhaseFolder* lem = phase_named(run, phases::lem.program);
     if (!lem || !lem->result.is_object()) return;
     const auto slices = number_at(lem->result, "slices");
     const std::string error = slices ? short_number(*slices) + " slices" : "";
@@ -54,7 +55,7 @@ std::optional<double> entangled_at(const PhaseFolder& fem, const Telemetry& tele
 }
 
 void measure_shaking(const Run& run, const std::optional<Paper>& paper, Measures& found) {
-    const PhaseFolder* fem = phase_named(run, "fem_solver");
+    const PhaseFolder* fem = phase_named(run, phases::fem.program);
     if (!fem || !has_telemetry(*fem)) return;
     const Telemetry telemetry = telemetry_of(run, *fem);
     const auto keep = [&](const std::string& key, std::optional<double> time) {
@@ -162,7 +163,7 @@ const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
 }
 
 Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {
-    const PhaseFolder* lem = phase_of_variant(run, "lem_tool", fem.variant);
+    const PhaseFolder* lem = phase_of_variant(run, phases::lem.program, fem.variant);
     std::map<std::string, double> beside;
     if (const auto depth = lem ? number_at(lem->result, "critical_depth") : std::nullopt) {
         beside["critical_depth"] = *depth;
@@ -171,11 +172,11 @@ Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {
 }
 
 std::optional<Plateau> plateau_of(const Run& run, const std::string& variant) {
-    const PhaseFolder* fem = phase_of_variant(run, "fem_solver", variant);
+    const PhaseFolder* fem = phase_of_variant(run, phases::fem.program, variant);
     std::optional<Plateau> plateau;
     double farthest = 0.0;
     for (const std::string& each : variants_of(run)) {
-        if (phase_of_variant(run, "fem_solver", each) != fem) continue;
+        if (phase_of_variant(run, phases::fem.program, each) != fem) continue;
         const auto runouts = runouts_of(run, each);
         const double largest = largest_runout(runouts);
         if (largest <= farthest) continue;
@@ -192,7 +193,7 @@ std::optional<Plateau> plateau_of(const Run& run, const std::string& variant) {
 
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant) {
     std::vector<const PhaseFolder*> found;
-    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+    for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->variant == variant && number_at(each->result, "runout")) found.push_back(each);
     }
     return found;
@@ -200,7 +201,7 @@ std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& va
 
 std::vector<std::string> variants_of(const Run& run) {
     std::vector<std::string> names;
-    for (const PhaseFolder* each : phases_named(run, "mpm_solver")) {
+    for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (std::ranges::find(names, each->variant) == names.end()) names.push_back(each->variant);
     }
     if (!run.study.is_object()) return names;

@@ -93,7 +93,8 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
             phase.transfer_time = t;
         }
     }
-    if (phase.phase == "fem_solver" || phase.phase == "lem_tool") phase.transfer_time.reset();
+    if (phase.phase == phases::fem.program || phase.phase == phases::lem.program)
+        phase.transfer_time.reset();
     if (!phase.result.is_object()) phase.fault = fault_of(files, task);
     return phase;
 }
@@ -119,7 +120,7 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     for (const json& row : table.at("rows")) {
         const json error = row.value("runout_error", json());
         for (PhaseFolder& each : phases) {
-            if (each.phase != "mpm_solver" || !each.transfer_time ||
+            if (each.phase != phases::mpm.program || !each.transfer_time ||
                 each.variant != row.at("variant") ||
                 std::abs(*each.transfer_time - row.at("transfer_time").get<double>()) > same_time)
                 continue;
@@ -191,7 +192,8 @@ std::vector<TimedFile> timed_files(const fs::path& folder, const std::string& pr
     std::vector<TimedFile> found;
     for (const auto& each : fs::directory_iterator(folder)) {
         const std::string name = each.path().filename();
-        if (!name.starts_with(prefix) || !name.ends_with(".vtkhdf")) continue;
+        if (!name.starts_with(prefix) || !name.ends_with(phases::files::snapshot_extension))
+            continue;
         const auto time = leading_number(std::string_view(name).substr(prefix.size()));
         if (time) found.push_back({*time, each.path()});
     }

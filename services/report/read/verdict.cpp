@@ -129,8 +129,8 @@ std::string sentence_of(const Run& run, const Finding& finding) {
 
 /// What phases without a result, and with one of an earlier version, leave open.
 void add_what_is_not_known(const Run& run, Verdict& verdict) {
-    for (const char* kind : {phases::lem.program, phases::fem.program, phases::transfer.program,
-                             phases::mpm.program}) {
+    for (const phases::Phase& phase : phases::all) {
+        const char* kind = phase.program;
         std::size_t without = 0;
         std::string why;
         for (const PhaseFolder* each : phases_named(run, kind)) {
@@ -148,7 +148,7 @@ void add_what_is_not_known(const Run& run, Verdict& verdict) {
         ++results;
         if (flags_of(each)) continue;
         ++silent;
-        if (each.phase == "mpm_solver" && still_moves(each)) ++bounds;
+        if (each.phase == phases::mpm.program && still_moves(each)) ++bounds;
     }
     if (silent == 0) return;
     std::string text = std::to_string(silent) + " of " + std::to_string(results) +
@@ -217,7 +217,7 @@ std::string how_it_ended(const PhaseFolder& phase) {
     }
     const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
     if (!flags) {
-        if (phase.phase == "mpm_solver" && still_moves(phase)) add("still moving");
+        if (phase.phase == phases::mpm.program && still_moves(phase)) add("still moving");
         add("carries no flags: not known");
         return text;
     }
@@ -263,7 +263,7 @@ std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts) {
 Verdict verdict_of(const Run& run) {
     Verdict verdict;
     std::set<std::string> told;  // entanglements, which are told as an end
-    for (const PhaseFolder* fem : phases_named(run, "fem_solver")) {
+    for (const PhaseFolder* fem : phases_named(run, phases::fem.program)) {
         if (const std::string end = entanglement_of(*fem); !end.empty()) {
             const std::string of = fem->variant.empty() ? "" : capital(fem->variant) + ": ";
             (is_corner(*fem) ? verdict.doubts : verdict.notes).push_back(of + end);
