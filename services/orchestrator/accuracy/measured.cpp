@@ -42,7 +42,8 @@ std::string reason_of(const std::vector<const Task*>& chain) {
     return std::string(name_of(chain.front()->state));
 }
 
-std::optional<double> value_of(const Task& task, const Quantity& quantity, const DataFolder& data) {
+std::optional<double> value_measured(const Task& task, const Quantity& quantity,
+                                     const DataFolder& data) {
     if (!quantity.time) return number_in(*task.result, quantity.pointer);
     // A course of more lines than one answer holds is read on.
     TelemetryWish wish{.fields = {"time", quantity.name}};
@@ -63,7 +64,7 @@ Measured measured(const Task& last, const TasksById& tasks, const Quantity& quan
                (each->state == TaskState::succeeded || each->state == TaskState::cached);
     });
     if (!there) return {.value = std::nullopt, .reason = reason_of(chain)};
-    Measured found{.value = value_of(last, quantity, data)};
+    Measured found{.value = value_measured(last, quantity, data)};
     for (const Task* each : chain) {
         add(found.cost, *each);
         const json& doubt = each->result->value("questionable", json());

@@ -12,7 +12,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr std::string_view word = "numerics ";
+constexpr std::string_view numerics_word = "numerics ";
 
 std::int64_t numerics_of(const std::filesystem::path& program) {
     const std::string remedy = "; give the folder of the phases of this build with --bin";
@@ -21,10 +21,10 @@ std::int64_t numerics_of(const std::filesystem::path& program) {
     const CommandResult result = run_command({program.string(), "--version"}, "", longest_answer);
     std::istringstream lines(result.out);
     for (std::string line; result.exit_code == 0 && std::getline(lines, line);) {
-        if (!line.starts_with(word)) continue;
+        if (!line.starts_with(numerics_word)) continue;
         std::int64_t number = 0;
         const auto parsed =
-            std::from_chars(line.data() + word.size(), line.data() + line.size(), number);
+            std::from_chars(line.data() + numerics_word.size(), line.data() + line.size(), number);
         if (parsed.ec == std::errc{} && number > 0) return number;
     }
     throw fault::IoError(program.string() + " --version does not say the version of its numerics" +
