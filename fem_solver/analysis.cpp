@@ -150,9 +150,9 @@ void Analysis::begin_motion() {
 }
 
 /// The switch from elastic stages to the scene's laws. A static stage after another one brings the
-/// stresses inside PM4Sand's surfaces first.
+/// stresses inside the surfaces of laws with memory first.
 void Analysis::begin_laws(const Stage& stage) {
-    if (!motion_.sand.empty() || !has_sand(model_)) return;
+    if (!motion_.memory.empty() || !has_memory(model_)) return;
     if (rests_first(stage, position_.stage)) {
         Newton newton(model_, Solved::displacement, {fem_.force_tolerance, fem_.largest_iterations},
                       Symmetry::general, seconds_);
@@ -170,11 +170,11 @@ void Analysis::begin_laws(const Stage& stage) {
             {"iterations", rest.iterations},
             {"out_of_balance", rest.residual}};
     }
-    const StressBias bias = begin_sand(model_, motion_);
+    const StressBias bias = begin_memory(model_, motion_);
     spdlog::info(
-        "  PM4Sand begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} "
-        "kPa",
-        motion_.sand.size(), bias.points, bias.largest / 1e3);
+        "  {} begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} kPa",
+        names_of_laws_with_memory(model_), points_with_memory(model_, motion_), bias.points,
+        bias.largest / 1e3);
 }
 
 Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
@@ -334,11 +334,12 @@ void Analysis::cut_step(const Stage& stage, const NewtonOutcome& outcome) {
     if (position_.dt >= stage.least_time_step) return;
     // On the undeformed mesh nothing turns inside out: there it is a point that refused.
     const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
-    const std::string why = outcome.end == End::degenerate
-                                ? (moves ? "an element turned inside out"
-                                         : in_words(newton_->internal_force().sand_refusal()))
-                                : "out of balance " + text_of(outcome.residual) + " after " +
-                                      std::to_string(outcome.iterations) + " iterations";
+    const std::string why =
+        outcome.end == End::degenerate
+            ? (moves ? "an element turned inside out"
+                     : in_words(newton_->internal_force().memory_pass().refusal()))
+            : "out of balance " + text_of(outcome.residual) + " after " +
+                  std::to_string(outcome.iterations) + " iterations";
     give_up("no convergence at " + text_of(position_.time) + " s with the least time step " +
             text_of(stage.least_time_step) + " s: " + why + "; most distorted is element " +
             std::to_string(distortion_.worst_element) + " (least Jacobian ratio " +

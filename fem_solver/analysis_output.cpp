@@ -298,8 +298,8 @@ void Analysis::report_facts() {
     facts["factorisations"] = counts_.factorisations;
     facts["elastic_fallbacks"] = counts_.elastic_fallbacks;
     facts["stalled_steps"] = counts_.stalled;
-    if (!motion_.sand.empty()) {
-        const StressBias bias = stress_bias(motion_);
+    if (!motion_.memory.empty()) {
+        const StressBias bias = stress_bias(model_, motion_);
         facts["stress_bias"] = {{"points", bias.points}, {"largest", bias.largest}};
     }
     facts["elements"] = model_.body.elements;

@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include "core/materials/pm4sand/fields.hpp"
-
 namespace breach::fem {
 namespace {
 
@@ -44,26 +42,31 @@ Position position_from(const exchange::Archive& archive) {
             .moving = i.at(7) != 0};
 }
 
-/// Absent until the first stage with the scene's laws.
-void put_sand(exchange::Archive& archive, const Motion& motion) {
-    if (motion.sand.empty()) return;
-    Reals& numbers = archive.reals["sand"];
-    numbers.reserve(motion.sand.size() * materials::pm4sand::stored_numbers);
-    for (const materials::pm4sand::State& each : motion.sand) {
-        for_each_real(each, [&](double x) { numbers.push_back(x); });
-        numbers.push_back(each.p_zp_unset ? 1.0 : 0.0);
+constexpr const char* memory_name = "memory";
+
+/// What points remember, zone by zone. Absent until the first stage with the scene's laws.
+void put_memory(exchange::Archive& archive, const Motion& motion) {
+    if (motion.memory.empty()) return;
+    Reals& numbers = archive.reals[memory_name];
+    for (const materials::LawMemory& zone : motion.memory) {
+        materials::for_each_point(zone, [&](const auto& point) {
+            for_each_number(point, [&](double x) { numbers.push_back(x); });
+        });
     }
 }
 
-void take_sand(const exchange::Archive& archive, Motion& motion) {
-    if (!archive.reals.contains("sand")) return;
-    const Reals& numbers = archive.reals.at("sand");
-    auto next = numbers.begin();
-    motion.sand.resize(numbers.size() / materials::pm4sand::stored_numbers);
-    for (materials::pm4sand::State& each : motion.sand) {
-        for_each_real(each, [&](double& x) { x = *next++; });
-        each.p_zp_unset = *next++ != 0.0;
+void take_memory(const exchange::Archive& archive, const Model& model, Motion& motion) {
+    if (!archive.reals.contains(memory_name)) return;
+    const Reals& numbers = archive.reals.at(memory_name);
+    std::size_t next = 0;
+    for (const Zone& zone : model.zones) {
+        motion.memory.push_back(
+            materials::memory_for(zone.law, zone.count * model.points_per_element));
+        materials::for_each_point(motion.memory.back(), [&](auto& point) {
+            for_each_number(point, [&](double& x) { x = numbers.at(next++); });
+        });
     }
+    if (next != numbers.size()) throw std::out_of_range(memory_name);
 }
 
 void put(exchange::Archive& archive, const Motion& motion) {
@@ -84,7 +87,7 @@ void put(exchange::Archive& archive, const Motion& motion) {
     archive.reals["stress"] = std::move(stress);
     archive.reals["epsilon_q"] = std::move(epsilon_q);
     archive.reals["strain"] = std::move(strain);
-    put_sand(archive, motion);
+    put_memory(archive, motion);
     if (motion.hourglass.empty()) return;
     Reals& hourglass = archive.reals["hourglass"];
     for (const Hourglass& h : motion.hourglass) {
@@ -92,7 +95,7 @@ void put(exchange::Archive& archive, const Motion& motion) {
     }
 }
 
-Motion motion_from(const exchange::Archive& archive) {
+Motion motion_from(const exchange::Archive& archive, const Model& model) {
     Motion motion;
     motion.u = vector_from(archive.reals.at("u"));
     motion.v = vector_from(archive.reals.at("v"));
@@ -111,7 +114,7 @@ Motion motion_from(const exchange::Archive& archive) {
         motion.points.push_back({tensor_at(stress, p), epsilon_q[p]});
         motion.strain.push_back(tensor_at(strain, p));
     }
-    take_sand(archive, motion);
+    take_memory(archive, model, motion);
     if (!archive.reals.contains("hourglass")) return motion;
     const Reals& h = archive.reals.at("hourglass");
     for (std::size_t i = 0; i + 3 < h.size(); i += 4) {
@@ -148,14 +151,11 @@ bool fits(const Position& position, const scene::Fem& fem) {
 
 bool fits(const Motion& motion, const Model& model) {
     const Motion rest = at_rest(model);
-    std::size_t sand = 0;
-    for (const Zone& zone : model.zones)
-        if (materials::sand_in(zone.law)) sand += zone.count * model.points_per_element;
     return motion.u.size() == rest.u.size() && motion.v.size() == rest.v.size() &&
            motion.a.size() == rest.a.size() && motion.force.size() == rest.force.size() &&
            motion.p.size() == rest.p.size() && motion.p_rate.size() == rest.p_rate.size() &&
            motion.points.size() == rest.points.size() &&
-           motion.hourglass.size() == rest.hourglass.size() && empty_or(motion.sand, sand);
+           motion.hourglass.size() == rest.hourglass.size();
 }
 
 bool fits(const Beginning& beginning, const Model& model) {
@@ -165,11 +165,11 @@ bool fits(const Beginning& beginning, const Model& model) {
            empty_or(beginning.skeleton_modulus, model.water.elements.size());
 }
 
-/// Everything but whose it is. Throws std::out_of_range when a number is missing.
-Checkpoint read(const exchange::Archive& archive) {
+/// Everything but whose it is. Throws std::out_of_range when a number is missing or one is left over.
+Checkpoint read(const exchange::Archive& archive, const Model& model) {
     Checkpoint c;
     c.position = position_from(archive);
-    c.motion = motion_from(archive);
+    c.motion = motion_from(archive, model);
     c.beginning = beginning_from(archive);
     c.stage_force = vector_from(archive.reals.at("stage_force"));
     c.newton.values = archive.reals.at("newton.values");
@@ -227,7 +227,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
         refuse(file, "/breachline/texts/scene", "the checkpoint belongs to another scene");
     }
     try {
-        Checkpoint checkpoint = read(archive);
+        Checkpoint checkpoint = read(archive, model);
         const bool whole = fits(checkpoint.position, scene::fem_of(scene)) &&
                            fits(checkpoint.motion, model) && fits(checkpoint.beginning, model) &&
                            empty_or(checkpoint.stage_force, model.mesh.nodes.size() * 2);

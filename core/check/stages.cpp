@@ -9,27 +9,29 @@ namespace breach::check {
 
 namespace {
 
-bool has_sand(const scene::Scene& scene) {
-    return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
+/// Of a law of the regions whose points remember more than State; null: there is none.
+const char* name_of_law_with_memory(const scene::Scene& scene) {
+    for (const scene::Region& region : scene.section.regions) {
         const scene::Material* material = material_of(scene, region);
-        return material != nullptr && materials::sand_in(material->law);
-    });
+        if (material != nullptr && materials::remembers(material->law))
+            return materials::traits(material->law).name;
+    }
+    return nullptr;
 }
 
-/// PM4Sand's histories per component do not turn with a moving mesh, and an elastic stage would
-/// lose them.
-void check_sand(const scene::Scene& scene, Findings& findings) {
+/// Histories per component do not turn with a moving mesh, and an elastic stage would lose them.
+void check_memory(const scene::Scene& scene, const std::string& law, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
     if (fem.kinematics == scene::Kinematics::updated_lagrangian)
-        refuse(findings, "/fem/kinematics", "is updated_lagrangian, where PM4Sand cannot follow",
-               "use small_strain");
+        refuse(findings, "/fem/kinematics",
+               "is updated_lagrangian, where " + law + " cannot follow", "use small_strain");
     bool began = false;
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const bool elastic = fem.stages[i].laws == scene::StageLaws::elastic;
         if (began && elastic)
             refuse(findings, "/fem/stages/" + std::to_string(i) + "/laws",
-                   "is elastic after PM4Sand has begun",
-                   "put elastic stages first: the sand's memory would be lost");
+                   "is elastic after " + law + " has begun",
+                   "put elastic stages first: the soil's memory would be lost");
         began = began || !elastic;
     }
 }
@@ -94,7 +96,7 @@ void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& fil
 }  // namespace
 
 void check_stages(const scene::Scene& scene, Findings& findings) {
-    if (has_sand(scene)) check_sand(scene, findings);
+    if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }
 

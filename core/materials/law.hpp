@@ -10,6 +10,7 @@
 
 #include "core/materials/drucker_prager/drucker_prager.hpp"
 #include "core/materials/linear_elastic.hpp"
+#include "core/materials/memory.hpp"
 #include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "core/materials/pm4sand/law.hpp"
 #include "core/materials/traits.hpp"
@@ -24,6 +25,12 @@ constexpr bool each_answers(const std::variant<Each...>*) {
 }
 static_assert(each_answers(static_cast<const Law*>(nullptr)),
               "a law does not answer everything that traits.hpp lists");
+template <class... Each>
+constexpr bool each_answers_for_memory(const std::variant<Each...>*) {
+    return ((!Remembers<Each> || AnswersForMemory<Each>)&&...);
+}
+static_assert(each_answers_for_memory(static_cast<const Law*>(nullptr)),
+              "a law with memory does not answer everything that memory.hpp lists");
 
 /// The same answers of whichever law it is. (`IsLaw`: never by conversion from one of them.)
 template <class T>
@@ -77,8 +84,51 @@ inline bool has_c_and_phi(const Law& law) { return traits(law).c_and_phi; }
 /// whoever must name one. Asked of laws whose numbers are all zero.
 std::string types_of_laws_that(bool (*does)(const Law&));
 
-/// The law whose points remember a pm4sand::State, or null.
-inline const PM4Sand* sand_in(const Law& law) { return std::get_if<PM4Sand>(&law); }
+template <class... Each>
+std::variant<ZoneMemory<Each>...> memory_of(const std::variant<Each...>*);
+/// What the points of a zone remember beside State: of the kind that its law asks for.
+using LawMemory = decltype(memory_of(static_cast<const Law*>(nullptr)));
+
+/// Its points remember more than State.
+inline bool remembers(const Law& law) {
+    return std::visit([]<class L>(const L&) { return Remembers<L>; }, law);
+}
+
+/// visit(law) with the law itself, if its points remember.
+template <class Visit>
+void if_remembers(const Law& law, const Visit& visit) {
+    const auto ask = [&]<class L>(const L& each) {
+        if constexpr (Remembers<L>) visit(each);
+    };
+    std::visit(ask, law);
+}
+
+/// visit(law, points) with the law itself and what its zone's points remember, if they do.
+template <class Memory, class Visit>
+void with_memory(const Law& law, Memory& memory, const Visit& visit) {
+    if_remembers(
+        law, [&]<class L>(const L& each) { visit(each, std::get<ZoneMemory<L>>(memory).points); });
+}
+
+/// visit(memory) of every point of a zone, where they remember.
+template <class Memory, class Visit>
+void for_each_point(Memory& zone, const Visit& visit) {
+    const auto go = [&](auto& memory) {
+        if constexpr (requires { memory.points; })
+            for (auto& each : memory.points) visit(each);
+    };
+    std::visit(go, zone);
+}
+
+/// Memory for so many points of this law, with nothing in it yet.
+inline LawMemory memory_for(const Law& law, std::size_t points) {
+    const auto made = [&]<class L>(const L&) -> LawMemory {
+        ZoneMemory<L> memory;
+        if constexpr (Remembers<L>) memory.points.resize(points);
+        return memory;
+    };
+    return std::visit(made, law);
+}
 
 /// E and, where given, the strains of softening multiplied.
 Law scaled(Law law, double stiffness, double softening_strains);

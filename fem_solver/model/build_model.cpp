@@ -9,9 +9,8 @@
 namespace breach::fem {
 namespace {
 
-std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::size_t points) {
+std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
     std::vector<Zone> zones;
-    std::size_t sand = 0;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         const bool opens = e == 0 || mesh.region_of_element[e] != mesh.region_of_element[e - 1];
         if (opens) {
@@ -19,8 +18,6 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::siz
             const auto& material = scene.materials[region.material];
             zones.push_back({e, 0, material.density, material.law});
         }
-        if (opens) zones.back().first_sand = sand;
-        if (materials::sand_in(zones.back().law)) sand += points;
         ++zones.back().count;
     }
     return zones;
@@ -39,7 +36,7 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
         model.column_thickness = fem.free_field->thickness_factor;
     }
     model.constraints = constraints_of(fem, mesh, columns.ties, columns.pressure_ties);
-    model.zones = zones_of(scene, mesh, model.points_per_element);
+    model.zones = zones_of(scene, mesh);
     model.thickness = scene.thickness;
     model.kinematics = fem.kinematics;
     model.rayleigh = {fem.rayleigh_mass, fem.rayleigh_stiffness};

@@ -21,7 +21,6 @@ struct Zone {
     std::size_t count;
     double density;  ///< [kg/m3]
     materials::Law law;
-    std::size_t first_sand = 0;  ///< PM4Sand: its first point's place in Motion::sand
 };
 
 /// Damping matrix C = mass M + stiffness K_elastic.
@@ -107,8 +106,9 @@ struct Motion {
     Eigen::VectorXd p_rate;     ///< [Pa/s]
     std::vector<State> points;  ///< element by element, Gauss point by Gauss point
     std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
-    /// Points of PM4Sand zones, zone by zone; empty in the elastic stages before
-    std::vector<materials::pm4sand::State> sand;
+    /// [zones] what points remember beside State; empty where no law asks for it, and in the
+    /// elastic stages before
+    std::vector<materials::LawMemory> memory;
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 

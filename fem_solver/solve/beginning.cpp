@@ -37,14 +37,17 @@ std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
     return sum;
 }
 
-/// K + 4G/3 now: of PM4Sand from its own state, of other laws the elastic one.
+/// K + 4G/3 now: of a law with memory from that, of other laws the elastic one.
 double modulus_of(const Model& model, const Motion& motion, const PorousElement& porous) {
     const Zone& zone = model.zones[porous.zone];
-    const auto* sand = materials::sand_in(zone.law);
-    if (sand == nullptr || motion.sand.empty()) return porous.skeleton_modulus;
+    double modulus = porous.skeleton_modulus;
+    if (motion.memory.empty()) return modulus;
     const std::size_t first = (porous.element - zone.first) * model.points_per_element;
-    const auto& state = motion.sand[zone.first_sand + first];
-    return materials::pm4sand::elastic_tangent(sand->ready, state)(0, 0);
+    materials::with_memory(zone.law, motion.memory[porous.zone],
+                           [&](const auto& law, const auto& points) {
+                               modulus = elastic_tangent(law, points[first])(0, 0);
+                           });
+    return modulus;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
 }  // namespace
 
 InternalForce::InternalForce(const Model& model, Seconds& seconds)
-    : model_(model), points_(model.points_per_element), seconds_(seconds), sand_(model) {
+    : model_(model), points_(model.points_per_element), seconds_(seconds), memory_(model) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     if (model.kinematics == scene::Kinematics::updated_lagrangian) {
@@ -119,9 +119,10 @@ Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) 
     return Geometry::sound;
 }
 
-template <typename Law>
-Geometry InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
+template <class Law>
+Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Motion& old,
                                        Motion& trial) {
+    const Zone& zone = model_.zones[z];
     const std::size_t end = (zone.first + zone.count) * points_;
     const bool turns = !half_angle_.empty();
     for (std::size_t p = zone.first * points_; p < end; ++p) {
@@ -138,9 +139,10 @@ Geometry InternalForce::integrate_zone(const Law& law, const Zone& zone, const M
     return Geometry::sound;
 }
 
-template <typename Law>
-Geometry InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone,
+template <class Law>
+Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t z,
                                                     const Motion& old, Motion& trial) {
+    const Zone& zone = model_.zones[z];
     const std::size_t end = (zone.first + zone.count) * points_;
     const bool turns = !half_angle_.empty();
     Matrix4 D;
@@ -155,11 +157,13 @@ Geometry InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& 
     return Geometry::sound;
 }
 
-Geometry InternalForce::integrate_zone(const materials::PM4Sand& law, const Zone& zone,
-                                       const Motion& old, Motion& trial) {
+template <materials::Remembers Law>
+Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Motion& old,
+                                       Motion& trial) {
+    const Zone& zone = model_.zones[z];
     const std::span all(d_epsilon_);
     const std::span d_epsilon = all.subspan(zone.first * points_, zone.count * points_);
-    return sand_.integrate(law, zone, d_epsilon, old, trial) == SandPass::Answer::done
+    return memory_.integrate(law, z, d_epsilon, old, trial) == MemoryPass::Answer::done
                ? Geometry::sound
                : Geometry::degenerate;
 }
@@ -167,15 +171,16 @@ Geometry InternalForce::integrate_zone(const materials::PM4Sand& law, const Zone
 /// The elastic tangent of whichever end of the step is stiffer: symmetric positive definite, which
 /// keeps the matrix quasi-definite, and too stiff rather than too soft, so that iterations approach
 /// instead of swinging about when soil near zero mean stress is pressed again.
-Geometry InternalForce::integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
+template <materials::Remembers Law>
+Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t z,
                                                     const Motion& old, Motion& trial) {
-    if (integrate_zone(law, zone, old, trial) == Geometry::degenerate) return Geometry::degenerate;
-    const std::size_t begin = zone.first * points_;
-    for (std::size_t i = 0; i < zone.count * points_; ++i) {
-        const auto& start = old.sand[zone.first_sand + i];
-        const auto& end = trial.sand[zone.first_sand + i];
-        tangent_[begin + i] =
-            in_plane(materials::pm4sand::elastic_tangent(law.ready, end.G > start.G ? end : start));
+    if (integrate_zone(law, z, old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    const auto& before = std::get<materials::ZoneMemory<Law>>(old.memory[z]).points;
+    const auto& after = std::get<materials::ZoneMemory<Law>>(trial.memory[z]).points;
+    const std::size_t begin = model_.zones[z].first * points_;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const bool stiffens = shear_modulus(law, after[i]) > shear_modulus(law, before[i]);
+        tangent_[begin + i] = in_plane(elastic_tangent(law, stiffens ? after[i] : before[i]));
     }
     return Geometry::sound;
 }
@@ -186,9 +191,8 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
     for (std::size_t z = 0; z < model_.zones.size(); ++z) {
         const auto pass = [&](const auto& parameters) {
             const auto& law = materials::ready(parameters);
-            return wanted == Wanted::stress
-                       ? integrate_zone(law, model_.zones[z], old, trial)
-                       : integrate_zone_with_tangent(law, model_.zones[z], old, trial);
+            return wanted == Wanted::stress ? integrate_zone(law, z, old, trial)
+                                            : integrate_zone_with_tangent(law, z, old, trial);
         };
         if (std::visit(pass, laws[z]) == Geometry::degenerate) return Geometry::degenerate;
     }

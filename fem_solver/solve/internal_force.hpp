@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "fem_solver/solve/linear_system.hpp"
+#include "fem_solver/solve/memory.hpp"
 #include "fem_solver/solve/profile.hpp"
-#include "fem_solver/solve/sand.hpp"
 
 namespace breach::fem {
 
 enum class Geometry {
     sound,
-    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh, or a point of PM4Sand that
-                 ///< refused its strain increment: no forces were computed
+    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh, or a law with memory that
+                 ///< refused a strain increment: no forces were computed
 };
 
 class InternalForce {
@@ -26,10 +26,8 @@ class InternalForce {
     /// The same, and adds the consistent tangent (symmetrised if A is symmetric) to A.
     Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
                       LinearSystem& A);
-    /// What PM4Sand's calls cost so far.
-    const materials::pm4sand::Counts& sand_counts() const { return sand_.counts(); }
-    /// Why PM4Sand refused the last step that it refused.
-    const SandPass::Refusal& sand_refusal() const { return sand_.refusal(); }
+    /// What laws with memory answer for: what their calls cost, why the last step was refused.
+    const MemoryPass& memory_pass() const { return memory_; }
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
@@ -42,15 +40,16 @@ class InternalForce {
     enum class Wanted { stress, stress_and_tangent };
     Geometry law_pass(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
                       Wanted wanted);
-    template <typename Law>
-    Geometry integrate_zone(const Law& law, const Zone& zone, const Motion& old, Motion& trial);
-    template <typename Law>
-    Geometry integrate_zone_with_tangent(const Law& law, const Zone& zone, const Motion& old,
+    template <class Law>
+    Geometry integrate_zone(const Law& law, std::size_t z, const Motion& old, Motion& trial);
+    template <class Law>
+    Geometry integrate_zone_with_tangent(const Law& law, std::size_t z, const Motion& old,
                                          Motion& trial);
-    Geometry integrate_zone(const materials::PM4Sand& law, const Zone& zone, const Motion& old,
-                            Motion& trial);
-    Geometry integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
-                                         const Motion& old, Motion& trial);
+    template <materials::Remembers Law>
+    Geometry integrate_zone(const Law& law, std::size_t z, const Motion& old, Motion& trial);
+    template <materials::Remembers Law>
+    Geometry integrate_zone_with_tangent(const Law& law, std::size_t z, const Motion& old,
+                                         Motion& trial);
     void accumulate_strain(const Motion& old, Motion& trial) const;
     void hourglass_pass(const Motion& old, Motion& trial) const;
     double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
@@ -65,7 +64,7 @@ class InternalForce {
     Seconds& seconds_;
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
-    SandPass sand_;
+    MemoryPass memory_;
     /// Updated Lagrangian: [points] half the rotation of the step [rad]
     std::vector<double> half_angle_;
     std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]

@@ -1,99 +1,102 @@
-#include "fem_solver/solve/sand.hpp"
+#include "fem_solver/solve/memory.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace breach::fem {
 
-namespace pm4sand = materials::pm4sand;
-
-bool has_sand(const Model& model) {
-    return std::ranges::any_of(
-        model.zones, [](const Zone& zone) { return materials::sand_in(zone.law) != nullptr; });
+bool has_memory(const Model& model) {
+    return std::ranges::any_of(model.zones,
+                               [](const Zone& zone) { return materials::remembers(zone.law); });
 }
 
-StressBias stress_bias(const Motion& motion) {
+std::string names_of_laws_with_memory(const Model& model) {
+    std::vector<std::string> names;
+    for (const Zone& zone : model.zones) {
+        const std::string name = materials::traits(zone.law).name;
+        const bool known = std::ranges::find(names, name) != names.end();
+        if (materials::remembers(zone.law) && !known) names.push_back(name);
+    }
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : " and ") + name;
+    return text;
+}
+
+StressBias stress_bias(const Model& model, const Motion& motion) {
     StressBias bias;
-    for (const pm4sand::State& each : motion.sand) {
-        const auto& b = each.sigma_b;
-        const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});
-        // A stress that fits leaves the round-off of its own split into mean and deviator.
-        if (size <= 1e-9 * each.p) continue;
-        ++bias.points;
-        bias.largest = std::max(bias.largest, size);
+    for (std::size_t z = 0; z < motion.memory.size(); ++z) {
+        materials::with_memory(model.zones[z].law, motion.memory[z],
+                               [&](const auto& law, const auto& points) {
+                                   for (const auto& each : points) {
+                                       const double size = stress_outside(law, each);
+                                       if (size == 0.0) continue;
+                                       ++bias.points;
+                                       bias.largest = std::max(bias.largest, size);
+                                   }
+                               });
     }
     return bias;
 }
 
-StressBias begin_sand(const Model& model, Motion& motion) {
-    if (!motion.sand.empty()) return stress_bias(motion);
-    for (const Zone& zone : model.zones) {
-        const auto* law = materials::sand_in(zone.law);
-        if (law == nullptr) continue;
-        const std::size_t begin = zone.first * model.points_per_element;
-        const std::size_t end = begin + zone.count * model.points_per_element;
-        for (std::size_t p = begin; p < end; ++p) {
-            const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
-            motion.sand.push_back(
-                pm4sand::initialise(law->ready, motion.points[p].sigma, epsilon_v));
-            motion.points[p].sigma = pm4sand::stress(law->ready, motion.sand.back());
-        }
-    }
-    return stress_bias(motion);
+std::size_t points_with_memory(const Model& model, const Motion& motion) {
+    std::size_t count = 0;
+    for (std::size_t z = 0; z < motion.memory.size(); ++z)
+        materials::with_memory(model.zones[z].law, motion.memory[z],
+                               [&](const auto&, const auto& points) { count += points.size(); });
+    return count;
 }
 
-SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
-    std::size_t largest = 0;
+StressBias begin_memory(const Model& model, Motion& motion) {
+    if (!motion.memory.empty() || !has_memory(model)) return stress_bias(model, motion);
     for (const Zone& zone : model.zones) {
-        if (!materials::sand_in(zone.law)) continue;
-        largest = std::max(largest, zone.count * points_);
+        motion.memory.push_back(
+            materials::memory_for(zone.law, zone.count * model.points_per_element));
+        std::size_t p = zone.first * model.points_per_element;
+        materials::with_memory(zone.law, motion.memory.back(), [&](const auto& law, auto& points) {
+            for (auto& each : points) {
+                const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
+                each = first_memory(law, motion.points[p].sigma, epsilon_v);
+                motion.points[p++].sigma = materials::stress(law, each);
+            }
+        });
     }
-    updates_.resize(largest);
+    return stress_bias(model, motion);
 }
 
-SandPass::Answer SandPass::refuse(Refusal::Why why, const Zone& zone, std::size_t point,
-                                  const Voigt& d_epsilon) {
-    refusal_ = {why, zone.first + point / points_, d_epsilon.cwiseAbs().maxCoeff()};
+MemoryPass::MemoryPass(const Model& model) : model_(model), points_(model.points_per_element) {
+    for (const Zone& zone : model.zones) {
+        materials::if_remembers(zone.law, [&]<class Law>(const Law&) {
+            auto& updates = std::get<Buffer<Law>>(buffers_).updates;
+            updates.resize(std::max(updates.size(), zone.count * points_));
+        });
+    }
+}
+
+std::size_t MemoryPass::first_too_large(std::span<const Voigt> d_epsilon) {
+    const auto found = std::ranges::find_if(d_epsilon, [](const Voigt& each) {
+        return !(each.cwiseAbs().maxCoeff() <= largest_strain);
+    });
+    return static_cast<std::size_t>(found - d_epsilon.begin());
+}
+
+MemoryPass::Answer MemoryPass::refuse(Refusal::Why why, const char* law, const Zone& zone,
+                                      std::size_t point, const Voigt& d_epsilon) {
+    refusal_ = {why, law, zone.first + point / points_, d_epsilon.cwiseAbs().maxCoeff()};
     return Answer::refused;
 }
 
-std::string in_words(const SandPass::Refusal& refusal) {
+std::string in_words(const MemoryPass::Refusal& refusal) {
     std::ostringstream text;
-    text << "PM4Sand refused the strain increment of element " << refusal.element << ", "
+    text << refusal.law << " refused the strain increment of element " << refusal.element << ", "
          << refusal.largest;
-    if (refusal.why == SandPass::Refusal::Why::strain) {
-        text << ": beyond the limit of " << SandPass::largest_strain << " (a trial that diverges)";
+    if (refusal.why == MemoryPass::Refusal::Why::strain) {
+        text << ": beyond the limit of " << MemoryPass::largest_strain
+             << " (a trial that diverges)";
     } else {
         text << ": its evaluations were used up, below the strain limit of "
-             << SandPass::largest_strain;
+             << MemoryPass::largest_strain;
     }
     return text.str();
-}
-
-SandPass::Answer SandPass::integrate(const materials::PM4Sand& law, const Zone& zone,
-                                     std::span<const Voigt> d_epsilon, const Motion& old,
-                                     Motion& trial) {
-    for (std::size_t i = 0; i < d_epsilon.size(); ++i) {
-        if (d_epsilon[i].cwiseAbs().maxCoeff() <= largest_strain) continue;
-        return refuse(Refusal::Why::strain, zone, i, d_epsilon[i]);
-    }
-    trial.sand.resize(old.sand.size());
-    const std::span from = std::span(old.sand).subspan(zone.first_sand, d_epsilon.size());
-    const std::span to = std::span(updates_).first(d_epsilon.size());
-    pm4sand::integrate(law.ready, from, d_epsilon, law.options, to);
-    State* point = &trial.points[zone.first * points_];
-    pm4sand::State* sand = &trial.sand[zone.first_sand];
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        const pm4sand::Update& each = to[i];
-        if (each.outcome != pm4sand::Outcome::done) {
-            return refuse(Refusal::Why::evaluations, zone, i, d_epsilon[i]);
-        }
-        counts_ += each.counts;
-        *sand++ = each.state;
-        (point++)->sigma = pm4sand::stress(law.ready, each.state);
-    }
-    return Answer::done;
 }
 
 }  // namespace breach::fem

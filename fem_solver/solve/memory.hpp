@@ -1,44 +1,54 @@
-// Zones of PM4Sand in the mesh: the one switch from the elastic stages to the law, and the pass
-// over a zone's points. Their memory (Motion::sand) stands beside State, which mirrors its stress.
+// Zones whose law's points remember more than State: the one switch from the elastic stages to
+// their laws, and the pass over a zone's points. Which law it is stands nowhere here: it answers as
+// core/materials/memory.hpp lists. The memory (Motion::memory) stands beside State, which mirrors
+// its stress.
 #pragma once
 
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
 
-bool has_sand(const Model& model);
+bool has_memory(const Model& model);
 
-/// What the switch left as a constant stress because it lay below p_min or outside the surfaces.
+/// "PM4Sand": the names of the laws that remember, each once.
+std::string names_of_laws_with_memory(const Model& model);
+
+/// What the switch left as a constant stress because it lay outside the law's surfaces.
 struct StressBias {
     std::size_t points = 0;
     double largest = 0.0;  ///< largest component [Pa]
 };
 
-/// Initialises every point of every PM4Sand zone from the stress and the volumetric strain that the
-/// elastic stages left in `motion`. Does nothing where that was done before: exactly one call per
-/// point in a run.
-StressBias begin_sand(const Model& model, Motion& motion);
+/// Makes the first memory of every point of every zone that remembers, from the stress and the
+/// volumetric strain that the elastic stages left in `motion`. Does nothing where that was done
+/// before: exactly one call per point in a run.
+StressBias begin_memory(const Model& model, Motion& motion);
 
 /// The bias that `motion` carries now.
-StressBias stress_bias(const Motion& motion);
+StressBias stress_bias(const Model& model, const Motion& motion);
 
-/// Runs the law over zones; its buffer is as large as the largest of them.
-class SandPass {
+/// How many points remember something now.
+std::size_t points_with_memory(const Model& model, const Motion& motion);
+
+/// Runs laws over zones; its buffers are as large as the largest zone of each.
+class MemoryPass {
   public:
-    explicit SandPass(const Model& model);
+    explicit MemoryPass(const Model& model);
 
     enum class Answer {
         done,
         refused,  ///< a strain increment beyond `largest_strain` or not finite, or a point that
                   ///< used up its evaluations: the step must be cut
     };
-    /// New states and stresses of a zone after the strain increments [points of the zone].
-    Answer integrate(const materials::PM4Sand& law, const Zone& zone,
-                     std::span<const Voigt> d_epsilon, const Motion& old, Motion& trial);
+    /// New memories and stresses of zone `z` after the strain increments [points of the zone].
+    template <materials::Remembers Law>
+    Answer integrate(const Law& law, std::size_t z, std::span<const Voigt> d_epsilon,
+                     const Motion& old, Motion& trial);
 
     /// Strain increments beyond this belong to a diverged trial [-]. Asking the law would cost much
     /// and tell nothing.
@@ -51,23 +61,64 @@ class SandPass {
             evaluations,  ///< more than the law may use
         };
         Why why = Why::strain;
+        const char* law = "";  ///< for people
         std::size_t element = 0;
         double largest = 0.0;  ///< component of its strain increment [-]
     };
     const Refusal& refusal() const { return refusal_; }
 
-    const materials::pm4sand::Counts& counts() const { return counts_; }
+    /// Of the laws, so far.
+    std::int64_t evaluations() const { return evaluations_; }
 
   private:
-    Answer refuse(Refusal::Why why, const Zone& zone, std::size_t point, const Voigt& d_epsilon);
+    template <class Law>
+    struct Buffer {};
+    template <materials::Remembers Law>
+    struct Buffer<Law> {
+        std::vector<typename Law::Update> updates;
+    };
+    template <class... Each>
+    static std::tuple<Buffer<Each>...> buffers_of(const std::variant<Each...>*);
 
+    Answer refuse(Refusal::Why why, const char* law, const Zone& zone, std::size_t point,
+                  const Voigt& d_epsilon);
+    /// The first increment that no law is asked for; as many as there are: none.
+    static std::size_t first_too_large(std::span<const Voigt> d_epsilon);
+
+    const Model& model_;
     std::size_t points_;  ///< per element
     Refusal refusal_;
-    std::vector<materials::pm4sand::Update> updates_;
-    materials::pm4sand::Counts counts_;
+    decltype(buffers_of(static_cast<const materials::Law*>(nullptr))) buffers_;
+    std::int64_t evaluations_ = 0;
 };
 
+template <materials::Remembers Law>
+MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
+                                         std::span<const Voigt> d_epsilon, const Motion& old,
+                                         Motion& trial) {
+    const Zone& zone = model_.zones[z];
+    const char* name = traits(law).name;
+    if (const std::size_t i = first_too_large(d_epsilon); i < d_epsilon.size())
+        return refuse(Refusal::Why::strain, name, zone, i, d_epsilon[i]);
+    if (trial.memory.size() != old.memory.size()) trial.memory = old.memory;
+    const std::span from(std::get<materials::ZoneMemory<Law>>(old.memory[z]).points);
+    const std::span to(std::get<materials::ZoneMemory<Law>>(trial.memory[z]).points);
+    const std::span updates =
+        std::span(std::get<Buffer<Law>>(buffers_).updates).first(d_epsilon.size());
+    materials::integrate(law, from, d_epsilon, updates);
+    State* point = &trial.points[zone.first * points_];
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+        const auto& each = updates[i];
+        if (each.outcome != decltype(each.outcome)::done)
+            return refuse(Refusal::Why::evaluations, name, zone, i, d_epsilon[i]);
+        evaluations_ += each.counts.evaluations;
+        to[i] = each.state;
+        (point++)->sigma = materials::stress(law, each.state);
+    }
+    return Answer::done;
+}
+
 /// For people: whether the strain limit or the law's evaluations ended it, and where.
-std::string in_words(const SandPass::Refusal& refusal);
+std::string in_words(const MemoryPass::Refusal& refusal);
 
 }  // namespace breach::fem

@@ -314,9 +314,10 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
     has_last_ = false;
     Matrix matrix = serves ? Matrix::keep : Matrix::renew;
     double first = 0.0, before = 0.0, residual = 0.0;
-    // PM4Sand's matrix is that of the step's ends: a second renewal would give the same again.
-    const bool sand = !problem.old.sand.empty();
-    int renewals_left = sand ? 1 : settings_.largest_iterations;
+    // The matrix of laws with memory is that of the step's ends: a second renewal would give the
+    // same again.
+    const bool of_ends = !problem.old.memory.empty();
+    int renewals_left = of_ends ? 1 : settings_.largest_iterations;
     Progress progress;
     for (int iteration = 0;; ++iteration) {
         if (evaluate(problem, trial, matrix) == Geometry::degenerate) {
@@ -328,7 +329,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
             return {End::converged, iteration, residual};
         }
         progress.note(residual);
-        if (sand && progress.stalled() && residual <= 2.0 * progress.best() &&
+        if (of_ends && progress.stalled() && residual <= 2.0 * progress.best() &&
             residual <= worst_jump * settings_.tolerance) {
             ++counts_.stalled;
             return {End::converged, iteration, residual};
@@ -345,7 +346,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         const double wanted = std::log(settings_.tolerance / residual);
         const bool slow =
             rate >= 1.0 || (rate > 0.0 && wanted / std::log(rate) > 2.0 * worth_of_matrix);
-        const bool worth = slow && (!sand || residual > worst_jump * settings_.tolerance);
+        const bool worth = slow && (!of_ends || residual > worst_jump * settings_.tolerance);
         matrix = worth && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
         before = residual;
         ++counts_.iterations;

@@ -8,40 +8,35 @@
 namespace breach::fem {
 namespace {
 
-namespace pm4sand = materials::pm4sand;
-
 constexpr double first_cohesion = 16e3, last_cohesion = 0.25e3;  // [Pa]
 constexpr double smallest_cut = 0.9;  // a level nearer to the last one is not worth a try
 
-/// Least M_b of a zone under the stress it has.
-double least_bounding_ratio(const Model& model, const materials::PM4Sand& law, const Zone& zone,
-                            const Motion& motion) {
-    double least = 2.0;
-    const std::size_t begin = zone.first * model.points_per_element;
-    for (std::size_t p = begin; p < begin + zone.count * model.points_per_element; ++p) {
-        least = std::min(least, pm4sand::initialise(law.ready, motion.points[p].sigma).M_b);
-    }
-    return least;
-}
-
-/// Of each zone of PM4Sand, what its bounding surface comes to; 0 elsewhere [rad].
+/// Of each zone whose law remembers, the least that its surfaces allow under the stress it has; 0
+/// elsewhere [rad].
 std::vector<double> friction_angles(const Model& model, const Motion& motion) {
     std::vector<double> angles;
     for (const Zone& zone : model.zones) {
-        const auto* sand = materials::sand_in(zone.law);
-        angles.push_back(sand ? std::asin(0.5 * least_bounding_ratio(model, *sand, zone, motion))
-                              : 0.0);
+        angles.push_back(0.0);
+        const std::size_t begin = zone.first * model.points_per_element;
+        materials::if_remembers(zone.law, [&](const auto& law) {
+            double least = 1.0;
+            for (std::size_t p = begin; p < begin + zone.count * model.points_per_element; ++p) {
+                const auto first = first_memory(law, motion.points[p].sigma, 0.0);
+                least = std::min(least, friction(law, first));
+            }
+            angles.back() = std::asin(least);
+        });
     }
     return angles;
 }
 
-/// The zones' laws with friction and this cohesion in place of PM4Sand.
+/// The zones' laws with friction and this cohesion in place of laws with memory.
 std::vector<materials::Law> frictional_laws(const Model& model, const std::vector<double>& phi,
                                             double c) {
     std::vector<materials::Law> laws;
     for (std::size_t z = 0; z < phi.size(); ++z) {
         const materials::Law& law = model.zones[z].law;
-        if (!materials::sand_in(law)) {
+        if (!materials::remembers(law)) {
             laws.push_back(law);
             continue;
         }
@@ -103,7 +98,8 @@ std::string in_words(const FrictionalRest& rest) {
     text << "friction alone does not rest: nothing converged, not even with " << rest.cohesion / 1e3
          << " kPa of cohesion added (" << rest.iterations << " iterations, out of balance "
          << std::scientific << std::setprecision(2) << rest.residual
-         << " of the weight). PM4Sand begins from the elastic stresses; what lies outside its "
+         << " of the weight). The soil's law begins from the elastic stresses; what lies outside "
+            "its "
             "surfaces stays as a constant stress. Does the slope stand at rest? Ask lem_tool for "
             "its factor of safety before motion; if that is well above 1, raise "
             "/fem/largest_iterations or refine the mesh at the steepest face";

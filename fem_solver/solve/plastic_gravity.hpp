@@ -1,4 +1,4 @@
-// Gravity that PM4Sand can carry: elastic gravity leaves stresses outside its surfaces at faces and
+// Gravity that a law with memory (PM4Sand) can carry: elastic gravity leaves stresses outside its surfaces at faces and
 // ponds, and there is no way back for the law itself. Friction alone finds a stress field inside,
 // in equilibrium; from that the law begins.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace breach::fem {
 
-/// Whether a stage that begins PM4Sand's law looks for that field first: a static one after
+/// Whether a stage that begins such a law looks for that field first: a static one after
 /// another.
 bool rests_first(const scene::Stage& stage, std::int64_t place);
 
@@ -24,9 +24,9 @@ struct FrictionalRest {
 /// One sentence for people: how far it came, or that nothing stood and what to do.
 std::string in_words(const FrictionalRest& rest);
 
-/// Takes `motion` from elastic equilibrium to one in which every PM4Sand zone is Mohr-Coulomb with
-/// the friction of its bounding surface, sin(phi) = M_b / 2 at the zone's least M_b, and a cohesion
-/// that is halved level by level, by less where that does not converge. Where not even the first one
+/// Takes `motion` from elastic equilibrium to one in which every zone with memory is Mohr-Coulomb with
+/// the least friction of its points' surfaces (PM4Sand: sin(phi) = M_b / 2), and a cohesion that
+/// is halved level by level, by less where that does not converge. Where not even the first one
 /// does, `motion` is as it was. Flow is associated: the tangent stays symmetric, and the strains
 /// are of no account here.
 FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& motion,

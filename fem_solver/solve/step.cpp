@@ -54,7 +54,7 @@ void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Mo
     scratch = motion;
     newton.internal_force().evaluate(laws, motion, scratch);
     motion.points = scratch.points;
-    motion.sand = scratch.sand;
+    motion.memory = scratch.memory;
     motion.force = scratch.force;
 }
 

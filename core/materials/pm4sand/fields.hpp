@@ -18,7 +18,18 @@ void for_each_real(AnyState& s, Visit visit) {
     visit(s.A_do), visit(s.z_max), visit(s.p_min), visit(s.p_min2), visit(s.sub_step);
 }
 
-/// How many numbers `for_each_real` visits, and p_zp_unset.
-inline constexpr std::size_t stored_numbers = 40;
+/// Calls visit(x) for every number of the state: p_zp_unset is the last of them, as 0 or 1.
+template <class Visit>
+void for_each_number(const State& s, Visit visit) {
+    for_each_real(s, visit);
+    visit(s.p_zp_unset ? 1.0 : 0.0);
+}
+template <class Visit>
+void for_each_number(State& s, Visit visit) {
+    for_each_real(s, visit);
+    double unset = s.p_zp_unset ? 1.0 : 0.0;
+    visit(unset);
+    s.p_zp_unset = unset != 0.0;
+}
 
 }  // namespace breach::materials::pm4sand

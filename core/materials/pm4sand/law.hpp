@@ -1,17 +1,20 @@
-// PM4Sand (pm4sand.hpp) as one of the laws. Its points remember more than State holds: whoever runs
-// it keeps a pm4sand::State beside it, whose stress State mirrors. There is no `integrate` for it
-// here.
+// PM4Sand (pm4sand.hpp) as one of the laws. Its points remember a pm4sand::State (memory.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/materials/pm4sand/pm4sand.hpp"
+#include "core/materials/memory.hpp"
+#include "core/materials/pm4sand/fields.hpp"
 #include "core/materials/traits.hpp"
 
 namespace breach::materials {
 
 struct PM4Sand {
+    using Memory = pm4sand::State;
+    using Update = pm4sand::Update;
+
     mechanics::Elasticity elasticity;  ///< of the stages before pm4sand::initialise: G = G_0 p_atm
     pm4sand::Ready ready;
     pm4sand::Options options;
@@ -42,5 +45,28 @@ inline double yield_excess(const PM4Sand&, const State&) {
 }
 inline Voigt return_to_surface(const PM4Sand&, const State& state) { return state.sigma; }
 inline std::optional<LawLanes> for_particles(const PM4Sand&) { return std::nullopt; }
+
+inline pm4sand::State first_memory(const PM4Sand& law, const Voigt& sigma, double epsilon_v) {
+    return pm4sand::initialise(law.ready, sigma, epsilon_v);
+}
+inline Voigt stress(const PM4Sand& law, const pm4sand::State& memory) {
+    return pm4sand::stress(law.ready, memory);
+}
+inline void integrate(const PM4Sand& law, std::span<const pm4sand::State> old,
+                      std::span<const Voigt> d_epsilon, std::span<pm4sand::Update> updates) {
+    pm4sand::integrate(law.ready, old, d_epsilon, law.options, updates);
+}
+inline Matrix4 elastic_tangent(const PM4Sand& law, const pm4sand::State& memory) {
+    return pm4sand::elastic_tangent(law.ready, memory);
+}
+inline double shear_modulus(const PM4Sand&, const pm4sand::State& memory) { return memory.G; }
+/// The bounding surface, q/p = M_b in the plane.
+inline double friction(const PM4Sand&, const pm4sand::State& memory) { return 0.5 * memory.M_b; }
+inline double stress_outside(const PM4Sand&, const pm4sand::State& memory) {
+    const auto& b = memory.sigma_b;
+    const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});
+    // A stress that fits leaves the round-off of its own split into mean and deviator.
+    return size <= 1e-9 * memory.p ? 0.0 : size;
+}
 
 }  // namespace breach::materials

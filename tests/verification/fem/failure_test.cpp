@@ -275,20 +275,18 @@ TEST(Refusal, SaysWhetherTheStrainLimitOrTheEvaluationsWereHit) {
     const Model model = bench::model_of(bench::parse(bench::scene_of(block)));
     Motion motion = at_rest(model);
     for (State& point : motion.points) point.sigma = Voigt(-25e3, -50e3, -25e3, 0.0);
-    begin_sand(model, motion);
-    materials::PM4Sand law = *materials::sand_in(model.zones[0].law);
-    SandPass pass(model);
+    begin_memory(model, motion);
+    auto law = std::get<materials::PM4Sand>(model.zones[0].law);
+    MemoryPass pass(model);
     Motion trial = motion;
     std::vector<Voigt> d_epsilon(model.points(), Voigt::Zero());
     d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.06);
-    ASSERT_EQ(pass.integrate(law, model.zones[0], d_epsilon, motion, trial),
-              SandPass::Answer::refused);
+    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u) << "four points in each";
     EXPECT_NE(in_words(pass.refusal()).find("beyond the limit of 0.05"), std::string::npos);
     law.options.most_evaluations = 1;
     d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.04);
-    ASSERT_EQ(pass.integrate(law, model.zones[0], d_epsilon, motion, trial),
-              SandPass::Answer::refused);
+    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u);
     EXPECT_NE(in_words(pass.refusal()).find("evaluations were used up"), std::string::npos);
 }

@@ -1,7 +1,5 @@
 // PM4Sand in the mesh: an element gives what the point gives, the switch from the elastic stages
 // happens once, an impossible strain is refused, and a resumed run repeats every bit.
-#include "fem_solver/solve/sand.hpp"
-
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +7,7 @@
 #include "core/materials/pm4sand/fields.hpp"
 #include "fem_solver/checkpoint.hpp"
 #include "fem_solver/element_bench/specimen.hpp"
+#include "fem_solver/solve/memory.hpp"
 #include "tests/verification/fem/bench.hpp"
 
 namespace breach::fem {
@@ -41,8 +40,11 @@ struct ShearedElement {
           laws(laws_for(model, scene::StageLaws::scene)),
           now(at_rest(model)) {
         for (State& point : now.points) point.sigma = Voigt(-50e3, -100e3, -50e3, 0.0);
-        begin_sand(model, now);
+        begin_memory(model, now);
         trial = now;
+    }
+    const std::vector<pm4sand::State>& memory() const {
+        return std::get<materials::ZoneMemory<materials::PM4Sand>>(now.memory.at(0)).points;
     }
     Geometry shear(double gamma) {
         trial.u = now.u;
@@ -85,18 +87,18 @@ TEST(SandInTheMesh, AnElementInUndrainedShearGivesWhatTheBenchGives) {
 TEST(SandInTheMesh, BeginsExactlyOnce) {
     ShearedElement sheared("ssp");
     ASSERT_EQ(sheared.shear(1e-3), Geometry::sound);
-    const pm4sand::State before = sheared.now.sand.at(0);
-    begin_sand(sheared.model, sheared.now);
-    EXPECT_EQ(sheared.now.sand.size(), 1u);
-    EXPECT_EQ(sheared.now.sand.at(0).z_cum, before.z_cum);
-    EXPECT_EQ(sheared.now.sand.at(0).s.x, before.s.x);
+    const pm4sand::State before = sheared.memory().at(0);
+    begin_memory(sheared.model, sheared.now);
+    EXPECT_EQ(sheared.memory().size(), 1u);
+    EXPECT_EQ(sheared.memory().at(0).z_cum, before.z_cum);
+    EXPECT_EQ(sheared.memory().at(0).s.x, before.s.x);
 }
 
 TEST(SandInTheMesh, CountsTheStressThatDoesNotFit) {
     const Model model = bench::model_of(bench::parse(element_scene("ssp")));
     Motion motion = at_rest(model);
     motion.points[0].sigma = Voigt(-20e3, -100e3, -36e3, 0.0);  // K_0 = 0.2 lies outside
-    const StressBias bias = begin_sand(model, motion);
+    const StressBias bias = begin_memory(model, motion);
     EXPECT_EQ(bias.points, 1u);
     // OpenSees moves this stress to 14.29 kPa less horizontally (docs/design/pm4sand.md, 18.2);
     // the nodes must not notice.
@@ -110,7 +112,7 @@ TEST(SandInTheMesh, RefusesAnImpossibleStrainAtOnce) {
     EXPECT_EQ(sheared.shear(0.5), Geometry::degenerate);
     EXPECT_EQ(sheared.shear(std::nan("")), Geometry::degenerate);
     EXPECT_EQ(sheared.shear(1e-4), Geometry::sound);
-    EXPECT_LT(sheared.force.sand_counts().evaluations, 100);
+    EXPECT_LT(sheared.force.memory_pass().evaluations(), 100);
 }
 
 TEST(SandInTheMesh, MemorySurvivesACheckpointToTheLastBit) {
@@ -129,13 +131,37 @@ TEST(SandInTheMesh, MemorySurvivesACheckpointToTheLastBit) {
         ASSERT_EQ(each->shear(4e-3), Geometry::sound);
     }
     EXPECT_EQ(sheared.now.points.at(0).sigma, resumed.now.points.at(0).sigma);
-    const auto numbers = [](pm4sand::State& state) {
+    const auto numbers = [](const pm4sand::State& state) {
         std::vector<double> all;
-        for_each_real(state, [&](double x) { all.push_back(x); });
+        for_each_number(state, [&](double x) { all.push_back(x); });
         return all;
     };
-    EXPECT_EQ(numbers(sheared.now.sand.at(0)), numbers(resumed.now.sand.at(0)));
-    EXPECT_EQ(numbers(sheared.now.sand.at(0)).size() + 1, pm4sand::stored_numbers);
+    EXPECT_EQ(numbers(sheared.memory().at(0)), numbers(resumed.memory().at(0)));
+}
+
+TEST(SandInTheMesh, AZoneWithoutMemoryStandsBesideItInTheCheckpoint) {
+    json scene = element_scene("bbar");
+    scene["materials"]["rock"] = {
+        {"density", 2000.0}, {"law", {{"type", "linear_elastic"}, {"E_MPa", 20}, {"nu", 0.3}}}};
+    json rock = scene["section"]["regions"][0];
+    rock["name"] = "rock";
+    rock["material"] = "rock";
+    for (json& corner : rock["polygon"]) corner[0] = corner[0].get<double>() - 1.0;
+    scene["section"]["regions"].insert(scene["section"]["regions"].begin(), rock);
+    scene["fem"]["supports"] = {
+        {{"name", "base"}, {"from", {-1, 0}}, {"to", {1, 0}}, {"fixes", "xy"}}};
+    const scene::Scene parsed = bench::parse(scene);
+    const Model model = bench::model_of(parsed);
+    Checkpoint checkpoint;
+    checkpoint.motion = at_rest(model);
+    for (State& point : checkpoint.motion.points) point.sigma = Voigt(-50e3, -100e3, -50e3, 0.0);
+    begin_memory(model, checkpoint.motion);
+    EXPECT_EQ(points_with_memory(model, checkpoint.motion), 4u) << "of eight";
+    auto archive = checkpoint_archive(checkpoint, parsed);
+    const Motion back = checkpoint_from(archive, parsed, model, "memory").motion;
+    EXPECT_EQ(points_with_memory(model, back), 4u);
+    archive.reals["memory"].push_back(0.0);
+    EXPECT_THROW(checkpoint_from(archive, parsed, model, "memory"), fault::BadInput);
 }
 
 TEST(SandInTheMesh, RefusesTheMovingMeshAndALateElasticStage) {
