@@ -43,6 +43,7 @@ Symmetry symmetry_for(const Stage& stage, const std::vector<materials::Law>& law
 Analysis::Analysis(process::Session& session, Model model)
     : session_(session),
       fem_(scene::fem_of(session.scene())),
+      decided_(decide_run(session.scene())),
       model_(std::move(model)),
       motion_(at_rest(model_)),
       trial_(motion_),
@@ -152,8 +153,8 @@ void Analysis::begin_motion() {
 /// The switch from elastic stages to the scene's laws. A static stage after another one brings the
 /// stresses inside the surfaces of laws with memory first.
 void Analysis::begin_laws(const Stage& stage) {
-    if (!motion_.memory.empty() || !has_memory(model_)) return;
-    if (rests_first(stage, position_.stage)) {
+    if (position_.stage != decided_.memory.value) return;
+    if (decided_.memory_start.value == MemoryStart::at_rest_with_friction) {
         Newton newton(model_, Solved::displacement, {fem_.force_tolerance, fem_.largest_iterations},
                       Symmetry::general, seconds_);
         const FrictionalRest rest =
@@ -273,10 +274,11 @@ Distortion Analysis::trial_distortion() {
 /// (Zienkiewicz & Xie 1991): where it is too large the step is halved and taken again, down to the
 /// least one.
 bool Analysis::step_is_too_coarse(const Stage& stage, double dt) {
-    if (fem_.largest_step_error <= 0.0) return false;
+    if (decided_.largest_step_error.value <= 0.0) return false;
     const double change = (trial_.a - motion_.a).lpNorm<Eigen::Infinity>();
     step_error_ = std::abs(fem_.newmark_beta - 1.0 / 6.0) * dt * dt * change;
-    if (step_error_ <= fem_.largest_step_error || cut * dt < stage.least_time_step) return false;
+    if (step_error_ <= decided_.largest_step_error.value || cut * dt < stage.least_time_step)
+        return false;
     ++position_.cut_steps;
     position_.easy_steps = 0;
     position_.dt = cut * dt;
@@ -286,7 +288,7 @@ bool Analysis::step_is_too_coarse(const Stage& stage, double dt) {
 
 /// The next time that must be met exactly: a wanted snapshot or the end of the stage.
 double Analysis::next_stop(double stage_end) const {
-    const auto& times = fem_.snapshot_times;
+    const auto& times = decided_.snapshot_times.value;
     const auto next = static_cast<std::size_t>(position_.next_snapshot);
     return next < times.size() ? std::min(times[next], stage_end) : stage_end;
 }
@@ -313,7 +315,7 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
     const Stage& stage = fem_.stages[position_.stage];
     // A step twice as long has about eight times the error.
     const bool easy = outcome.iterations <= fem_.largest_iterations / 2 &&
-                      10.0 * step_error_ <= fem_.largest_step_error;
+                      10.0 * step_error_ <= decided_.largest_step_error.value;
     position_.easy_steps = easy ? position_.easy_steps + 1 : 0;
     if (position_.dt < stage.time_step && position_.easy_steps >= easy_steps_before_growth) {
         position_.dt = std::min(stage.time_step, growth * position_.dt);

@@ -4,6 +4,7 @@
 
 #include "core/process/phase.hpp"
 #include "fem_solver/checkpoint.hpp"
+#include "fem_solver/choose.hpp"
 #include "fem_solver/monitors/entanglement.hpp"
 #include "fem_solver/monitors/watch.hpp"
 #include "fem_solver/solve/step.hpp"
@@ -62,6 +63,7 @@ class Analysis {
 
     process::Session& session_;
     const scene::Fem& fem_;
+    const RunDecisions decided_;
     Model model_;
     Seconds seconds_;
     Position position_;

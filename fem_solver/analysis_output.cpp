@@ -66,12 +66,12 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
 /// A wanted time was met, a multiple of the interval lies in this step, or somebody outside asks.
 /// The last two take the step as it comes: whoever asks must not change what is computed.
 bool Analysis::snapshot_is_due(double dt) {
-    const auto& times = fem_.snapshot_times;
+    const auto& times = decided_.snapshot_times.value;
     const auto next = static_cast<std::size_t>(position_.next_snapshot);
     const bool wanted = next < times.size() && position_.time >= times[next];
     if (wanted) ++position_.next_snapshot;
     checkpoint_wanted_ = checkpoint_wanted_ || wanted;
-    const double interval = fem_.snapshot_interval;
+    const double interval = decided_.snapshot_interval.value;
     const auto count = [&](double time) { return std::floor(time / interval + 1e-9); };
     const bool regular = interval > 0.0 && count(position_.time) > count(position_.time - dt);
     const bool asked = dt > 0.0 && request_is_taken(session_.settings().output);
@@ -261,7 +261,7 @@ void Analysis::report_end() {
     facts["failure_surfaces"] = static_cast<std::int64_t>(last.failure_surfaces);
     facts["first_failure_surface_time"] = surface;
     facts["milestones"] = milestones_in(history_);
-    if (fem_.liquefaction) facts["largest_liquefaction_depth"] = depth;
+    if (decided_.liquefaction.value) facts["largest_liquefaction_depth"] = depth;
     spdlog::info("{}", stopped ? "ended before its duration, at " + shown(position_.time) + " of " +
                                      shown(span_) + " s: " + in_words(*entanglement_)
                                : "ended as planned, at " + shown(position_.time) + " s");
@@ -277,7 +277,7 @@ void Analysis::report_end() {
                            : "the first failure surface was there at " +
                                  shown(surface.get<double>()) + " s; at the end there are " +
                                  shown(last.failure_surfaces));
-    if (fem_.liquefaction) {
+    if (decided_.liquefaction.value) {
         spdlog::info("{}", depth > 0.0
                                ? "liquefied to a depth of " + shown(depth) + " m where watched"
                                : std::string("nothing liquefied where it was watched"));

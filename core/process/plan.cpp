@@ -4,6 +4,11 @@
 
 namespace breach::process {
 
+PlanLine line_of(const std::string& feature, Use use, const Reasons& reasons,
+                 const std::string& pointer) {
+    return {feature, use, use == Use::on ? reasons.on : reasons.left_out, pointer};
+}
+
 std::string as_text(const Plan& plan) {
     std::size_t width = 0;
     for (const PlanLine& line : plan) width = std::max(width, line.feature.size());

@@ -18,6 +18,14 @@ struct PlanLine {
 
 using Plan = std::vector<PlanLine>;
 
+/// The line with whichever of the two reasons it is.
+struct Reasons {
+    std::string on, left_out;
+};
+PlanLine line_of(const std::string& feature, Use use, const Reasons& reasons,
+                 const std::string& pointer);
+inline Use use_if(bool on) { return on ? Use::on : Use::left_out; }
+
 /// What was decided, with the plan's line about it. Made once, where it is decided: whoever acts
 /// reads the value, the plan prints the line.
 template <class Value>

@@ -66,21 +66,38 @@ Quality quality_of(const Mesh& mesh) {
     return q;
 }
 
+process::Decided<Mesher> mesher_of(const scene::Scene& scene) {
+    const std::string pointer = "/section/regions";
+    std::string unstructured;
+    for (const scene::Region& region : scene.section.regions) {
+        if (region.mesh != scene::RegionMesh::unstructured) continue;
+        unstructured += (unstructured.empty() ? "" : ", ") + region.name;
+    }
+    const bool from_file = scene::fem_of(scene).mesh.msh_file.has_value();
+    if (from_file || unstructured.empty())
+        return {
+            from_file ? Mesher::msh_file : Mesher::blocks,
+            {"gmsh", process::Use::left_out, "regions are mapped blocks or a .msh file", pointer}};
+    return {Mesher::gmsh, {"gmsh", process::Use::on, "meshes " + unstructured, pointer}};
+}
+
 Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder,
                 const StopQuestion& stop) {
     const scene::Section& section = scene.section;
-    const auto is_unstructured = [](const scene::Region& region) {
-        return region.mesh == scene::RegionMesh::unstructured;
-    };
     Mesh mesh;
-    if (const auto& file = scene::fem_of(scene).mesh.msh_file) {
-        mesh = read_msh(*file, section);
-    } else if (std::any_of(section.regions.begin(), section.regions.end(), is_unstructured)) {
-        mesh = mesh_with_gmsh(section, folder, stop);
-    } else {
-        std::vector<Mesh> parts;
-        for (const Piece& piece : pieces_of(section)) parts.push_back(map_block(piece));
-        mesh = join(parts, section);
+    switch (mesher_of(scene).value) {
+        case Mesher::msh_file:
+            mesh = read_msh(*scene::fem_of(scene).mesh.msh_file, section);
+            break;
+        case Mesher::gmsh:
+            mesh = mesh_with_gmsh(section, folder, stop);
+            break;
+        case Mesher::blocks: {
+            std::vector<Mesh> parts;
+            for (const Piece& piece : pieces_of(section)) parts.push_back(map_block(piece));
+            mesh = join(parts, section);
+            break;
+        }
     }
     check_convex(mesh, section);
     return mesh;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/geometry/quad.hpp"
+#include "core/process/plan.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::fem {
@@ -31,6 +32,10 @@ Corners corners_of(const Mesh& mesh, std::size_t element);
 using StopQuestion = std::function<bool()>;
 /// The answer was yes, and there is no mesh.
 class MeshingStopped : public std::exception {};
+
+/// Where the mesh comes from.
+enum class Mesher { msh_file, gmsh, blocks };
+process::Decided<Mesher> mesher_of(const scene::Scene& scene);
 
 /// The mesh that the scene asks for. `folder`: where gmsh's input and output are kept. Throws
 /// BadInput (regions that do not fit together, a mesh that is not all quads), IoError (gmsh

@@ -26,28 +26,33 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
 }  // namespace
 
 Model build_model(const scene::Scene& scene, Mesh mesh) {
-    const scene::Fem& fem = scene::fem_of(scene);
+    return build_model(scene, decide_model(scene), std::move(mesh));
+}
+
+Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh mesh) {
+    const auto& hourglass = decided.element.value;
+    const auto& base = decided.base.value;
+    const auto& motion = decided.motion.value;
     Model model;
-    model.points_per_element = fem.element == scene::ElementKind::ssp ? 1 : gauss_points;
+    model.points_per_element = hourglass ? 1 : gauss_points;
     model.body = {mesh.nodes.size(), mesh.quads.size()};
     FreeFieldColumns columns;
-    if (fem.free_field) {
-        columns = add_free_field(*fem.free_field, mesh);
-        model.column_thickness = fem.free_field->thickness_factor;
+    if (const auto& sides = decided.free_field.value) {
+        columns = add_free_field(*sides, mesh);
+        model.column_thickness = sides->thickness_factor;
     }
-    model.constraints = constraints_of(fem, mesh, columns.ties, columns.pressure_ties);
+    model.constraints =
+        constraints_of(scene::fem_of(scene), base, mesh, columns.ties, columns.pressure_ties);
     model.zones = zones_of(scene, mesh);
     model.thickness = scene.thickness;
-    model.kinematics = fem.kinematics;
-    model.rayleigh = {fem.rayleigh_mass, fem.rayleigh_stiffness};
+    model.kinematics = decided.kinematics.value;
+    model.rayleigh = decided.damping.value;
     model.nodal_mass.assign(mesh.nodes.size(), 0.0);
     model.reference.resize(mesh.quads.size());
     model.volume.resize(mesh.quads.size());
-    if (fem.element == scene::ElementKind::ssp) {
+    if (hourglass) {
         model.hourglass.resize(mesh.quads.size());
-        model.hourglass_modulus = fem.hourglass == scene::HourglassKind::elastic
-                                      ? HourglassModulus::elastic
-                                      : HourglassModulus::current;
+        model.hourglass_modulus = *hourglass;
     }
     for (const Zone& zone : model.zones) {
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
@@ -55,7 +60,7 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
             const double thickness = model.thickness_of(e);
             Gradients gradients;
             evaluate_gradients(x, thickness, gradients);
-            if (fem.element == scene::ElementKind::ssp) {
+            if (hourglass) {
                 evaluate_ssp(x, thickness, model.hourglass[e]);
                 use_centre_only(model.hourglass[e], gradients, model.reference[e]);
             } else {
@@ -74,7 +79,7 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
         const auto d = static_cast<Eigen::Index>(2 * i);
         model.mass.segment<2>(d).setConstant(model.nodal_mass[i]);
-        model.external_force[d + 1] = -model.nodal_mass[i] * scene.gravity;
+        model.external_force[d + 1] = -model.nodal_mass[i] * decided.gravity.value;
     }
     if (!columns.inner.empty()) model.row_weight = Eigen::VectorXd::Ones(dofs);
     for (const std::int32_t node : columns.inner) {
@@ -82,12 +87,12 @@ Model build_model(const scene::Scene& scene, Mesh mesh) {
             1.0 / model.column_thickness;
     }
     model.mesh = std::move(mesh);
-    add_ground_loads(scene, model);
-    if (fem.water) model.water = ground_water(scene, model);
-    if (fem.base) {
-        model.base = absorbing_base(model, fem.base->density * fem.base->V_s,
-                                    fem.motion ? base_velocity(*fem.motion) : motion::Series{},
-                                    fem.base->motion_at);
+    add_ground_loads(decided, model);
+    if (decided.water.value) model.water = ground_water(scene, model);
+    if (base) {
+        model.base =
+            absorbing_base(model, base->density * base->V_s,
+                           motion ? base_velocity(*motion) : motion::Series{}, base->motion_at);
     }
     return model;
 }

@@ -1,11 +1,13 @@
 // The model of a scene on a mesh: who stands on what, weighs how much and obeys which law.
 #pragma once
 
-#include "fem_solver/model/model.hpp"
+#include "fem_solver/model/choose.hpp"
 
 namespace breach::fem {
 
 /// Throws BadInput when supports, water, base or columns do not fit the mesh.
 Model build_model(const scene::Scene& scene, Mesh mesh);
+/// The same with what was decided about the scene.
+Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh mesh);
 
 }  // namespace breach::fem

@@ -84,7 +84,8 @@ Constraints unconstrained(std::size_t nodes) {
     return c;
 }
 
-Constraints constraints_of(const scene::Fem& fem, const Mesh& mesh, const std::vector<Tie>& ties,
+Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::ElasticBase>& base,
+                           const Mesh& mesh, const std::vector<Tie>& ties,
                            const std::vector<Tie>& pressure_ties) {
     const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
     Constraints c = unconstrained(mesh.nodes.size());
@@ -98,9 +99,9 @@ Constraints constraints_of(const scene::Fem& fem, const Mesh& mesh, const std::v
         tie(c.master, 2 * master + 1, 2 * slave + 1);
     }
     for (const auto& [master, slave] : pressure_ties) tie(c.pressure_master, master, slave);
-    if (!fem.base) return c;
+    if (!base) return c;
     c.is_base = is_lowest;
-    if (fem.base->nodes == scene::BaseNodes::free) return c;
+    if (base->nodes == scene::BaseNodes::free) return c;
     const auto first = std::find(is_lowest.begin(), is_lowest.end(), true) - is_lowest.begin();
     for (std::size_t i = 0; i < is_lowest.size(); ++i) {
         if (!is_lowest[i]) continue;

@@ -42,7 +42,8 @@ enum class Solved {
 /// ties: in both directions of u. pressure_ties: in p. Throws BadInput when a support holds no
 /// node, when nothing holds the body in x or y, or when a support and a tie claim the same node
 /// above the base.
-Constraints constraints_of(const scene::Fem& fem, const Mesh& mesh, const std::vector<Tie>& ties,
+Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::ElasticBase>& base,
+                           const Mesh& mesh, const std::vector<Tie>& ties,
                            const std::vector<Tie>& pressure_ties);
 
 /// No support and no tie: every displacement of these nodes is its own.

@@ -42,21 +42,23 @@ double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2
     return water.density * gravity * std::max(0.0, level_at(water.line, x.x()) - x.y());
 }
 
-void add_ground_loads(const scene::Scene& scene, Model& model) {
-    const scene::Fem& fem = scene::fem_of(scene);
-    if (!fem.water && fem.surcharge.empty()) return;
+void add_ground_loads(const ModelDecisions& decided, Model& model) {
+    const auto& water = decided.water.value;
+    const auto& surcharge = decided.surcharge.value;
+    const double gravity = decided.gravity.value;
+    if (!water && surcharge.empty()) return;
     const auto add = [&](std::int32_t node, const Vec2& force) {
         model.external_force.segment<2>(2 * static_cast<Eigen::Index>(node)) += force;
     };
     for (const auto& [a, b, outwards] : ground_edges(model)) {
         const Vec2 &x_a = model.mesh.nodes[a], &x_b = model.mesh.nodes[b];
-        if (fem.water) {
-            const double p_a = pond_pressure(*fem.water, scene.gravity, x_a);
-            const double p_b = pond_pressure(*fem.water, scene.gravity, x_b);
+        if (water) {
+            const double p_a = pond_pressure(*water, gravity, x_a);
+            const double p_b = pond_pressure(*water, gravity, x_b);
             add(a, -(2.0 * p_a + p_b) / 6.0 * outwards);
             add(b, -(p_a + 2.0 * p_b) / 6.0 * outwards);
         }
-        for (const scene::Surcharge& load : fem.surcharge) {
+        for (const scene::Surcharge& load : surcharge) {
             const double middle = 0.5 * (x_a.x() + x_b.x());
             if (middle < load.from || middle > load.to) continue;
             const Vec2 force(0.0, -0.5 * load.pressure * outwards.y());

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geometry/polyline.hpp"
-#include "fem_solver/model/model.hpp"
+#include "fem_solver/model/choose.hpp"
 
 namespace breach::fem {
 
@@ -22,6 +22,6 @@ double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2
 /// Adds the forces of ponded water (normal to the ground, linear along an edge) and of the
 /// surcharge (vertical, on the edge's horizontal extent) to the model's external force. They stay
 /// as they are when the ground moves.
-void add_ground_loads(const scene::Scene& scene, Model& model);
+void add_ground_loads(const ModelDecisions& decided, Model& model);
 
 }  // namespace breach::fem

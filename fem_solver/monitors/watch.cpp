@@ -6,6 +6,14 @@
 
 namespace breach::fem {
 
+process::Decided<std::optional<scene::LiquefactionWatch>> liquefaction_watch(
+    const scene::Fem& fem) {
+    return {fem.liquefaction,
+            line_of("liquefied layers", process::use_if(fem.liquefaction.has_value()),
+                    {"depth and r_u below the watched ground", "nothing is watched"},
+                    "/fem/liquefaction")};
+}
+
 Watch::Watch(const scene::Fem& fem, const Model& model)
     : body_(model.mesh),
       failure_strain_(fem.failure_strain),
@@ -14,10 +22,10 @@ Watch::Watch(const scene::Fem& fem, const Model& model)
     body_.quads.resize(model.body.elements);
     body_.region_of_element.resize(model.body.elements);
     ground_ = ground_of(body_);
-    if (!fem.liquefaction) return;
-    window_ = {fem.liquefaction->regions, fem.liquefaction->x, fem.liquefaction->level,
-               fem.liquefaction->r_u};
-    least_stress_ = fem.liquefaction->least_stress;
+    const auto watched = liquefaction_watch(fem).value;
+    if (!watched) return;
+    window_ = {watched->regions, watched->x, watched->level, watched->r_u};
+    least_stress_ = watched->least_stress;
     nodes_ = nodes_in(body_, window_);
 }
 

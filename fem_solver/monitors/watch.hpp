@@ -8,6 +8,9 @@
 
 namespace breach::fem {
 
+/// Whether and where liquefaction is watched.
+process::Decided<std::optional<scene::LiquefactionWatch>> liquefaction_watch(const scene::Fem& fem);
+
 class Watch {
   public:
     Watch(const scene::Fem& fem, const Model& model);

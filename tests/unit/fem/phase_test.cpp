@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/telemetry/columns.hpp"
+#include "fem_solver/choose.hpp"
 #include "fem_solver/model/build_model.hpp"
 #include "fem_solver/monitors/monitors.hpp"
 #include "fem_solver/run.hpp"
@@ -51,6 +52,62 @@ TEST(Plan, FollowsTheScene) {
     const process::Plan p = plan(parse(scene));
     EXPECT_EQ(use_of(p, "Rayleigh"), process::Use::on);
     EXPECT_EQ(use_of(p, "moving mesh"), process::Use::on);
+}
+
+TEST(Plan, PrintsTheDecisionsThemselves) {
+    const scene::Scene parsed = parse(slope());
+    Decisions decided = decide(parsed);
+    for (process::PlanLine* line : {&decided.model.element.line, &decided.run.memory.line,
+                                    &decided.run.liquefaction.line, &decided.mesher.line}) {
+        line->reason = "told by " + line->feature;
+    }
+    int told = 0;
+    for (const process::PlanLine& line : plan_of(decided, parsed))
+        told += line.reason == "told by " + line.feature;
+    EXPECT_EQ(told, 4);
+}
+
+TEST(Model, IsBuiltFromTheDecisionsThatThePlanPrints) {
+    const scene::Scene parsed = parse(slope());
+    ModelDecisions decided = decide_model(parsed);
+    const Mesh mesh = build_mesh(parsed, ".");
+    const Model as_asked = build_model(parsed, decided, mesh);
+    EXPECT_EQ(as_asked.points_per_element, 4u);
+    EXPECT_LT(as_asked.external_force.minCoeff(), 0.0);
+    decided.gravity.value = 0.0;
+    decided.element.value = HourglassModulus::elastic;
+    decided.kinematics.value = scene::Kinematics::updated_lagrangian;
+    decided.damping.value.mass = 0.5;
+    decided.surcharge.value = {{.from = 0.0, .to = 1e3, .pressure = 1e4}};
+    const Model as_decided = build_model(parsed, decided, mesh);
+    EXPECT_EQ(as_decided.points_per_element, 1u);
+    EXPECT_EQ(as_decided.hourglass_modulus, HourglassModulus::elastic);
+    EXPECT_EQ(as_decided.kinematics, scene::Kinematics::updated_lagrangian);
+    EXPECT_EQ(as_decided.rayleigh.mass, 0.5);
+    EXPECT_LT(as_decided.external_force.minCoeff(), 0.0) << "of the surcharge";
+    decided.surcharge.value.clear();
+    EXPECT_EQ(build_model(parsed, decided, mesh).external_force.norm(), 0.0);
+}
+
+TEST(Plan, SaysWithWhichStageALawWithMemoryBeginsAndFromWhere) {
+    json scene = slope();
+    for (auto& [name, material] : scene["materials"].items())
+        material["law"] = {{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
+    json& stages = scene["fem"]["stages"];
+    stages = json::array({{{"type", "static"}, {"name", "gravity"}, {"laws", "elastic"}},
+                          {{"type", "static"}, {"name", "sand"}}});
+    RunDecisions decided = decide_run(parse(scene));
+    EXPECT_EQ(decided.memory.value, 1);
+    EXPECT_EQ(decided.memory.line.use, process::Use::on);
+    EXPECT_NE(decided.memory.line.reason.find("PM4Sand in "), std::string::npos);
+    EXPECT_EQ(decided.memory_start.value, MemoryStart::at_rest_with_friction);
+    EXPECT_EQ(decided.memory_start.line.use, process::Use::on);
+    stages.erase(1);
+    decided = decide_run(parse(scene));
+    EXPECT_FALSE(decided.memory.value);
+    EXPECT_EQ(decided.memory.line.use, process::Use::left_out);
+    EXPECT_EQ(decided.memory_start.value, MemoryStart::as_they_are);
+    EXPECT_FALSE(decide_run(parse(slope())).memory.value);
 }
 
 TEST(Model, RefusesASupportThatHoldsNothing) {

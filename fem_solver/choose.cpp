@@ -1,0 +1,152 @@
+#include "fem_solver/choose.hpp"
+
+#include <algorithm>
+
+#include "core/words/number.hpp"
+#include "fem_solver/monitors/watch.hpp"
+#include "fem_solver/solve/plastic_gravity.hpp"
+
+namespace breach::fem {
+
+namespace {
+
+using process::Decided;
+using process::line_of;
+using process::PlanLine;
+using process::use_if;
+
+using Question = bool (*)(const materials::Law&);
+
+/// "Mohr-Coulomb in a, b; ...": the laws of which this is true, with their regions.
+std::string laws_that(const scene::Scene& scene, Question question) {
+    std::vector<std::pair<std::string, std::string>> found;
+    for (const scene::Region& region : scene.section.regions) {
+        const materials::Law& law = scene.materials[region.material].law;
+        if (!question(law)) continue;
+        const std::string name = materials::traits(law).name;
+        const auto known =
+            std::ranges::find(found, name, [](const auto& each) { return each.first; });
+        if (known == found.end())
+            found.emplace_back(name, region.name);
+        else
+            known->second += ", " + region.name;
+    }
+    std::string text;
+    for (const auto& [name, regions] : found)
+        text += (text.empty() ? "" : "; ") + name + " in " + regions;
+    return text;
+}
+
+std::string regions_that_soften(const scene::Scene& scene) {
+    std::string names;
+    for (const scene::Region& region : scene.section.regions) {
+        if (!materials::softening(scene.materials[region.material].law)) continue;
+        names += (names.empty() ? "" : ", ") + region.name;
+    }
+    return names;
+}
+
+/// Those that remember have a line of their own.
+bool flows_without_memory(const materials::Law& law) {
+    return materials::traits(law).yields && !materials::remembers(law);
+}
+
+Decided<std::optional<std::int64_t>> memory_of(const scene::Scene& scene) {
+    const std::string feature = "laws with memory", pointer = "/materials";
+    const std::string laws = laws_that(scene, materials::remembers);
+    const auto& stages = scene::fem_of(scene).stages;
+    const auto first = std::ranges::find(stages, scene::StageLaws::scene, &scene::Stage::laws);
+    if (laws.empty())
+        return {std::nullopt, {feature, process::Use::left_out, "no material has one", pointer}};
+    if (first == stages.end())
+        return {std::nullopt,
+                {feature, process::Use::left_out, laws + ", but every stage is elastic", pointer}};
+    return {first - stages.begin(),
+            {feature, process::Use::on, laws + "; elastic until the first stage with its laws",
+             pointer}};
+}
+
+Decided<MemoryStart> memory_start_of(const scene::Fem& fem,
+                                     const std::optional<std::int64_t>& stage) {
+    const bool rests = stage && rests_first(fem.stages[static_cast<std::size_t>(*stage)], *stage);
+    const std::string without =
+        stage ? "no static stage of the scene's laws follows elastic gravity; what lies outside "
+                "their surfaces stays as a constant stress"
+              : "no law with memory begins";
+    return {rests ? MemoryStart::at_rest_with_friction : MemoryStart::as_they_are,
+            line_of("friction before laws with memory", use_if(rests),
+                    {"a static stage begins them: gravity's stresses are brought inside their "
+                     "surfaces first",
+                     without},
+                    "/fem/stages")};
+}
+
+}  // namespace
+
+RunDecisions decide_run(const scene::Scene& scene) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    const auto memory = memory_of(scene);
+    return {
+        .memory = memory,
+        .memory_start = memory_start_of(fem, memory.value),
+        .snapshot_times = {fem.snapshot_times,
+                           line_of("snapshots on the way", use_if(!fem.snapshot_times.empty()),
+                                   {std::to_string(fem.snapshot_times.size()) + " times",
+                                    "only the end is kept, and what is asked for on the way"},
+                                   "/fem/snapshot_times")},
+        .snapshot_interval = {fem.snapshot_interval,
+                              line_of("regular snapshots", use_if(fem.snapshot_interval > 0.0),
+                                      {"one per " + words::text_of(fem.snapshot_interval) + " s",
+                                       "no interval is given"},
+                                      "/fem/snapshot_interval")},
+        .liquefaction = liquefaction_watch(fem),
+        .largest_step_error = {fem.largest_step_error,
+                               line_of("step size from its error",
+                                       use_if(fem.largest_step_error > 0.0),
+                                       {"steps are cut and grown to keep it",
+                                        "steps follow the iterations alone"},
+                                       "/fem/largest_step_error")},
+    };
+}
+
+Decisions decide(const scene::Scene& scene) {
+    return {mesher_of(scene), decide_model(scene), decide_run(scene)};
+}
+
+process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
+    const ModelDecisions& model = decided.model;
+    const RunDecisions& run = decided.run;
+    const std::string plastic = laws_that(scene, flows_without_memory);
+    const std::string softening = regions_that_soften(scene);
+    const bool moves = std::ranges::any_of(scene::fem_of(scene).stages, [](const auto& stage) {
+        return stage.kind == scene::StageKind::dynamic;
+    });
+    return {
+        model.gravity.line,
+        run.memory.line,
+        run.memory_start.line,
+        line_of("plasticity", use_if(!plastic.empty()), {plastic, "no material flows plastically"},
+                "/materials"),
+        line_of("softening", use_if(!softening.empty()),
+                {"in " + softening + "; explicit per step, so shear bands are one element wide",
+                 "no law softens"},
+                "/materials"),
+        line_of("inertia (Newmark)", use_if(moves), {"a stage is dynamic", "every stage is static"},
+                "/fem/stages"),
+        model.kinematics.line,
+        model.element.line,
+        model.damping.line,
+        decided.mesher.line,
+        run.snapshot_times.line,
+        run.snapshot_interval.line,
+        model.water.line,
+        model.base.line,
+        model.motion.line,
+        model.free_field.line,
+        run.liquefaction.line,
+        model.surcharge.line,
+        run.largest_step_error.line,
+    };
+}
+
+}  // namespace breach::fem
