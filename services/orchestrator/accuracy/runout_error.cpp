@@ -4,7 +4,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/phases/phases.hpp"
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 
@@ -92,51 +91,49 @@ Estimate estimate_of(const AccuracyTable& table, const std::string& variant,
     return found;
 }
 
-/// Rungs of the accuracy studies that there are, by what was asked of the phases.
+/// Rungs of the accuracy studies that there are, by the recipe of their MPM. What else was asked of
+/// the phases is looked up only where that is equal.
 class Studies {
   public:
     Studies(const Store& store, const DataFolder& data)
         : store_(store), data_(data), questions_(store) {
-        for (const std::string& run : store.accuracy_runs(most_studies)) take(run);
+        for (AccuracyRung& each : store.accuracy_rungs(most_studies)) {
+            std::string recipe = each.recipe;
+            rungs_.emplace(std::move(recipe), std::move(each));
+        }
     }
 
     bool none() const { return rungs_.empty(); }
 
     /// Nothing: no study has this rung.
     std::optional<Estimate> estimate(const Task& mpm) {
-        const auto transfer = store_.task(*mpm.parent);
-        const auto fem = store_.task(*transfer->parent);
-        const auto question = questions_.of(mpm, *transfer, *fem);
+        const auto question = question_of(mpm);
         if (!question) return std::nullopt;
         std::optional<Estimate> best;
-        const auto [first, last] = rungs_.equal_range(*question);
-        for (auto rung = first; rung != last && !(best && best->error); ++rung) {
-            const auto& [run, variant] = rung->second;
-            auto table = tables_.find(run);
+        const auto [first, last] = rungs_.equal_range(*mpm.recipe);
+        for (auto each = first; each != last && !(best && best->error); ++each) {
+            const AccuracyRung& rung = each->second;
+            if (question_of(*store_.task(rung.mpm_task)) != question) continue;
+            auto table = tables_.find(rung.run);
             if (table == tables_.end())
-                table = tables_.emplace(run, accuracy_table(store_, data_, run)).first;
+                table = tables_.emplace(rung.run, accuracy_table(store_, data_, rung.run)).first;
             if (is_runout(table->second->plan.quantity))
-                best = estimate_of(*table->second, variant, run);
+                best = estimate_of(*table->second, rung.variant, rung.run);
         }
         return best;
     }
 
   private:
-    void take(const std::string& run) {
-        std::map<std::string, Task> tasks;
-        for (Task& each : store_.tasks_of(run)) tasks.emplace(each.id, std::move(each));
-        for (const auto& [id, task] : tasks) {
-            if (task.phase != phases::mpm.program || !task.parent) continue;
-            const Task& transfer = tasks.at(*task.parent);
-            if (const auto question = questions_.of(task, transfer, tasks.at(*transfer.parent)))
-                rungs_.emplace(*question, std::pair{run, task.variant});
-        }
+    std::optional<Question> question_of(const Task& mpm) {
+        if (!mpm.recipe || !mpm.parent) return std::nullopt;
+        const auto transfer = store_.task(*mpm.parent);
+        return questions_.of(mpm, *transfer, *store_.task(*transfer->parent));
     }
 
     const Store& store_;
     const DataFolder& data_;
     Questions questions_;
-    std::multimap<Question, std::pair<std::string, std::string>> rungs_;  ///< run, variant
+    std::multimap<std::string, AccuracyRung> rungs_;  ///< those of a newer study first
     std::map<std::string, std::optional<AccuracyTable>> tables_;
 };
 

@@ -105,6 +105,14 @@ struct Run {
     std::vector<FlagTally> flags = {};
 };
 
+/// The MPM of a rung of an accuracy study.
+struct AccuracyRung {
+    std::string run;
+    std::string variant;
+    std::string mpm_task;
+    std::string recipe;  ///< its hash
+};
+
 /// Which rows of a table of results: those from number `from` on that meet the rest.
 struct ResultFilter {
     std::optional<std::string> state;

@@ -356,14 +356,20 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return found;
 }
 
-std::vector<std::string> Store::accuracy_runs(std::size_t most) const {
-    std::vector<std::string> found;
+std::vector<AccuracyRung> Store::accuracy_rungs(std::size_t most_runs) const {
+    std::vector<AccuracyRung> found;
     read([&](Connection& database) {
-        // The condition as the index runs_with_accuracy has it.
+        // The condition on the study as the index runs_with_accuracy has it.
         database.query(
-            "SELECT id FROM runs WHERE json_type(study, '$.accuracy')='object' ORDER BY id DESC "
-            "LIMIT ?",
-            {as_value(most)}, [&](const Row& row) { found.push_back(row.text(0)); });
+            "SELECT run, variant, id, recipe FROM tasks WHERE run IN (SELECT id FROM runs WHERE "
+            "json_type(study, '$.accuracy')='object' ORDER BY id DESC LIMIT ?) AND phase=? AND "
+            "recipe IS NOT NULL AND parent IS NOT NULL ORDER BY run DESC, id",
+            {as_value(most_runs), phases::mpm.program}, [&](const Row& row) {
+                found.push_back({.run = row.text(0),
+                                 .variant = row.text(1),
+                                 .mpm_task = row.text(2),
+                                 .recipe = row.text(3)});
+            });
     });
     return found;
 }

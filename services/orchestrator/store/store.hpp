@@ -85,8 +85,8 @@ class Store {
     std::optional<Artifact> artifact(const std::string& sha256) const;
     /// In the study's order of variants, each ascending in the transfer time.
     std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
-    /// Runs that are accuracy studies, newest first.
-    std::vector<std::string> accuracy_runs(std::size_t most) const;
+    /// Of the newest accuracy studies, a newer one's first.
+    std::vector<AccuracyRung> accuracy_rungs(std::size_t most_runs) const;
     /// Points of a sweep, and how many of them have their runout.
     std::pair<std::int64_t, std::int64_t> points_of(const std::string& run) const;
 
