@@ -11,7 +11,7 @@ using nlohmann::json;
 namespace {
 
 /// "3.2 %"; "-" for null.
-std::string percent(const json& share) {
+std::string percent_of(const json& share) {
     if (!share.is_number()) return "-";
     char text[32];
     const double value = 100.0 * share.get<double>();
@@ -70,7 +70,7 @@ std::string as_accuracy_table(const json& answer) {
     for (const json& row : answer.at("rows")) {
         rows.push_back({cell(row, "ladder"), setting_of(row), cell(row, "value"),
                         cell(row, "standard_deviation"), cell(row, "draws"),
-                        percent(row.at("error")), percent(row.at("error_of_a_run")),
+                        percent_of(row.at("error")), percent(row.at("error_of_a_run")),
                         cell(row, "cpu_seconds"), cell(row, "wall_seconds"),
                         cell(row, "peak_memory_MB"), note_of(row, answer)});
     }
