@@ -70,7 +70,7 @@ std::string as_accuracy_table(const json& answer) {
     for (const json& row : answer.at("rows")) {
         rows.push_back({cell(row, "ladder"), setting_of(row), cell(row, "value"),
                         cell(row, "standard_deviation"), cell(row, "draws"),
-                        percent_of(row.at("error")), percent(row.at("error_of_a_run")),
+                        percent_of(row.at("error")), percent_of(row.at("error_of_a_run")),
                         cell(row, "cpu_seconds"), cell(row, "wall_seconds"),
                         cell(row, "peak_memory_MB"), note_of(row, answer)});
     }
