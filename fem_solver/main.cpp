@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
                                           breach::element_bench::calibrate_phase());
     }
     breach::process::Phase phase{
-        .name = phases::fem.program,
+        .name = breach::phases::fem.program,
         .purpose =
             "Dynamic finite elements: from geostatic stress to the failing slope. "
             "Also: fem_solver element-test, fem_solver calibrate",

@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
     using namespace breach;
     return process::run_phase(argc, argv,
-                              {.name = phases::lem.program,
+                              {.name = breach::phases::lem.program,
                                .purpose = "Limit equilibrium: how stable is the section?",
                                .inputs = {.least = 0, .most = 0, .what = "no input file"},
                                .plan = lem::plan,

@@ -6,7 +6,7 @@
 int main(int argc, char** argv) {
     using namespace breach;
     process::Phase phase{
-        .name = phases::mpm.program,
+        .name = breach::phases::mpm.program,
         .purpose = "Runout of a failing mass by the material point method (plane strain, explicit)",
         .inputs = {.least = 0,
                    .most = 1,

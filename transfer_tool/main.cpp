@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
         return breach::process::run_phase(argc - 1, argv + 1, breach::transfer::advise_phase());
     return breach::process::run_phase(
         argc, argv,
-        {.name = phases::transfer.program,
+        {.name = breach::phases::transfer.program,
          .purpose = "From a FEM snapshot to material points, with a ledger of what was kept. "
                     "Also: transfer_tool advise",
          .inputs = {1, 1, "a FEM snapshot (.vtkhdf)"},
