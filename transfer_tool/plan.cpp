@@ -105,8 +105,9 @@ PlanLine interpolation_line(const scene::Transfer& settings) {
 }
 
 PlanLine gauss_line(const scene::Transfer& settings) {
+    const bool moved = settings.point_shift != std::array<double, 2>{};
     const bool same = settings.interpolation == scene::Interpolation::local &&
-                      settings.points_per_direction == 2 && !settings.points_per_cell;
+                      settings.points_per_direction == 2 && !settings.points_per_cell && !moved;
     if (same)
         return {"radial basis functions", Use::left_out,
                 "2 points per direction take the values of 2 x 2 Gauss points that lie there; a "
@@ -114,8 +115,9 @@ PlanLine gauss_line(const scene::Transfer& settings) {
                 "other Gauss points is interpolated",
                 "/transfer/points_per_direction"};
     return {"radial basis functions", Use::on,
-            std::to_string(settings.points_per_direction) + " points per direction",
-            "/transfer/points_per_direction"};
+            std::to_string(settings.points_per_direction) + " points per direction" +
+                (moved ? ", moved off the Gauss points" : ""),
+            moved ? "/transfer/point_shift" : "/transfer/points_per_direction"};
 }
 
 PlanLine softening_line(const scene::Scene& scene, const scene::Transfer& settings) {
