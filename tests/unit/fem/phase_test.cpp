@@ -95,7 +95,7 @@ TEST(Plan, SaysWithWhichStageALawWithMemoryBeginsAndFromWhere) {
         material["law"] = {{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
     json& stages = scene["fem"]["stages"];
     stages = json::array({{{"type", "static"}, {"name", "gravity"}, {"laws", "elastic"}},
-                          {{"type", "static"}, {"name", "sand"}}});
+                          {{"type", "static"}, {"name", "sand"}, {"laws", "scene"}}});
     RunDecisions decided = decide_run(parse(scene));
     EXPECT_EQ(decided.memory.value, 1);
     EXPECT_EQ(decided.memory.line.use, process::Use::on);
