@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <map>
 
 #include "core/scene/schema.hpp"
 #include "core/telemetry/columns.hpp"
@@ -265,17 +266,17 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
 
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {
     std::vector<Setting> settings;
-    std::vector<json> scenes;
+    std::map<json, std::size_t> first_with;  // place of the first setting that comes to a scene
     const json base = changed(scene, plan.base);
     for (std::size_t i = 0; i < plan.ladders.size(); ++i) {
         for (std::size_t k = 0; k < plan.ladders[i].steps.size(); ++k) {
             Setting setting{.ladder = i, .step = k, .variants = {}};
-            scenes.push_back(changed(scene, overrides_of(plan, i, k)));
-            setting.is_base = scenes.back() == base;
-            const auto same = std::ranges::find(scenes, scenes.back());
-            const auto first = static_cast<std::size_t>(same - scenes.begin());
+            const auto [same, is_new] =
+                first_with.emplace(changed(scene, overrides_of(plan, i, k)), settings.size());
+            const std::size_t first = same->second;
+            setting.is_base = same->first == base;
             // Within a ladder equal rungs are a slip, which is told elsewhere.
-            if (first < settings.size() && settings[first].ladder != i) {
+            if (!is_new && settings[first].ladder != i) {
                 setting.variants = settings[first].variants;
             } else {
                 for (std::size_t d = 0; d < plan.draws; ++d)
