@@ -12,6 +12,13 @@
 
 namespace breach::orchestrator {
 
+/// The mean of several runs with a setting on lattices of their own.
+struct MeanOfDraws {
+    std::size_t draws;
+    double error;        ///< what it is off at most, in nine of ten times; relative
+    double cpu_seconds;  ///< of all the draws, which share a FEM
+};
+
 struct AccuracyRow {
     Setting setting;
     std::optional<double> size = {};
@@ -23,6 +30,9 @@ struct AccuracyRow {
     /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
     /// a reference rung is what its ladder says of the finest.
     std::optional<double> error_of_a_run = {};
+    std::optional<double> bias = {};  ///< the same without the scatter
+    /// Of the fewest draws whose mean keeps the asked error; nothing: not even many do
+    std::optional<MeanOfDraws> mean_within_asked = {};
     bool is_reference = false;  ///< errors are measured from it: its own is not known
     bool below_noise = false;   ///< the error is not told apart from the noise of the repeats
     bool questionable = false;  ///< a run of it carries a flag that forbids to rely on it

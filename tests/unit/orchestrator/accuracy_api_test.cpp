@@ -94,6 +94,85 @@ TEST(Accuracy, DrawsGiveTheNoiseAndRungsOfALaterStudyComeFromTheCache) {
     EXPECT_EQ(accuracy_of(service, again).at("rows")[0].at("draws"), 2);
 }
 
+/// Of the finest rung one run scatters by 0.07 %, and its bias is 0.003 %.
+json noisy_study() {
+    return accuracy_study({{"draws", 4},
+                           {"asked_error", 0.0015},
+                           {"reference", {{"value", 10.3125}, {"source", "the formula"}}}});
+}
+
+TEST(Accuracy, WhereOneRunScattersTooMuchItTellsHowManyToAverage) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(noisy_study());
+    service.wait_for_end(run);
+    const json answer = accuracy_of(service, run);
+    const json& best = answer.at("recommended");
+    ASSERT_TRUE(best.is_object()) << answer.dump(1);
+    EXPECT_EQ(best.at("step"), 3);
+    EXPECT_EQ(best.at("draws"), 2);
+    EXPECT_DOUBLE_EQ(best.at("cpu_seconds"), 2 * 128.0);
+    // The shifts 0, 0.4588, 0.0176, -0.4237 move the runout by 2 cm each: s = 7.21 mm.
+    const double half = 2.3534 * 0.007207 / 10.3125 * std::sqrt(1.0 / 2 + 1.0 / 4);
+    EXPECT_NEAR(best.at("error").get<double>(), half + 0.000263 / 10.3125, 2e-6);
+    const std::string words = answer.at("recommendation");
+    EXPECT_NE(words.find("the mean of 2 draws of cells: /mpm/cell_size=0.25"), std::string::npos)
+        << words;
+    EXPECT_NE(words.find("256 CPU s"), std::string::npos) << words;
+    EXPECT_TRUE(answer.at("rows")[0].at("mean_within_asked").is_null()) << "its bias is 7 %";
+    const json wider =
+        service.get("/v1/runs/" + run + "/accuracy?asked_error=0.1").body.at("recommended");
+    EXPECT_EQ(wider.at("step"), 1);
+    EXPECT_EQ(wider.at("draws"), 1);
+}
+
+TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(noisy_study());
+    service.wait_for_end(run);
+    const std::string door = "/v1/runs/" + run + "/accuracy/check";
+    const auto made = service.post(door + "?repeats=3", "{}");
+    ASSERT_EQ(made.status, 202) << made.text;
+    const std::string check = made.body.at("id");
+    for (const json& each : service.wait_for_end(check).at("tasks"))
+        EXPECT_EQ(each.at("state"), each.at("phase") == "fem_solver" ? "cached" : "succeeded")
+            << each.at("label") << ": no lattice of the study";
+    const json told = service.get("/v1/runs/" + check + "/accuracy/check").body;
+    EXPECT_EQ(told.at("of"), run);
+    ASSERT_EQ(told.at("means").size(), 3u);
+    EXPECT_EQ(told.at("means")[0].at("variants"), json({"d5", "d6"}));
+    EXPECT_EQ(told.at("kept"), 3);
+    // Shifts -0.8649 and 0.4939.
+    EXPECT_NEAR(told.at("means")[0].at("value").get<double>(), 10.3125 - 0.02 * 0.1855, 1e-5);
+
+    // One by one the same six lattices: 0.02 m x 0.8649 and x 0.8298 are more than 0.15 %.
+    const std::string single =
+        service.post(door + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
+    for (const json& each : service.wait_for_end(single).at("tasks"))
+        EXPECT_EQ(each.at("state"), "cached") << each.at("label");
+    const json one_by_one = service.get("/v1/runs/" + single + "/accuracy/check").body;
+    EXPECT_EQ(one_by_one.at("judged"), 6);
+    EXPECT_EQ(one_by_one.at("kept"), 4) << one_by_one.dump(1);
+    EXPECT_NEAR(one_by_one.at("furthest").get<double>(), 0.02 * 0.8649 / 10.3125, 1e-6);
+    EXPECT_TRUE(one_by_one.at("verdict").get<std::string>().starts_with(
+        "4 of 6 new draws are within 0.15 % of 10.31 m; the furthest is off by 0.17 %"))
+        << one_by_one.at("verdict");
+}
+
+TEST(BlindCheck, OfNothingRecommendedIsRefusedWithTheReason) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(accuracy_study({{"asked_error", 1e-4}}));
+    service.wait_for_end(run);
+    const auto answer = service.post("/v1/runs/" + run + "/accuracy/check", "{}");
+    EXPECT_EQ(answer.status, 422);
+    EXPECT_NE(answer.body.dump().find("No setting meets"), std::string::npos) << answer.text;
+    EXPECT_FALSE(answer.body.at("faults")[0].at("remedy").get<std::string>().empty());
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/accuracy/check?ladder=cells", "{}").status, 422);
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/accuracy/check?repeats=0", "{}").status, 400);
+}
+
 TEST(Accuracy, IsRefusedWithPointerAndRemedy) {
     const Sandbox sandbox;
     Service service(sandbox);
