@@ -261,6 +261,8 @@ class CommandLine {
         results_->add_option("--state", a_.results.state, "only rows in this state: questionable");
         results_->add_option("--flag", a_.results.flag,
                              "only rows that carry this flag: still_moving");
+        results_->add_flag("--means", a_.results.means,
+                           "only the means over the draws, where the study has draws");
         take_strict(results_);
     }
 

@@ -135,14 +135,20 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
     const std::string id = run_named(server, wish.run);
     const bool csv = console.style == Style::csv;
     const std::string path =
-        path_of({"runs", id, "results"}) +
-        query_of({{"format", csv ? "csv" : ""}, {"state", wish.state}, {"flag", wish.flag}});
+        path_of({"runs", id, "results"}) + query_of({{"format", csv ? "csv" : ""},
+                                                     {"table", wish.means ? "means" : ""},
+                                                     {"state", wish.state},
+                                                     {"flag", wish.flag}});
     if (csv) {
         console.out << server.get_text(path).body;
     } else if (console.style == Style::json) {
         show_json(server.get(path), console);
     } else {
-        console.out << as_result_table(server.get(path));
+        const json answer = server.get(path);
+        const std::string means = as_mean_table(answer);
+        console.out << means;
+        if (!wish.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
+        if (wish.means && means.empty()) console.notes << "the study has no draws\n";
     }
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";

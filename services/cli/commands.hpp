@@ -58,8 +58,9 @@ fault::ExitCode code_of_end(const nlohmann::json& run, Doubt doubt, const Consol
 
 struct ResultsWish {
     std::string run;
-    std::string state;  ///< only rows in this state; empty: all
-    std::string flag;   ///< only rows with a flag of this code; empty: all
+    std::string state;   ///< only rows in this state; empty: all
+    std::string flag;    ///< only rows with a flag of this code; empty: all
+    bool means = false;  ///< only the means over the draws
     Doubt doubt = Doubt::accepted;
 };
 

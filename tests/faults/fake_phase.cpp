@@ -11,6 +11,8 @@
 //     crash=1                the MPM's first attempt ends by SIGKILL
 //     always_crash=1         the MPM never gets through
 //     moving_from=T          the MPM of transfers at T and after still moves at its end
+//     fails_above=S          the MPM of a lattice shifted by more than S ends with 70
+//     moving_above=S         the MPM of such a lattice still moves at its end
 //     as_before=1            the MPM's result is one of a version without flags
 //     by_cell=1              the runout grows with the square of the MPM's cells, the cost with
 //                            their number, and a moved lattice changes the runout
@@ -269,7 +271,10 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
         const bool crash = wish(wanted, "crash", 0) > 0 && !order.resume && done == 2;
         if (crash || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
     });
-    const bool moves = time >= wish(wanted, "moving_from", 1e9);
+    if (shift > wish(wanted, "fails_above", 1.0))
+        end_with_fault(order, 70, "the points have left the grid");
+    const bool moves =
+        time >= wish(wanted, "moving_from", 1e9) || shift > wish(wanted, "moving_above", 1.0);
     json result{{"phase", "mpm_solver"},     {"runout", 10 + time * time},
                 {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
                 {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},

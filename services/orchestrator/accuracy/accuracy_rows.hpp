@@ -1,5 +1,5 @@
 // The table of an accuracy study as plain data: every rung with its value, its error and its cost;
-// what each ladder says; which setting to take.
+// what each ladder says; which setting to take. And what a blind check made of that.
 #pragma once
 
 #include <optional>
@@ -56,6 +56,23 @@ struct AccuracyTable {
     std::vector<LadderSummary> ladders;
     std::optional<std::size_t> recommended;  ///< row
     std::string recommendation;              ///< in a sentence
+};
+
+struct BlindMean {
+    std::vector<std::string> variants;  ///< one per draw
+    std::optional<double> value = {};   ///< nothing: a draw has none
+    std::optional<double> error = {};   ///< relative to the reference
+    bool kept = false;                  ///< the error is at most the one that was asked for
+    bool questionable = false;          ///< a draw carries a flag that forbids to rely on it
+    std::string reason = {};            ///< why there is no value
+};
+
+struct BlindCheck {
+    BlindCheckPlan plan;
+    std::vector<BlindMean> means;
+    std::size_t judged = 0;  ///< means that have a value
+    std::size_t kept = 0;
+    std::optional<double> furthest;  ///< largest error of a mean
 };
 
 }  // namespace breach::orchestrator

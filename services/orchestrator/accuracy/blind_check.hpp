@@ -15,23 +15,6 @@ namespace breach::orchestrator {
 
 constexpr std::size_t most_repeats_of_a_check = 100;
 
-struct BlindMean {
-    std::vector<std::string> variants;  ///< one per draw
-    std::optional<double> value = {};   ///< nothing: a draw has none
-    std::optional<double> error = {};   ///< relative to the reference
-    bool kept = false;                  ///< the error is at most the one that was asked for
-    bool questionable = false;          ///< a draw carries a flag that forbids to rely on it
-    std::string reason = {};            ///< why there is no value
-};
-
-struct BlindCheck {
-    BlindCheckPlan plan;
-    std::vector<BlindMean> means;
-    std::size_t judged = 0;  ///< means that have a value
-    std::size_t kept = 0;
-    std::optional<double> furthest;  ///< largest error of a mean
-};
-
 /// Which setting is checked: a row of the table, so many draws of it in a mean.
 struct CheckWish {
     std::size_t repeats = 10;  ///< so many means; with mean_of as many draws as a study may have

@@ -9,13 +9,7 @@
 
 namespace breach::orchestrator {
 
-/// Of the means, so many are to keep what is promised of them.
-constexpr double confidence = 0.9;
 constexpr std::size_t most_draws_of_a_mean = 20;
-
-/// t such that |T| <= t with probability `share` for Student's distribution with `freedom` >= 1
-/// degrees of freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). 0 < share < 1.
-double student_factor(double share, std::size_t freedom);
 
 /// What the mean of `draws` new draws is off at most, relative to the reference, in nine of ten
 /// times: the bias, which is the setting's own, and half of the interval that the measured draws

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "services/orchestrator/accuracy/accuracy_rows.hpp"
-#include "services/orchestrator/accuracy/blind_check.hpp"
 
 namespace breach::orchestrator {
 

@@ -124,7 +124,8 @@ class Described(unittest.TestCase):
         get("/v1/runs/{id}", f"/v1/runs/{run}")
         get("/v1/runs/{id}/tasks", f"/v1/runs/{run}/tasks?limit=2")
         for kind, name in (("runs", "/v1/runs"), ("sweeps", "/v1/sweeps")):
-            for form in ("", "?format=csv", "?format=hdf5", "?from=1&limit=1"):
+            for form in ("", "?format=csv", "?format=hdf5", "?format=csv&table=means", "?format=hdf5&table=means",
+                         "?from=1&limit=1"):
                 get(f"/v1/{kind}/{{id}}/results", f"{name}/{run}/results{form}")
         get("/v1/runs/{id}/telemetry", f"/v1/runs/{run}/telemetry")
         get("/v1/runs/{id}/triggers", f"/v1/runs/{run}/triggers")
