@@ -42,6 +42,12 @@ std::string note_of(const json& row, const json& answer) {
     return note;
 }
 
+/// Of the mean that is within what is asked; "-": none is.
+std::string of_mean(const json& row, const char* key) {
+    const json& mean = row.at("mean_within_asked");
+    return mean.is_object() ? cell(mean, key) : "-";
+}
+
 std::string title_of(const json& answer) {
     std::string title = cell(answer, "quantity");
     if (answer.at("time").is_number()) title += " at " + cell(answer, "time") + " s";
@@ -72,7 +78,8 @@ std::string as_accuracy_table(const json& answer) {
                         cell(row, "standard_deviation"), cell(row, "draws"),
                         percent_of(row.at("error")), percent_of(row.at("error_of_a_run")),
                         cell(row, "cpu_seconds"), cell(row, "wall_seconds"),
-                        cell(row, "peak_memory_MB"), note_of(row, answer)});
+                        cell(row, "peak_memory_MB"), of_mean(row, "draws"),
+                        of_mean(row, "cpu_seconds"), note_of(row, answer)});
     }
     std::string text = as_table({{"ladder", Align::left},
                                  {"setting", Align::left},
@@ -84,15 +91,41 @@ std::string as_accuracy_table(const json& answer) {
                                  {"CPU [s]", Align::right},
                                  {"wall [s]", Align::right},
                                  {"memory [MB]", Align::right},
+                                 {"draws for " + percent(answer.at("asked_error")), Align::right},
+                                 {"their CPU [s]", Align::right},
                                  {"", Align::left}},
                                 rows);
-    text += "errors relative to " + cell(answer, "reference") +
-            "; \"of a run\": with what the reference is off, the other ladders' error at the "
-            "base, and the scatter\n" +
-            legend_of(answer) + "\n";
+    text +=
+        "errors relative to " + cell(answer, "reference") +
+        "; \"of a run\": with what the reference is off, the other ladders' error at the "
+        "base, and the scatter; \"draws for\": so many are averaged for nine of ten means to be "
+        "within that, -: not even 20 are enough\n" +
+        legend_of(answer) + "\n";
     for (const json& ladder : answer.at("ladders"))
         text += cell(ladder, "name") + ": " + cell(ladder, "message") + "\n";
     return text + "\n" + cell(answer, "recommendation") + "\n";
+}
+
+std::string as_check_table(const json& answer) {
+    std::vector<Cells> rows;
+    for (const json& mean : answer.at("means")) {
+        std::string draws;
+        for (const json& each : mean.at("variants"))
+            draws += (draws.empty() ? "" : " ") + cell(each);
+        std::string note = cell(mean, "reason");
+        if (mean.at("questionable").get<bool>()) note += note.empty() ? "?" : " ?";
+        rows.push_back({draws, cell(mean, "value"), percent(mean.at("error")),
+                        mean.at("kept").get<bool>() ? "yes" : "no", note});
+    }
+    std::string quantity = cell(answer, "quantity");
+    if (answer.at("unit") != "1") quantity += " [" + cell(answer, "unit") + "]";
+    return as_table({{"draws", Align::left},
+                     {quantity, Align::right},
+                     {"error", Align::right},
+                     {"within " + percent(answer.at("asked_error")), Align::left},
+                     {"", Align::left}},
+                    rows) +
+           "\n" + cell(answer, "verdict") + "\n";
 }
 
 }  // namespace breach::cli

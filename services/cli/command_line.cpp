@@ -34,6 +34,7 @@ struct Arguments {
     bool watch = false;
     bool strict = false;
     ResultsWish results;
+    CheckWish check;
     std::int64_t priority = 0;
     std::size_t most_runs = 20;
     LogWish log;
@@ -160,11 +161,13 @@ class CommandLine {
 
     /// The table of a run that is there, or of one that is submitted and watched for it.
     ExitCode accuracy(Server& server, const Console& console) {
-        if (!a_.id.empty()) return show_accuracy(server, a_.id, console);
-        const std::string run = submit(server, a_.submit, console);
+        if (!a_.id.empty() && a_.check.repeats.empty())
+            return show_accuracy(server, a_.id, a_.check.asked_error, console);
+        const std::string run = a_.id.empty() ? submit(server, a_.submit, console)
+                                              : check_accuracy(server, a_.id, a_.check, console);
         if (!a_.watch) return ExitCode::done;
         const ExitCode end = watch(server, run, doubt(), console);
-        show_accuracy(server, run, console);
+        show_accuracy(server, run, "", console);
         return end;
     }
 
@@ -174,10 +177,36 @@ class CommandLine {
                             [this](Server& s, const Console& c) { return accuracy(s, c); });
         CLI::Option_group* what = sub->add_option_group("what");
         take_study_file(what);
-        what->add_option("--of", a_.id, "instead: the run of an accuracy study, as far as it is");
+        CLI::Option* of = what->add_option(
+            "--of", a_.id, "instead: the run of an accuracy study or of a check, as far as it is");
         what->require_option(1);
         take_changes(sub);
+        take_check(sub, of);
         take_strict(sub);
+    }
+
+    void take_check(CLI::App* sub, CLI::Option* of) {
+        CheckWish& wish = a_.check;
+        sub->add_option("--within", wish.asked_error,
+                        "the error that is asked for instead of the study's: 0.1")
+            ->check(CLI::Range(0.0, 1.0))
+            ->needs(of);
+        CLI::Option* check =
+            sub->add_option("--check", wish.repeats,
+                            "run the recommended setting blind, on lattices that the study has not "
+                            "used: so many runs (or means, where it recommends means)")
+                ->check(CLI::Range(1, 100))
+                ->needs(of);
+        sub->add_option("--rung", wish.rung, "check this rung instead, LADDER:STEP: cells:2")
+            ->check([](const std::string& rung) {
+                return rung.rfind(':') == std::string::npos
+                           ? rung + " is no ladder with its step, such as cells:2"
+                           : "";
+            })
+            ->needs(check);
+        sub->add_option("--mean-of", wish.mean_of, "so many draws are averaged, not as recommended")
+            ->check(CLI::Range(1, 20))
+            ->needs(check);
     }
 
     void add_sweep_commands() {
@@ -232,6 +261,8 @@ class CommandLine {
         results_->add_option("--state", a_.results.state, "only rows in this state: questionable");
         results_->add_option("--flag", a_.results.flag,
                              "only rows that carry this flag: still_moving");
+        results_->add_flag("--means", a_.results.means,
+                           "only the means over the draws, where the study has draws");
         take_strict(results_);
     }
 

@@ -135,28 +135,58 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
     const std::string id = run_named(server, wish.run);
     const bool csv = console.style == Style::csv;
     const std::string path =
-        path_of({"runs", id, "results"}) +
-        query_of({{"format", csv ? "csv" : ""}, {"state", wish.state}, {"flag", wish.flag}});
+        path_of({"runs", id, "results"}) + query_of({{"format", csv ? "csv" : ""},
+                                                     {"table", wish.means ? "means" : ""},
+                                                     {"state", wish.state},
+                                                     {"flag", wish.flag}});
     if (csv) {
         console.out << server.get_text(path).body;
     } else if (console.style == Style::json) {
         show_json(server.get(path), console);
     } else {
-        console.out << as_result_table(server.get(path));
+        const json answer = server.get(path);
+        const std::string means = as_mean_table(answer);
+        console.out << means;
+        if (!wish.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
+        if (wish.means && means.empty()) console.notes << "the study has no draws\n";
     }
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";
     return end_of(run) == RunEnd::not_yet ? ExitCode::done : code_of_end(run, wish.doubt, console);
 }
 
-ExitCode show_accuracy(Server& server, const std::string& run, const Console& console) {
-    const json answer = server.get(path_of({"runs", run_named(server, run), "accuracy"}));
+ExitCode show_accuracy(Server& server, const std::string& run, const std::string& asked_error,
+                       const Console& console) {
+    const std::string id = run_named(server, run);
+    const bool check = server.get(path_of({"runs", id})).at("study").contains("check");
+    const json answer = check ? server.get(path_of({"runs", id, "accuracy", "check"}))
+                              : server.get(path_of({"runs", id, "accuracy"}) +
+                                           query_of({{"asked_error", asked_error}}));
     if (console.style == Style::json) {
         show_json(answer, console);
     } else {
-        console.out << as_accuracy_table(answer);
+        console.out << (check ? as_check_table(answer) : as_accuracy_table(answer));
     }
     return ExitCode::done;
+}
+
+std::string check_accuracy(Server& server, const std::string& run, const CheckWish& wish,
+                           const Console& console) {
+    const std::size_t colon = wish.rung.rfind(':');
+    const json made = server.post(
+        path_of({"runs", run_named(server, run), "accuracy", "check"}) +
+            query_of({{"repeats", wish.repeats},
+                      {"ladder", wish.rung.substr(0, colon)},
+                      {"step", colon == std::string::npos ? "" : wish.rung.substr(colon + 1)},
+                      {"mean_of", wish.mean_of},
+                      {"asked_error", wish.asked_error}}),
+        json::object());
+    if (console.style == Style::json) {
+        show_json(made, console);
+    } else {
+        console.out << cell(made, "id") << std::endl;
+    }
+    return made.at("id");
 }
 
 ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console) {

@@ -58,16 +58,30 @@ fault::ExitCode code_of_end(const nlohmann::json& run, Doubt doubt, const Consol
 
 struct ResultsWish {
     std::string run;
-    std::string state;  ///< only rows in this state; empty: all
-    std::string flag;   ///< only rows with a flag of this code; empty: all
+    std::string state;   ///< only rows in this state; empty: all
+    std::string flag;    ///< only rows with a flag of this code; empty: all
+    bool means = false;  ///< only the means over the draws
     Doubt doubt = Doubt::accepted;
 };
 
 /// Exit code: code_of_end
 fault::ExitCode results(Server& server, const ResultsWish& wish, const Console& console);
 
-/// The table of an accuracy study, its ladders and what it recommends.
-fault::ExitCode show_accuracy(Server& server, const std::string& run, const Console& console);
+/// The table of an accuracy study, its ladders and what it recommends; of a blind check its means.
+/// asked_error: instead of the study's; empty: as it says.
+fault::ExitCode show_accuracy(Server& server, const std::string& run,
+                              const std::string& asked_error, const Console& console);
+
+struct CheckWish {
+    std::string repeats;  ///< means of new draws; empty: no check is wished
+    std::string rung;     ///< "cells:2" instead of the recommended; empty: that
+    std::string mean_of;  ///< draws in a mean; empty: as recommended
+    std::string asked_error;
+};
+
+/// Prints the id of the run that draws a setting of an accuracy study anew, and returns it.
+std::string check_accuracy(Server& server, const std::string& run, const CheckWish& wish,
+                           const Console& console);
 
 struct TelemetryWish {
     std::string run;

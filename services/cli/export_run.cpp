@@ -69,7 +69,11 @@ class Export {
         keep_json("run.json", run, "the run");
         keep_json("study.json", study, "the study as it was submitted, completed");
         const std::string results = path_of({"runs", id, "results"});
-        keep_json("results.json", server_.get(results), "one row per transfer time");
+        const json answer = server_.get(results);
+        keep_json("results.json", answer, "one row per transfer time");
+        if (!answer.value("means", json::array()).empty())
+            keep_text("means.csv", server_.get_text(results + "?format=csv&table=means").body,
+                      "means over the draws");
         keep_text("results.csv", server_.get_text(results + "?format=csv").body,
                   "one row per transfer time");
         if (study.contains("accuracy"))

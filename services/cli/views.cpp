@@ -318,6 +318,43 @@ std::string as_result_table(const json& answer) {
     return as_table(columns, lines) + (notes.empty() ? "" : "\n" + notes);
 }
 
+std::string as_mean_table(const json& answer) {
+    const json means = answer.value("means", json::array());
+    if (means.empty()) return "";
+    const bool variants =
+        std::ranges::any_of(means, [](const json& row) { return row.value("variant", "") != ""; });
+    std::vector<Column> columns;
+    if (variants) columns.push_back({"variant", Align::left});
+    for (const char* each : {"t_T [s]", "state", "draws"}) columns.push_back({each, Align::left});
+    for (const char* each : {"mean runout [m]", "+-", "beyond toe [m]", "+-", "largest [m]", "+-"})
+        columns.push_back({each, Align::right});
+    columns.push_back({"mean is off by [m]", Align::right});
+    columns.push_back({"", Align::left});
+    std::vector<Cells> lines;
+    for (const json& row : means) {
+        Cells line;
+        if (variants) line.push_back(cell(row, "variant"));
+        line.push_back(cell(row, "transfer_time"));
+        line.push_back(cell(row, "state"));
+        line.push_back(cell(row, "draws_done") + " of " + cell(row, "draws"));
+        for (const char* each : {"runout", "runout_beyond_toe", "runout_largest"}) {
+            line.push_back(cell(row, each));
+            line.push_back(cell(row, (each + std::string("_deviation")).c_str()));
+        }
+        line.push_back(cell(row, "runout_error"));
+        std::string note;
+        for (const char* each : {"missing_draws", "questionable_draws"})
+            if (!row.value(each, "").empty())
+                note += (note.empty() ? "" : "; ") +
+                        (each + std::string(": ")).replace(std::string(each).find('_'), 1, " ") +
+                        cell(row, each);
+        line.push_back(note);
+        lines.push_back(std::move(line));
+    }
+    return as_table(columns, lines) +
+           "+-: standard deviation of one draw; off by: nine of ten such means\n";
+}
+
 std::string as_telemetry_table(const json& lines) {
     if (lines.empty()) return "";
     std::vector<Column> columns;

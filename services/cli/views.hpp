@@ -27,6 +27,9 @@ std::string as_run_page(const nlohmann::json& run);
 std::string as_task_page(const nlohmann::json& task);
 /// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
 std::string as_result_table(const nlohmann::json& answer);
+/// The means of the same answer, with their standard deviations and what is missing in them; empty:
+/// the study has no draws.
+std::string as_mean_table(const nlohmann::json& answer);
 /// Lines of telemetry; the columns are the numbers and words of the first line.
 std::string as_telemetry_table(const nlohmann::json& lines);
 

@@ -26,7 +26,9 @@ constexpr const char* head =
     "*Order*, *limit* and *grid convergence index* "
     "are told only where three rungs fall monotonically and by more than the noise. `*`: on the "
     "Pareto front; `~`: not told apart from the noise; `?`: a run is questionable, so the setting "
-    "is not recommended.\n";
+    "is not recommended. *Draws for* an error: so many are averaged for nine of ten means to be "
+    "within it (Student's interval for the mean of new draws, and the bias); `-`: not even 20 are "
+    "enough.\n";
 
 std::string number(const json& value, int digits = 4) {
     return value.is_number() ? rounded(value.get<double>(), digits) : "-";
@@ -84,20 +86,29 @@ std::string marks_of(const json& row) {
     return marks + (marks.empty() || reason.empty() ? "" : " ") + reason;
 }
 
+/// Of the mean that is within what is asked; "-": none is.
+std::string of_mean(const json& row, const char* key) {
+    const json& mean = row.at("mean_within_asked");
+    return mean.is_object() ? number(mean.at(key), 3) : "-";
+}
+
 std::string table_of(const json& table) {
     std::string unit = table.at("unit");
     if (unit == "1") unit = "-";
     std::string text = "| ladder | setting | " + table.at("quantity").get<std::string>() + " [" +
                        unit +
-                       "] | +- | draws | error | of a run | CPU s | wall s | MB | |\n"
-                       "|---|---|---|---|---|---|---|---|---|---|---|\n";
+                       "] | +- | draws | error | of a run | CPU s | wall s | MB | draws for " +
+                       percent(table.at("asked_error")) +
+                       " | their CPU s | |\n"
+                       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const json& row : table.at("rows")) {
         for (const std::string& cell :
              {row.at("ladder").get<std::string>(), setting_of(row), number(row.at("value")),
               number(row.at("standard_deviation"), 2), number(row.at("draws")),
               percent(row.at("error")), percent(row.at("error_of_a_run")),
               number(row.at("cpu_seconds"), 3), number(row.at("wall_seconds"), 3),
-              number(row.at("peak_memory_MB"), 3), marks_of(row)})
+              number(row.at("peak_memory_MB"), 3), of_mean(row, "draws"),
+              of_mean(row, "cpu_seconds"), marks_of(row)})
             text += "| " + cell + " ";
         text += "|\n";
     }

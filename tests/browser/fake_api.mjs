@@ -26,6 +26,11 @@ export const two_variants = {
                { kind: "bisect", name: "edges", share: 0.75, tolerance_s: 0.05 }],
 };
 
+export const drawn = {
+    ...study, name: "drawn", title: "Three draws of every runout", draws: 3,
+    variants: ["d1", "d2", "d3"].map((name) => ({ name, overrides: [], made_by: "draws" })),
+};
+
 const flag = (code, severity, message, pointer = "") => ({ code, severity, message, pointer });
 export const still_moving = flag("still_moving", "questionable", "12 % of the released energy is left at 6 s: the runout is a lower bound; " +
                                  "let it run on", "/mpm/duration");
@@ -121,7 +126,8 @@ class FakeRun {
 
     runout({ transfer_time, variant = "" }) {
         const strength = Number(variant.match(/^strength_x_(.*)/)?.[1] ?? 1);
-        const reach = (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
+        const draw = Number(variant.match(/^d(\d)$/)?.[1] ?? 1);
+        const reach = (draw - 1) * 0.5 + (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
         return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
                  volume_ratio: 1.01, numerical_share: 0.031 + 0.01 * transfer_time, overlap: 0.004, cpu_seconds: 7.25 + transfer_time };
     }
@@ -187,6 +193,29 @@ class FakeRun {
                      trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed"
                          : mpm.not_reached ? `its FEM ended regularly at ${this.entangles} s, before this time` : "",
                      ...Object.fromEntries(Object.keys(this.runout(mpm)).map((key) => [key, numbers[key] ?? null])) };
+        });
+    }
+
+    /// Of a study whose variants are its draws.
+    means() {
+        if (!(this.study.variants ?? []).some(({ made_by }) => made_by === "draws")) return [];
+        const rows = this.rows();
+        return [...new Set(rows.map((row) => row.transfer_time))].map((transfer_time) => {
+            const draws = rows.filter((row) => row.transfer_time === transfer_time);
+            const done = draws.filter((row) => Number.isFinite(row.runout));
+            const missing = draws.filter((row) => !Number.isFinite(row.runout)).map(({ variant, state }) => `${variant}: ${state}`);
+            const mean = { transfer_time, variant: "", draws: draws.length, draws_done: done.length, missing_draws: missing.join("; "),
+                           questionable_draws: done.filter((row) => row.questionable).map((row) => row.variant).join("; "),
+                           state: done.length === draws.length ? "succeeded" : done.length ? "partial" : draws[0].state,
+                           runout_error: done.length ? 0.8 : null, runout_error_from: "scatter of the mean of 3 draws" };
+            for (const key of Object.keys(this.runout({ transfer_time }))) {
+                const values = done.map((row) => row[key]);
+                const average = values.reduce((sum, each) => sum + each, 0) / values.length;
+                mean[key] = values.length ? average : null;
+                mean[`${key}_deviation`] = values.length < 2 ? null
+                    : Math.sqrt(values.reduce((sum, each) => sum + (each - average) ** 2, 0) / (values.length - 1));
+            }
+            return mean;
         });
     }
 
@@ -302,7 +331,7 @@ export class FakeApi {
         if (kind !== "runs" || !run) return problem(response, 404, "there is no such thing");
         if (["cancel", "pause", "resume", "retry"].includes(rest[0])) return this.command(run, rest[0], response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
-        if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows() });
+        if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means() });
         if (rest[0] === "telemetry") {
             const from = Number(url.searchParams.get("from") ?? 0);
             if (url.searchParams.has("variant")) return problem(response, 400, 'unknown query parameter "variant"');

@@ -5,7 +5,7 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
-import { FakeApi, some_flagged, study, twelve_curves, twelve_variants, two_variants } from "./fake_api.mjs";
+import { drawn, FakeApi, some_flagged, study, twelve_curves, twelve_variants, two_variants } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
 let url;
@@ -352,6 +352,39 @@ test("where a runout's error is known, the curve has a band and the readout says
     await open_run("run-1");
     await until("markers", async () => (await markers()) === 7);
     assert.equal(await page.locator("#runout-plot .whisker").count(), 0, "no error is known");
+});
+
+test("a study with draws shows their mean and band, and each draw behind it", async () => {
+    await open_run(api.add_run(drawn, { began: Date.now() - 60000 }).id);
+    await until("seven means", async () => (await markers()) === 7);
+    assert.equal(await page.locator("#runout-plot svg.plot > .marker.series-1").count(), 0, "one curve, not three");
+    assert.equal(await page.locator("#runout-plot svg.plot > .error-band").count(), 1);
+    assert.match(await text_of("#runout-plot .legend"), /standard deviation of the draws/);
+    assert.equal(await page.locator("#runout-rows tr").count(), 8);
+    assert.match(await text_of("#runout-progress"), /^21 of 24 runs \(3 draws each\) finished$/);
+    assert.match(await page.getAttribute("#runout-csv", "href"), /table=means$/);
+    await page.focus("#runout-plot svg.plot");
+    await page.keyboard.press("Home");
+    // 14.04, 14.54 and 15.04 m.
+    assert.match(await text_of("#runout-plot .readout"), /^t_T = 0.25 s: 99 % of the mobile soil 14.54 ± 0.5 m/);
+    await page.selectOption("#runout-measure", "runout_largest");
+    assert.equal(await page.locator("#runout-plot svg.plot > .whisker").count(), 7, "every measure has its scatter");
+    await page.selectOption("#runout-measure", "runout");
+    await screenshot(page, "draws_mean");
+    assert.equal(await page.textContent('#runout-rows tr[data-key="1//mean"] [data-column="runout"]'), "16 ± 0.5");
+    await page.click('#runout-rows tr[data-key="1//mean"] [data-column="runout"]');
+    await until("three draws", async () => (await page.locator("#runout-rows tr").count()) === 3);
+    assert.match(await text_of("#runout-note"), /Only the draws of t_T = 1 s/);
+    assert.ok(await page.isEnabled('#runout-rows tr[data-key="1/d2"] th button'), "its particles can be looked at");
+    await screenshot(page, "draws_of_one_mean");
+    await page.selectOption("#runout-draws", "means");
+    await until("means again", async () => (await page.locator("#runout-rows tr").count()) === 8);
+    await page.selectOption("#runout-draws", "runs");
+    await until("all draws", async () => (await page.locator("#runout-rows tr").count()) === 24);
+    await page.selectOption("#runout-draws", "means");
+    await open_run("run-1");
+    await until("a run without draws", async () => (await markers()) === 7);
+    assert.ok(await page.isHidden("#runout-draws-label"));
 });
 
 test("every variant has its own curve, rows, chips and particles", async () => {

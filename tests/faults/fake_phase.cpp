@@ -11,6 +11,8 @@
 //     crash=1                the MPM's first attempt ends by SIGKILL
 //     always_crash=1         the MPM never gets through
 //     moving_from=T          the MPM of transfers at T and after still moves at its end
+//     fails_above=S          the MPM of a lattice shifted by more than S ends with 70
+//     moving_above=S         the MPM of such a lattice still moves at its end
 //     as_before=1            the MPM's result is one of a version without flags
 //     by_cell=1              the runout grows with the square of the MPM's cells, the cost with
 //                            their number, and a moved lattice changes the runout
@@ -198,11 +200,23 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
     end_well(order, {{"phase", "fem_solver"}, {"ended", "complete"}, {"end_time", end}});
 }
 
-void transfer(const Order& order) {
+/// The scene as its overrides make it.
+json changed(json scene, const std::vector<std::string>& overrides) {
+    for (const std::string& each : overrides) {
+        const auto equals = each.find('=');
+        scene[json::json_pointer(each.substr(0, equals))] =
+            json::parse(each.substr(equals + 1), nullptr, false);
+    }
+    return scene;
+}
+
+/// The points: the time of the snapshot, and how far their lattice was moved.
+void transfer(const Order& order, const json& scene) {
     const std::string snapshot = text_of(order.input);
     if (snapshot.empty())
         end_with_fault(order, 65, order.input.filename().string() + ": is truncated");
-    publish(order.output / "particles.vtkhdf", snapshot);
+    const json moved = changed(scene, order.overrides)["transfer"].value("point_shift", json{0, 0});
+    publish(order.output / "particles.vtkhdf", snapshot + " " + moved.at(0).dump());
     end_well(order, {{"phase", "transfer_tool"}});
 }
 
@@ -233,20 +247,9 @@ void add_judgement(json& result, bool moves) {
                                    {"pointer", "/mpm/duration"}});
 }
 
-/// The scene as its overrides make it.
-json changed(json scene, const std::vector<std::string>& overrides) {
-    for (const std::string& each : overrides) {
-        const auto equals = each.find('=');
-        scene[json::json_pointer(each.substr(0, equals))] =
-            json::parse(each.substr(equals + 1), nullptr, false);
-    }
-    return scene;
-}
-
 /// A second-order method whose repeats scatter.
-void add_cell_error(const json& scene, json& result) {
+void add_cell_error(const json& scene, double shift, json& result) {
     const double h = scene.at("mpm").at("cell_size");
-    const double shift = scene.at("transfer").at("point_shift").at(0);
     result["runout"] = result["runout"].get<double>() + h * h + 0.02 * shift;
     result["cpu_seconds"] = 8.0 / (h * h);
     result["wall_seconds"] = 9.0 / (h * h);
@@ -254,7 +257,10 @@ void add_cell_error(const json& scene, json& result) {
 }
 
 void mpm(const Order& order, const json& scene, const std::map<std::string, double>& wanted) {
-    const double time = std::stod(text_of(order.input));
+    std::istringstream points(text_of(order.input));
+    double time = 0.0;
+    double shift = 0.0;
+    points >> time >> shift;
     if (wish(wanted, "try_again", 0) > 0 && !order.resume)
         end_with_fault(order, 75, "not enough memory");
     if (wish(wanted, "deaf", 0) > 0) {
@@ -265,13 +271,17 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
         const bool crash = wish(wanted, "crash", 0) > 0 && !order.resume && done == 2;
         if (crash || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
     });
-    const bool moves = time >= wish(wanted, "moving_from", 1e9);
+    if (shift > wish(wanted, "fails_above", 1.0))
+        end_with_fault(order, 70, "the points have left the grid");
+    const bool moves =
+        time >= wish(wanted, "moving_from", 1e9) || shift > wish(wanted, "moving_above", 1.0);
     json result{{"phase", "mpm_solver"},     {"runout", 10 + time * time},
                 {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
                 {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
                 {"cpu_seconds", 0.5},        {"at_rest", !moves}};
     if (wish(wanted, "as_before", 0) == 0) add_judgement(result, moves);
-    if (wish(wanted, "by_cell", 0) > 0) add_cell_error(changed(scene, order.overrides), result);
+    if (wish(wanted, "by_cell", 0) > 0)
+        add_cell_error(changed(scene, order.overrides), shift, result);
     end_well(order, result);
 }
 
@@ -293,7 +303,7 @@ int main(int argc, char** argv) {
     std::cerr << order.phase << " begins\n";
     const auto wanted = wishes(scene);
     if (order.phase == "fem_solver") fem(order, wanted);
-    if (order.phase == "transfer_tool") transfer(order);
+    if (order.phase == "transfer_tool") transfer(order, scene);
     if (order.phase == "mpm_solver") mpm(order, scene, wanted);
     end_well(order, {{"phase", order.phase}, {"safety", 1.2}});
 }

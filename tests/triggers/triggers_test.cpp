@@ -184,6 +184,34 @@ TEST(Trigger, BisectFindsTheEdgeWithFewerRunsThanSnapshots) {
     EXPECT_EQ(service.table(run).size(), result.at("runs").get<std::size_t>());
 }
 
+/// The runout is 10 + t_T^2, by_cell moves it by 2 cm x shift: the shifts are 0, 0.4588 and 0.0176.
+TEST(Trigger, BisectIsDecidedByTheMeanOfTheDrawsAndTellsWhereTheirBandStraddlesTheLevel) {
+    const Live live;
+    Service service(live.sandbox);
+    json study = with_triggers(
+        {{{"kind", "bisect"}, {"share", 0.75}, {"tolerance_s", 0.05}, {"seeds", 3}},
+         {{"kind", "bisect"}, {"share", 0.7464}, {"tolerance_s", 0.05}, {"seeds", 3}}});
+    study["scene"]["title"] = study["scene"]["title"].get<std::string>() + " by_cell=1";
+    study["scene"]["mpm"]["cell_size"] = 1;
+    study["draws"] = 3;
+    const std::string run = service.submit(study);
+    const json triggers = settled(service, run);
+    const json& result = triggers.at(0).at("result");
+    EXPECT_EQ(result.at("draws"), 3);
+    EXPECT_NEAR(result.at("largest_runout"), 11 + 2.8 * 2.8 + 0.02 * 0.158780, 1e-4);
+    // 0.75 (11 + 2.8^2) = 14.13 is reached at 1.769 s; the band is 2.92 x 5.2 mm / sqrt(3) = 9 mm.
+    EXPECT_NEAR(result.at("lower").at("off"), 1.75, 1e-6);
+    EXPECT_NEAR(result.at("lower").at("on"), 1.80, 1e-6);
+    EXPECT_TRUE(result.at("straddling").empty()) << "1.75 s is 6.5 cm below the level";
+    EXPECT_TRUE(result.at("with_fewer_draws").empty());
+    // 0.7464 (11 + 2.8^2) = 14.065 is 1 mm below the mean at 1.75 s.
+    const json& close = triggers.at(1).at("result");
+    EXPECT_NEAR(close.at("lower").at("on"), 1.75, 1e-6);
+    ASSERT_EQ(close.at("straddling").size(), 1u) << close;
+    EXPECT_NEAR(close.at("straddling")[0].at("transfer_time"), 1.75, 1e-6);
+    EXPECT_NEAR(close.at("straddling")[0].at("half_width"), 2.92 * 0.005199 / std::sqrt(3.0), 1e-5);
+}
+
 TEST(Trigger, KilledBetweenCrossingAndFiringMakesExactlyOneTransfer) {
     const Live live;
     live.close_gate();

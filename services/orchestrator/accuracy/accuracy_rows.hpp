@@ -1,5 +1,5 @@
 // The table of an accuracy study as plain data: every rung with its value, its error and its cost;
-// what each ladder says; which setting to take.
+// what each ladder says; which setting to take. And what a blind check made of that.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,13 @@
 
 namespace breach::orchestrator {
 
+/// The mean of several runs with a setting on lattices of their own.
+struct MeanOfDraws {
+    std::size_t draws;
+    double error;        ///< what it is off at most, in nine of ten times; relative
+    double cpu_seconds;  ///< of all the draws, which share a FEM
+};
+
 struct AccuracyRow {
     Setting setting;
     std::optional<double> size = {};
@@ -23,6 +30,9 @@ struct AccuracyRow {
     /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
     /// a reference rung is what its ladder says of the finest.
     std::optional<double> error_of_a_run = {};
+    std::optional<double> bias = {};  ///< the same without the scatter
+    /// Of the fewest draws whose mean keeps the asked error; nothing: not even many do
+    std::optional<MeanOfDraws> mean_within_asked = {};
     bool is_reference = false;  ///< errors are measured from it: its own is not known
     bool below_noise = false;   ///< the error is not told apart from the noise of the repeats
     bool questionable = false;  ///< a run of it carries a flag that forbids to rely on it
@@ -46,6 +56,23 @@ struct AccuracyTable {
     std::vector<LadderSummary> ladders;
     std::optional<std::size_t> recommended;  ///< row
     std::string recommendation;              ///< in a sentence
+};
+
+struct BlindMean {
+    std::vector<std::string> variants;  ///< one per draw
+    std::optional<double> value = {};   ///< nothing: a draw has none
+    std::optional<double> error = {};   ///< relative to the reference
+    bool kept = false;                  ///< the error is at most the one that was asked for
+    bool questionable = false;          ///< a draw carries a flag that forbids to rely on it
+    std::string reason = {};            ///< why there is no value
+};
+
+struct BlindCheck {
+    BlindCheckPlan plan;
+    std::vector<BlindMean> means;
+    std::size_t judged = 0;  ///< means that have a value
+    std::size_t kept = 0;
+    std::optional<double> furthest;  ///< largest error of a mean
 };
 
 }  // namespace breach::orchestrator

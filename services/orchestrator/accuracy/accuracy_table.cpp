@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/phases/phases.hpp"
+#include "services/orchestrator/accuracy/mean_of_draws.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 #include "services/orchestrator/records/or_null.hpp"
@@ -133,9 +135,30 @@ void tell_errors_of_runs(AccuracyTable& table) {
         const LadderSummary& own = table.ladders[row.setting.ladder];
         for (const LadderSummary& each : table.ladders)
             if (&each != &own) row.error_of_other_ladders += each.error_of_base.value_or(0.0);
-        if (const auto bias = bias_of(row, own, reference))
-            row.error_of_a_run =
-                error_of_one_run(*bias + row.error_of_other_ladders, *row.value, *own.reference);
+        const auto of_ladder = bias_of(row, own, reference);
+        if (!of_ladder) continue;
+        row.bias = *of_ladder + row.error_of_other_ladders;
+        row.error_of_a_run = error_of_one_run(*row.bias, *row.value, *own.reference);
+    }
+}
+
+/// Draws share the FEM, which no lattice changes.
+MeanOfDraws mean_of(const AccuracyRow& row, double reference, std::size_t draws) {
+    const auto& by_phase = row.cost->cpu_seconds_by_phase;
+    const auto fem = by_phase.find(phases::fem.program);
+    const double shared = fem == by_phase.end() ? 0.0 : fem->second;
+    const double own = row.cost->cpu_seconds - shared;
+    return {draws, promised_error(*row.bias, *row.value, reference, draws),
+            shared + static_cast<double>(draws) * own};
+}
+
+void tell_means(AccuracyTable& table) {
+    for (AccuracyRow& row : table.rows) {
+        if (!row.bias || !row.cost) continue;
+        const double reference = *table.ladders[row.setting.ladder].reference;
+        if (const auto draws =
+                draws_within(table.plan.asked_error, *row.bias, *row.value, reference))
+            row.mean_within_asked = mean_of(row, reference, *draws);
     }
 }
 
@@ -143,6 +166,8 @@ void tell_errors_of_runs(AccuracyTable& table) {
 void choose(AccuracyTable& table) {
     std::vector<Offer> offers;
     std::vector<std::size_t> rows;
+    std::vector<Offer> means;
+    std::vector<std::size_t> rows_of_means;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const AccuracyRow& row = table.rows[i];
         if (!row.error_of_a_run || !row.cost || row.questionable ||
@@ -150,11 +175,14 @@ void choose(AccuracyTable& table) {
             continue;
         offers.push_back({row.cost->cpu_seconds, *row.error_of_a_run});
         rows.push_back(i);
+        if (!row.mean_within_asked) continue;
+        means.push_back({row.mean_within_asked->cpu_seconds, row.mean_within_asked->error});
+        rows_of_means.push_back(i);
     }
     const std::vector<bool> front = pareto_front(offers);
     for (std::size_t k = 0; k < rows.size(); ++k) table.rows[rows[k]].on_front = front[k];
-    if (const auto best = cheapest_within(offers, table.plan.asked_error))
-        table.recommended = rows[*best];
+    if (const auto best = cheapest_within(means, table.plan.asked_error))
+        table.recommended = rows_of_means[*best];
     table.recommendation = recommendation_in_words(table);
 }
 
@@ -175,7 +203,12 @@ void judge(AccuracyTable& table) {
         table.ladders.push_back(std::move(ladder));
     }
     tell_errors_of_runs(table);
+    tell_means(table);
     choose(table);
+}
+
+json as_json(const MeanOfDraws& mean) {
+    return {{"draws", mean.draws}, {"error", mean.error}, {"cpu_seconds", mean.cpu_seconds}};
 }
 
 json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
@@ -191,6 +224,8 @@ json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
                 {"error", or_null(row.error)},
                 {"error_of_other_ladders", row.error_of_other_ladders},
                 {"error_of_a_run", or_null(row.error_of_a_run)},
+                {"bias", or_null(row.bias)},
+                {"mean_within_asked", nullptr},
                 {"is_reference", row.is_reference},
                 {"below_noise", row.below_noise},
                 {"on_pareto_front", row.on_front},
@@ -205,6 +240,7 @@ json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
         answer["standard_deviation"] = or_null(row.value->deviation);
         answer["draws"] = row.value->count;
     }
+    if (row.mean_within_asked) answer["mean_within_asked"] = as_json(*row.mean_within_asked);
     if (row.cost) {
         answer["cpu_seconds"] = row.cost->cpu_seconds;
         answer["wall_seconds"] = row.cost->wall_seconds;
@@ -232,13 +268,15 @@ json as_json(const LadderSummary& ladder, const std::string& name) {
 }  // namespace
 
 std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder& data,
-                                            const std::string& run) {
+                                            const std::string& run,
+                                            std::optional<double> asked_error) {
     const auto study = store.study_of(run);
     if (!study || !study->contains("accuracy")) return std::nullopt;
     const json scene = json::parse(*store.scene_of(run));
     std::vector<Fault> none;  // the study was checked when it was accepted
     AccuracyTable table;
     table.plan = read_accuracy(study->at("accuracy"), scene, none);
+    if (asked_error) table.plan.asked_error = *asked_error;
     const std::vector<Task> tasks = store.tasks_of(run);
     for (const Task& each : tasks)
         if (each.transfer_time) table.transfer_time = each.transfer_time;
@@ -262,7 +300,9 @@ json as_json(const AccuracyTable& table) {
                        {"step", row.setting.step + 1},
                        {"setting", table.plan.ladders[row.setting.ladder].steps[row.setting.step]},
                        {"error_of_a_run", *row.error_of_a_run},
-                       {"cpu_seconds", row.cost->cpu_seconds}};
+                       {"draws", row.mean_within_asked->draws},
+                       {"error", row.mean_within_asked->error},
+                       {"cpu_seconds", row.mean_within_asked->cpu_seconds}};
     }
     const Quantity& quantity = table.plan.quantity;
     return {{"quantity", quantity.name},
@@ -273,6 +313,7 @@ json as_json(const AccuracyTable& table) {
             {"base", table.plan.base},
             {"reference", reference_in_words(table.plan.reference)},
             {"asked_error", table.plan.asked_error},
+            {"confidence", confidence},
             {"rows", std::move(rows)},
             {"ladders", std::move(ladders)},
             {"recommended", std::move(recommended)},

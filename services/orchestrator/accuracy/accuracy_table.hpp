@@ -12,8 +12,10 @@
 namespace breach::orchestrator {
 
 /// Nothing: the run is no accuracy study, or there is none.
+/// asked_error: instead of the study's own.
 std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder& data,
-                                            const std::string& run);
+                                            const std::string& run,
+                                            std::optional<double> asked_error = {});
 
 /// The answer of GET /v1/runs/{id}/accuracy, without the run's id and state.
 nlohmann::json as_json(const AccuracyTable& table);

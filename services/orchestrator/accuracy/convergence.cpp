@@ -41,18 +41,6 @@ double spread_of(std::span<const Rung> rungs) {
 
 }  // namespace
 
-Repeats repeats_of(std::span<const double> values) {
-    assert(!values.empty());
-    Repeats repeats{.mean = 0.0, .deviation = std::nullopt, .count = values.size()};
-    const auto n = static_cast<double>(values.size());
-    for (const double each : values) repeats.mean += each / n;
-    if (values.size() < 2) return repeats;
-    double squares = 0.0;
-    for (const double each : values) squares += (each - repeats.mean) * (each - repeats.mean);
-    repeats.deviation = std::sqrt(squares / (n - 1.0));
-    return repeats;
-}
-
 std::string_view name_of(Course course) {
     switch (course) {
         case Course::too_few:

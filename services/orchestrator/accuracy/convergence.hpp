@@ -7,16 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace breach::orchestrator {
+#include "services/orchestrator/records/repeats.hpp"
 
-/// Repeats of one setting on moved lattices.
-struct Repeats {
-    double mean = 0.0;
-    std::optional<double> deviation;  ///< standard deviation of one repeat; nothing: one repeat
-    std::size_t count = 0;
-};
-/// At least one value.
-Repeats repeats_of(std::span<const double> values);
+namespace breach::orchestrator {
 
 /// A setting of a ladder: how coarse it is, and what it gives.
 struct Rung {

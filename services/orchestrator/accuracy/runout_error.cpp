@@ -6,6 +6,7 @@
 
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 
 namespace breach::orchestrator {
 
@@ -16,15 +17,15 @@ namespace {
 constexpr std::size_t most_studies = 20;  // the newest are asked
 
 struct Estimate {
-    std::optional<double> error;  ///< [m]
-    std::string from;             ///< what tells it, or why nothing does
+    std::optional<double> error;      ///< [m]
+    std::string from;                 ///< what tells it, or why nothing does
+    std::optional<double> bias = {};  ///< the same without scatter [m]
 };
 
 /// Recipes of the three phases; of the FEM without the times of its snapshots.
 using Question = std::tuple<std::string, std::string, std::string>;
 
-json& field(ResultRow& row, std::string_view name) {
-    const auto columns = result_columns();
+json& field(ResultRow& row, std::string_view name, std::span<const ResultColumn> columns) {
     const auto found = std::ranges::find(columns, name, &ResultColumn::name);
     return row[static_cast<std::size_t>(found - columns.begin())];
 }
@@ -73,9 +74,11 @@ Estimate estimate_of(const AccuracyTable& table, const AccuracyRow& row, const s
     const LadderSummary& ladder = table.ladders[row.setting.ladder];
     const std::string source = source_of(table, row, run);
     if (!row.error_of_a_run) return {std::nullopt, source + ": " + row.reason};
-    return {*row.error_of_a_run * std::abs(*ladder.reference),
+    const double reference = std::abs(*ladder.reference);
+    return {*row.error_of_a_run * reference,
             source + (row.is_reference ? ", by how its ladder ends"
-                                       : ", against " + reference_in_words(table.plan.reference))};
+                                       : ", against " + reference_in_words(table.plan.reference)),
+            *row.bias * reference};
 }
 
 /// A rung of several ladders: the largest of their errors.
@@ -137,17 +140,21 @@ class Studies {
     std::map<std::string, std::optional<AccuracyTable>> tables_;
 };
 
-/// Scatter of the repeats of each variant at each transfer time.
+/// The draws of each variant at each transfer time.
 class Scatter {
   public:
+    using Place = std::pair<std::string, double>;
+
     Scatter(const Store& store, const std::string& run) {
         const json study = store.study_of(run).value_or(json::object());
-        if (study.value("draws", 1) < 2) return;
+        if (study.value("draws", 1) < 2 && study.value("first_draw", 0) == 0) return;
         for (const json& each : study.at("variants"))
             repeated_.emplace(each.at("name"), repeated_variant(each));
-        for (const ResultRow& row : store.results(run))
-            if (value_of(row, "runout").is_number())
-                runouts_[place_of(row)].push_back(value_of(row, "runout"));
+        for (const ResultRow& row : store.results(run)) {
+            if (!value_of(row, "runout").is_number()) continue;
+            runouts_[place_of(row)].push_back(value_of(row, "runout"));
+            tasks_.emplace(place_of(row), value_of(row, "mpm_task"));
+        }
     }
 
     std::optional<Estimate> estimate(const ResultRow& row) const {
@@ -158,9 +165,23 @@ class Scatter {
                             " draws: noise, not the error of the setting"};
     }
 
-  private:
-    using Place = std::pair<std::string, double>;
+    /// What the scatter leaves of the mean of a place's draws.
+    Estimate of_mean(const Place& place) const {
+        const auto found = runouts_.find(place);
+        if (found == runouts_.end() || found->second.size() < 2)
+            return {std::nullopt, "fewer than two draws have a runout"};
+        return {half_width_of_mean(repeats_of(found->second)),
+                "scatter of the mean of " + std::to_string(found->second.size()) +
+                    " draws, Student's 90 %: noise, not the error of the setting"};
+    }
 
+    /// The MPM's task of a draw that has a runout; nothing: none has.
+    std::optional<std::string> task_of(const Place& place) const {
+        const auto found = tasks_.find(place);
+        return found == tasks_.end() ? std::nullopt : std::optional(found->second);
+    }
+
+  private:
     Place place_of(const ResultRow& row) const {
         const std::string variant = value_of(row, "variant");
         const auto found = repeated_.find(variant);
@@ -169,12 +190,19 @@ class Scatter {
 
     std::map<std::string, std::string> repeated_;
     std::map<Place, std::vector<double>> runouts_;
+    std::map<Place, std::string> tasks_;
 };
+
+/// Bias by an accuracy study and scatter by the draws themselves.
+Estimate of_mean(const std::optional<Estimate>& studied, Estimate scatter) {
+    if (!studied || !studied->bias || !scatter.error) return scatter;
+    return {*studied->bias + *scatter.error, "bias by " + studied->from + "; " + scatter.from};
+}
 
 }  // namespace
 
 void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
-                        std::vector<ResultRow>& rows) {
+                        std::vector<ResultRow>& rows, std::vector<ResultRow>& means) {
     Studies studies(store, data);
     const Scatter scatter(store, run);
     std::map<std::string, std::optional<Estimate>> by_variant;
@@ -195,8 +223,25 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             estimate = Estimate{std::nullopt,
                                 "no accuracy study has this scene at this setting, and the sweep "
                                 "has no draws"};
-        if (estimate->error) field(row, "runout_error") = *estimate->error;
-        field(row, "runout_error_from") = estimate->from;
+        if (estimate->error) field(row, "runout_error", result_columns()) = *estimate->error;
+        field(row, "runout_error_from", result_columns()) = estimate->from;
+    }
+    std::map<std::string, std::optional<Estimate>> by_repeated;
+    for (ResultRow& mean : means) {
+        const auto value = [&](const char* name) -> json& {
+            return field(mean, name, mean_columns());
+        };
+        const Scatter::Place place{value("variant"), value("transfer_time")};
+        auto known = by_repeated.find(place.first);
+        if (const auto task = scatter.task_of(place); task && known == by_repeated.end())
+            known = by_repeated
+                        .emplace(place.first, studies.none() ? std::nullopt
+                                                             : studies.estimate(*store.task(*task)))
+                        .first;
+        const Estimate estimate = of_mean(known == by_repeated.end() ? std::nullopt : known->second,
+                                          scatter.of_mean(place));
+        if (estimate.error) value("runout_error") = *estimate.error;
+        value("runout_error_from") = estimate.from;
     }
 }
 

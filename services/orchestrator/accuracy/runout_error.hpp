@@ -14,7 +14,10 @@ namespace breach::orchestrator {
 /// Fills the columns runout_error and runout_error_from. An accuracy study is found by recipe: its
 /// rung and the row have equal recipes of MPM and transfer, and of the FEM but for the times of its
 /// snapshots. So its error, measured at one transfer time, is told at others, too.
+///
+/// means: of the run's draws, with columns of the same names (records/mean_columns.hpp). A mean is
+/// off by the bias that an accuracy study tells and by what scatter leaves of so few draws.
 void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
-                        std::vector<ResultRow>& rows);
+                        std::vector<ResultRow>& rows, std::vector<ResultRow>& means);
 
 }  // namespace breach::orchestrator

@@ -1,7 +1,10 @@
 #include "services/orchestrator/accuracy/sentences.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+
+#include "services/orchestrator/accuracy/mean_of_draws.hpp"
 
 namespace breach::orchestrator {
 
@@ -24,9 +27,9 @@ std::string with_unit(double value, const Quantity& quantity) {
 std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& plan) {
     if (convergence.noise)
         return "; one run scatters by " + with_unit(*convergence.noise, plan.quantity);
-    const bool points =
-        plan.quantity.reach == Reach::chain || plan.quantity.reach == Reach::filled_mpm;
-    return points ? "; the noise of one run is not known, \"draws\" would tell it" : "";
+    return has_lattice(plan.quantity.reach)
+               ? "; the noise of one run is not known, \"draws\" would tell it"
+               : "";
 }
 
 std::string setting_in_words(const AccuracyTable& table, const AccuracyRow& row) {
@@ -46,22 +49,50 @@ std::string left_out(const AccuracyTable& table, const AccuracyRow& row) {
     return names.empty() ? "" : "; without the error of " + names + ", not known at the base";
 }
 
-/// "one run is off by 4.8 %, 0.231 CPU s"
-std::string offer_in_words(const AccuracyTable& table, const AccuracyRow& row) {
-    return "one run is off by " + percent(*row.error_of_a_run) + left_out(table, row) + "; " +
-           shown(row.cost->cpu_seconds, "%.3g") + " CPU s";
+/// "one run", "the mean of 4 draws"
+std::string mean_in_words(std::size_t draws) {
+    return draws == 1 ? "one run" : "the mean of " + std::to_string(draws) + " draws";
 }
 
-/// The row that comes nearest to what is asked; nothing: no row has an error.
+std::string cost_in_words(double cpu_seconds) { return shown(cpu_seconds, "%.3g") + " CPU s"; }
+
+/// "one run is off by 4.8 %, 0.231 CPU s"
+std::string run_in_words(const AccuracyTable& table, const AccuracyRow& row) {
+    return "one run is off by " + percent(*row.error_of_a_run) + left_out(table, row) + "; " +
+           cost_in_words(row.cost->cpu_seconds);
+}
+
+/// The row whose means come nearest to what is asked; nothing: no row has an error.
 const AccuracyRow* nearest(const AccuracyTable& table) {
+    const auto of_means = [&](const AccuracyRow& row) {
+        return promised_error(*row.bias, *row.value, *table.ladders[row.setting.ladder].reference,
+                              most_draws_of_a_mean);
+    };
     const AccuracyRow* best = nullptr;
     for (const AccuracyRow& each : table.rows) {
-        if (!each.error_of_a_run || each.questionable ||
+        if (!each.bias || each.questionable ||
             table.ladders[each.setting.ladder].reference_is_questionable)
             continue;
-        if (best == nullptr || *each.error_of_a_run < *best->error_of_a_run) best = &each;
+        if (best == nullptr || of_means(each) < of_means(*best)) best = &each;
     }
     return best;
+}
+
+std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& row) {
+    const MeanOfDraws& mean = *row.mean_within_asked;
+    const std::string setting = setting_in_words(table, row);
+    const std::string asked = percent(table.plan.asked_error);
+    if (!row.value->deviation)
+        return "The cheapest setting within " + asked + " is " + setting + " (" +
+               run_in_words(table, row) + ")" +
+               (has_lattice(table.plan.quantity.reach)
+                    ? "; its scatter is not known, \"draws\" would tell it"
+                    : "") +
+               ".";
+    return "The cheapest within " + asked + " is " + mean_in_words(mean.draws) + " of " + setting +
+           ": nine of ten " + (mean.draws == 1 ? "runs" : "such means") + " are within " +
+           percent(mean.error) + " at " + cost_in_words(mean.cpu_seconds) + " (" +
+           run_in_words(table, row) + ").";
 }
 
 }  // namespace
@@ -117,18 +148,32 @@ std::string reference_in_words(const Reference& reference) {
 
 std::string recommendation_in_words(const AccuracyTable& table) {
     const std::string asked = percent(table.plan.asked_error);
-    if (table.recommended) {
-        const AccuracyRow& row = table.rows[*table.recommended];
-        return "The cheapest setting within " + asked + " is " + setting_in_words(table, row) +
-               " (" + offer_in_words(table, row) + ").";
-    }
+    if (table.recommended) return recommended_in_words(table, table.rows[*table.recommended]);
     const AccuracyRow* best = nearest(table);
     if (best == nullptr)
         return "No setting can be recommended: no rung that can be relied on has an error yet.";
-    std::string words = "No setting meets " + asked + "; the nearest is " +
-                        setting_in_words(table, *best) + " (" + offer_in_words(table, *best) + ")";
-    if (best->below_noise)
-        words += "; that is the noise of single runs: the mean of several is nearer";
+    std::string words = "No setting meets " + asked;
+    if (best->value->deviation)
+        words += ", nor the mean of " + std::to_string(most_draws_of_a_mean) + " draws";
+    words += "; the nearest is " + setting_in_words(table, *best) + " (";
+    if (best->value->deviation && *best->bias > table.plan.asked_error)
+        words += "its own error is " + percent(*best->bias) + ", whatever is averaged; ";
+    return words + run_in_words(table, *best) + ").";
+}
+
+std::string verdict_in_words(const BlindCheck& check) {
+    const BlindCheckPlan& plan = check.plan;
+    const std::string of =
+        plan.mean_of == 1 ? "new draws" : "means of " + std::to_string(plan.mean_of) + " new draws";
+    std::string words = std::to_string(check.kept) + " of " + std::to_string(check.judged) + " " +
+                        of + (check.judged == 1 ? " is" : " are") + " within " +
+                        percent(plan.asked_error) + " of " +
+                        with_unit(plan.reference, plan.quantity);
+    if (check.furthest) words += "; the furthest is off by " + percent(*check.furthest);
+    if (const std::size_t missing = check.means.size() - check.judged; missing > 0)
+        words += "; " + std::to_string(missing) + " not judged: a draw has no value";
+    const auto doubtful = std::ranges::count_if(check.means, &BlindMean::questionable);
+    if (doubtful > 0) words += "; " + std::to_string(doubtful) + " with a questionable draw";
     return words + ".";
 }
 

@@ -123,15 +123,15 @@ json as_json(const Event& event) {
             {"kind", event.kind}, {"detail", event.detail}};
 }
 
-json as_json(const ResultRow& row) {
+json as_json(const ResultRow& row, Columns columns) {
     json fields = json::object();
-    for (std::size_t i = 0; i < row.size(); ++i) fields[result_columns()[i].name] = row[i];
+    for (std::size_t i = 0; i < row.size(); ++i) fields[columns[i].name] = row[i];
     return fields;
 }
 
-json described_result_columns() {
+json described(Columns columns) {
     json list = json::array();
-    for (const ResultColumn& each : result_columns()) {
+    for (const ResultColumn& each : columns) {
         list.push_back({{"name", each.name},
                         {"kind", name_of(each.kind)},
                         {"unit", each.unit},
@@ -141,10 +141,10 @@ json described_result_columns() {
     return list;
 }
 
-json schema_of_result_rows() {
+json schema_of_rows(Columns columns) {
     json properties = json::object();
     json required = json::array();
-    for (const ResultColumn& each : result_columns()) {
+    for (const ResultColumn& each : columns) {
         json schema = schema_of(each.kind);
         schema["description"] =
             each.meaning + (*each.unit == '\0' ? "" : " [" + std::string(each.unit) + "]");
@@ -164,10 +164,9 @@ json as_json(const std::vector<fault::Fault>& faults) {
     return list;
 }
 
-std::string as_csv(const std::vector<ResultRow>& rows) {
+std::string as_csv(const std::vector<ResultRow>& rows, Columns columns) {
     std::string text;
-    for (const ResultColumn& each : result_columns())
-        text.append(text.empty() ? "" : ",").append(each.name);
+    for (const ResultColumn& each : columns) text.append(text.empty() ? "" : ",").append(each.name);
     text += "\r\n";
     for (const ResultRow& row : rows) {
         const char* separator = "";

@@ -16,14 +16,16 @@ nlohmann::json as_json(const Task& task, const std::vector<Attempt>& attempts,
 nlohmann::json as_json(const Event& event);
 nlohmann::json as_json(const std::vector<fault::Fault>& faults);
 
+using Columns = std::span<const ResultColumn>;
+
 /// {"runout": ...}: by the names of the columns.
-nlohmann::json as_json(const ResultRow& row);
+nlohmann::json as_json(const ResultRow& row, Columns columns);
 /// What the columns of a table of results are: [{name, kind, unit, title, meaning}].
-nlohmann::json described_result_columns();
-/// JSON schema of as_json(ResultRow).
-nlohmann::json schema_of_result_rows();
+nlohmann::json described(Columns columns);
+/// JSON schema of as_json(ResultRow, columns).
+nlohmann::json schema_of_rows(Columns columns);
 
 /// RFC 4180, one line per transfer time, the names of the JSON answer in the first line.
-std::string as_csv(const std::vector<ResultRow>& rows);
+std::string as_csv(const std::vector<ResultRow>& rows, Columns columns);
 
 }  // namespace breach::orchestrator

@@ -10,6 +10,7 @@
 #include "services/orchestrator/http/openapi_text.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/programs/plan_question.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 
 namespace breach::orchestrator {
 
@@ -76,7 +77,8 @@ void send_file(const Service& service, Call& call, const std::string& name) {
 const std::string& api_description() {
     static const std::string text = [] {
         auto document = nlohmann::ordered_json::parse(openapi_text());
-        document["components"]["schemas"]["SweepRow"] = schema_of_result_rows();
+        document["components"]["schemas"]["SweepRow"] = schema_of_rows(result_columns());
+        document["components"]["schemas"]["SweepMean"] = schema_of_rows(mean_columns());
         return document.dump(1);
     }();
     return text;

@@ -4,6 +4,7 @@
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
 #include "services/orchestrator/http/results_file.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
@@ -107,6 +108,12 @@ void set_priority(Service& service, Call& call) {
     });
 }
 
+json as_json(const ResultTable& table) {
+    json list = json::array();
+    for (const ResultRow& each : table.rows) list.push_back(as_json(each, table.columns));
+    return list;
+}
+
 ResultFilter wanted_results(const Call& call) {
     constexpr std::int64_t all = std::int64_t{1} << 30;
     ResultFilter filter{.state = call.parameter("state"),
@@ -119,28 +126,36 @@ ResultFilter wanted_results(const Call& call) {
 }
 
 void results(const Service& service, Call& call) {
-    call.allow_parameters({"format", "from", "limit", "state", "flag"});
+    call.allow_parameters({"format", "from", "limit", "state", "flag", "table"});
     wanted_run(service, call.parts[0]);
-    std::vector<ResultRow> rows = service.store.results(call.parts[0], wanted_results(call));
-    tell_runout_errors(service.store, service.data, call.parts[0], rows);
+    const std::string wanted = call.parameter("table").value_or("runs");
+    if (wanted != "runs" && wanted != "means") throw bad_request("table must be runs or means");
+    ResultTable runs{"sweep_results", result_columns(),
+                     service.store.results(call.parts[0], wanted_results(call))};
+    ResultTable means{"sweep_means", mean_columns(), service.store.means(call.parts[0])};
+    tell_runout_errors(service.store, service.data, call.parts[0], runs.rows, means.rows);
+    const ResultTable& table = wanted == "runs" ? runs : means;
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
-        call.response.set_content(as_csv(rows), "text/csv; charset=utf-8");
+        call.response.set_content(as_csv(table.rows, table.columns), "text/csv; charset=utf-8");
         return;
     }
     if (format == "hdf5") {
-        call.response.set_header("Content-Disposition", "attachment; filename=\"results.h5\"");
+        call.response.set_header("Content-Disposition",
+                                 "attachment; filename=\"" +
+                                     std::string(wanted == "runs" ? "results" : "means") + ".h5\"");
         call.response.set_content(
-            as_hdf5(rows, call.parts[0], *service.store.scene_of(call.parts[0]), service.frames,
+            as_hdf5(table, call.parts[0], *service.store.scene_of(call.parts[0]), service.frames,
                     service.data.scratch()),
             "application/x-hdf5");
         return;
     }
     if (format != "json") throw bad_request("format must be json, csv or hdf5");
-    json list = json::array();
-    for (const ResultRow& each : rows) list.push_back(as_json(each));
-    reply(call.response,
-          {{"run", call.parts[0]}, {"columns", described_result_columns()}, {"rows", list}});
+    reply(call.response, {{"run", call.parts[0]},
+                          {"columns", described(runs.columns)},
+                          {"rows", as_json(runs)},
+                          {"mean_columns", described(means.columns)},
+                          {"means", as_json(means)}});
 }
 
 // ---------------------------------------------------------------- sweeps

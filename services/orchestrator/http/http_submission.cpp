@@ -123,6 +123,10 @@ Accepted accept_study(Service& service, Call& call, Ask ask) {
     })};
 }
 
+std::string accept_made_study(Service& service, const json& study) {
+    return stored(service, study.dump(), Ask::run, [](Transaction&, const std::string&) {});
+}
+
 RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) {
     const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
     filter.state = call.parameter("state");

@@ -20,6 +20,9 @@ struct Accepted {
 /// kept for as long as their runs.
 Accepted accept_study(Service& service, Call& call, Ask ask);
 
+/// Stores a study that the service itself has made; the run's id.
+std::string accept_made_study(Service& service, const nlohmann::json& study);
+
 struct RunPage {
     std::vector<Run> runs;
     nlohmann::json next;  ///< cursor of the next page, or null

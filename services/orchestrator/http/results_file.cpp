@@ -29,11 +29,11 @@ std::string as_line(const json& value) {
     return line + "\n";
 }
 
-void add_column(exchange::Archive& archive, const ResultColumn& column,
-                const std::vector<ResultRow>& rows) {
-    const auto values = rows | std::views::transform([&](const ResultRow& row) -> const json& {
-                            return value_of(row, column.name);
-                        });
+void add_column(exchange::Archive& archive, const ResultTable& table, std::size_t place) {
+    const ResultColumn& column = table.columns[place];
+    const auto values =
+        table.rows |
+        std::views::transform([&](const ResultRow& row) -> const json& { return row[place]; });
     if (*column.unit != '\0') archive.units[column.name] = column.unit;
     switch (column.kind) {
         case ColumnKind::number:
@@ -52,28 +52,27 @@ void add_column(exchange::Archive& archive, const ResultColumn& column,
     }
 }
 
-exchange::Archive archive_of(const std::vector<ResultRow>& rows, const std::string& run) {
-    exchange::Archive archive{.kind = "sweep_results",
+exchange::Archive archive_of(const ResultTable& table, const std::string& run) {
+    exchange::Archive archive{.kind = table.kind,
                               .version = 1,
                               .reals = {},
                               .integers = {},
                               .texts = {{"run", run}},
                               .units = {}};
-    for (const ResultColumn& each : result_columns()) add_column(archive, each, rows);
+    for (std::size_t i = 0; i < table.columns.size(); ++i) add_column(archive, table, i);
     return archive;
 }
 
 }  // namespace
 
-std::string as_hdf5(const std::vector<ResultRow>& rows, const std::string& run,
-                    const std::string& scene, FrameReader& hdf5,
-                    const std::filesystem::path& scratch) {
+std::string as_hdf5(const ResultTable& table, const std::string& run, const std::string& scene,
+                    FrameReader& hdf5, const std::filesystem::path& scratch) {
     const auto file = scratch / (new_run_id() + ".h5");
     hdf5.alone([&] {
         exchange::Provenance provenance;
         provenance.phase = "breachline";
         provenance.scene = scene;
-        exchange::write_archive(file, archive_of(rows, run), provenance);
+        exchange::write_archive(file, archive_of(table, run), provenance);
     });
     std::ifstream stream(file, std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(stream), {}};

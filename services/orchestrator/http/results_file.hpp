@@ -8,8 +8,7 @@ namespace breach::orchestrator {
 
 /// The bytes of the file. Numbers that are not known are NaN; yes and no are 1 and 0, not known is
 /// -1; columns of text are one text with a line per row. `scratch`: a folder for the time of the writing. Throws IoError.
-std::string as_hdf5(const std::vector<ResultRow>& rows, const std::string& run,
-                    const std::string& scene, FrameReader& hdf5,
-                    const std::filesystem::path& scratch);
+std::string as_hdf5(const ResultTable& table, const std::string& run, const std::string& scene,
+                    FrameReader& hdf5, const std::filesystem::path& scratch);
 
 }  // namespace breach::orchestrator

@@ -205,11 +205,12 @@ struct FiringRow {
     std::optional<std::int64_t> start_ms;  ///< to the start of the transfer's process
 };
 
-/// What a bisect knows of one of its transfers.
+/// What a bisect knows of one of its transfers: of the first variant, on each of its lattices.
 struct Sample {
     double transfer_time;
-    bool ended;
-    std::optional<double> runout;  ///< empty when it failed
+    bool ended;                   ///< all of them
+    std::vector<double> runouts;  ///< of the draws that have one
+    std::size_t draws;            ///< so many were asked for; 1: the study has none
 };
 
 }  // namespace breach::orchestrator

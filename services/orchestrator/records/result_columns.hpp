@@ -36,6 +36,13 @@ const char* name_of(ColumnKind kind);
 /// One value for each of result_columns(), in their order.
 using ResultRow = std::vector<nlohmann::json>;
 
+/// Rows with what their values are: of single runs, or of means.
+struct ResultTable {
+    const char* kind;  ///< of its file
+    std::span<const ResultColumn> columns;
+    std::vector<ResultRow> rows;
+};
+
 /// The value of the column with this name.
 const nlohmann::json& value_of(const ResultRow& row, std::string_view name);
 

@@ -10,8 +10,8 @@ namespace breach::orchestrator {
 
 namespace {
 
-const std::array versions{version_1, version_2, version_3, version_4,
-                          version_5, version_6, version_7, version_8};
+const std::array versions{version_1, version_2, version_3, version_4, version_5,
+                          version_6, version_7, version_8, version_9};
 
 std::int64_t version_of(Connection& database) {
     std::int64_t version = 0;

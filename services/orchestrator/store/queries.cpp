@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/store/views.hpp"
 
@@ -404,9 +405,9 @@ json value_from(const Row& row, int column, ColumnKind kind) {
     return nullptr;
 }
 
-ResultRow result_from(const Row& row) {
+ResultRow result_from(const Row& row, std::span<const ResultColumn> columns) {
     ResultRow values;
-    for (const ResultColumn& each : result_columns())
+    for (const ResultColumn& each : columns)
         values.push_back(value_from(row, static_cast<int>(values.size()), each.kind));
     return values;
 }
@@ -434,7 +435,20 @@ std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter
     }
     std::vector<ResultRow> found;
     read([&](Connection& database) {
-        database.query(sql, values, [&](const Row& row) { found.push_back(result_from(row)); });
+        database.query(sql, values, [&](const Row& row) {
+            found.push_back(result_from(row, result_columns()));
+        });
+    });
+    return found;
+}
+
+std::vector<ResultRow> Store::means(const std::string& run) const {
+    std::vector<ResultRow> found;
+    read([&](Connection& database) {
+        database.query("SELECT " + selected_mean_columns() + " FROM (" +
+                           selected_means("AND run=?") + ") ORDER BY variant_place, transfer_time",
+                       {run},
+                       [&](const Row& row) { found.push_back(result_from(row, mean_columns())); });
     });
     return found;
 }

@@ -85,6 +85,8 @@ class Store {
     std::optional<Artifact> artifact(const std::string& sha256) const;
     /// In the study's order of variants, each ascending in the transfer time.
     std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
+    /// Of a study with draws, their means in the same order: one value for each of mean_columns().
+    std::vector<ResultRow> means(const std::string& run) const;
     /// Of the newest accuracy studies, a newer one's first.
     std::vector<AccuracyRung> accuracy_rungs(std::size_t most_runs) const;
     /// Points of a sweep, and how many of them have their runout.

@@ -209,16 +209,25 @@ std::vector<FiringRow> Store::firings_of(const std::string& run) const {
 
 std::vector<Sample> Store::samples_of(const std::string& trigger) const {
     std::vector<Sample> found;
+    std::string first;  // variant at this time
     read([&](Connection& database) {
         database.query(
-            "SELECT firings.transfer_time, min(mpm.id), mpm.state, json_extract(mpm.result, "
-            "'$.runout') FROM firings JOIN triggers ON triggers.id = firings.trigger JOIN tasks AS "
-            "transfer ON transfer.parent = triggers.fem_task AND transfer.input = firings.snapshot "
-            "JOIN tasks AS mpm ON mpm.parent = transfer.id WHERE firings.trigger=? GROUP BY "
-            "firings.transfer_time ORDER BY firings.transfer_time",
+            "SELECT firings.transfer_time, coalesce(variants.draw_of, mpm.variant), mpm.state, "
+            "json_extract(mpm.result, '$.runout') FROM firings JOIN triggers ON triggers.id = "
+            "firings.trigger JOIN tasks AS transfer ON transfer.parent = triggers.fem_task AND "
+            "transfer.input = firings.snapshot JOIN tasks AS mpm ON mpm.parent = transfer.id LEFT "
+            "JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant WHERE "
+            "firings.trigger=? ORDER BY firings.transfer_time, mpm.id",
             {trigger}, [&](const Row& row) {
-                const TaskState state = task_state_named(row.text(2));
-                found.push_back({row.real(0), is_final(state), row.optional_real(3)});
+                if (found.empty() || found.back().transfer_time != row.real(0)) {
+                    found.push_back({row.real(0), true, {}, 0});
+                    first = row.text(1);
+                }
+                if (row.text(1) != first) return;
+                Sample& sample = found.back();
+                ++sample.draws;
+                sample.ended &= is_final(task_state_named(row.text(2)));
+                if (const auto runout = row.optional_real(3)) sample.runouts.push_back(*runout);
             });
     });
     return found;

@@ -12,5 +12,6 @@ extern const char* const version_5;  ///< breakdowns answer equal tasks
 extern const char* const version_6;  ///< flags of results, order of variants
 extern const char* const version_7;  ///< what the FEM did not reach is no failure
 extern const char* const version_8;  ///< accuracy studies are found at once
+extern const char* const version_9;  ///< which variant a draw repeats
 
 }  // namespace breach::orchestrator

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/phases/phases.hpp"
-#include "services/orchestrator/records/result_columns.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 
 namespace breach::orchestrator {
 
@@ -84,6 +84,7 @@ bool is_in_view(const ResultColumn& column) {
 const std::vector<Expression> other_columns{
     {"run", "mpm.run"},
     {"variant_place", "coalesce(variants.place, 0)"},
+    {"draw_of", "variants.draw_of"},
     {"flag_list",
      "CASE WHEN " + is_judged +
          " THEN (SELECT json_group_array(json_object('code', code, 'severity', severity,"
@@ -126,10 +127,35 @@ std::string sweep_results() {
            phases::mpm.program + "' AND transfer.phase = '" + phases::transfer.program + "'";
 }
 
+// What a row of means has besides the means. A draw that waits or runs has no result yet; of one
+// that ended without a result the mean is without it, and says so.
+const std::string is_open =
+    "state NOT IN ('succeeded', 'questionable', 'failed', 'skipped', "
+    "'not_reached', 'cancelled')";
+const std::vector<Expression> columns_of_means{
+    {"transfer_time", "transfer_time"},
+    {"variant", "draw_of"},
+    {"state",
+     "CASE WHEN sum(" + is_open +
+         ") > 0 THEN 'running'"
+         "\n        WHEN count(runout) = 0 THEN min(state)"
+         "\n        WHEN count(runout) < count(*) THEN 'partial'"
+         "\n        WHEN sum(state = 'questionable') > 0 THEN 'questionable' ELSE 'succeeded' END"},
+    {"draws", "count(*)"},
+    {"draws_done", "count(runout)"},
+    {"missing_draws",
+     "coalesce(group_concat(CASE WHEN runout IS NULL THEN variant || ': ' || state END, '; '), "
+     "'')"},
+    {"questionable_draws",
+     "coalesce(group_concat(CASE WHEN questionable AND runout IS NOT NULL THEN variant END, '; '),"
+     " '')"},
+};
+
 /// By name, with the statement that makes it.
 std::vector<Expression> views() {
     return {{"run_summaries", std::string("CREATE VIEW run_summaries AS") + run_summaries},
-            {"sweep_results", "CREATE VIEW sweep_results AS" + sweep_results()}};
+            {"sweep_results", "CREATE VIEW sweep_results AS" + sweep_results()},
+            {"sweep_means", "CREATE VIEW sweep_means AS" + selected_means("")}};
 }
 
 bool is_there(Connection& database, const Expression& view) {
@@ -152,6 +178,33 @@ void make_views(Connection& database) {
         database.script("DROP VIEW IF EXISTS " + each.name);
         database.script(each.sql);
     }
+}
+
+std::string selected_means(const std::string& condition) {
+    std::string off;
+    std::string columns;
+    for (const ResultColumn* each : averaged_columns()) {
+        const std::string name = each->name;
+        off += ",\n        " + name + " - avg(" + name + ") OVER place AS " + name + "_off";
+        columns += ",\n    avg(" + name + ") AS " + name + ",\n    sqrt(sum(" + name + "_off * " +
+                   name + "_off) / (count(" + name + ") - 1)) AS " + deviation_of(name);
+    }
+    std::string others;
+    for (const Expression& each : columns_of_means)
+        others.append(",\n    ").append(each.sql).append(" AS ").append(each.name);
+    return "\nSELECT run, min(variant_place) AS variant_place" + others + columns +
+           "\nFROM (SELECT *" + off + "\n    FROM sweep_results WHERE draw_of IS NOT NULL " +
+           condition +
+           "\n    WINDOW place AS (PARTITION BY run, draw_of, transfer_time))"
+           "\nGROUP BY run, draw_of, transfer_time";
+}
+
+std::string selected_mean_columns() {
+    std::string names;
+    for (const ResultColumn& each : mean_columns()) {
+        names.append(names.empty() ? "" : ", ").append(is_in_view(each) ? each.name : "NULL");
+    }
+    return names;
 }
 
 std::string selected_result_columns() {

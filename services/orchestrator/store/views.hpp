@@ -11,5 +11,13 @@ void make_views(Connection& database);
 
 /// "state, runout, ...": what is read of sweep_results for one ResultRow.
 std::string selected_result_columns();
+/// The same of sweep_means, for one row of mean_columns().
+std::string selected_mean_columns();
+/// The statement of the view sweep_means, of those rows of sweep_results that meet the condition
+/// ("AND run=?"; empty: all). A condition on the view itself would be met only after all runs of
+/// the database have been averaged. One row per variant and transfer time of a study with draws;
+/// the standard deviation is that of the differences from the mean, so that close values keep their
+/// digits.
+std::string selected_means(const std::string& condition);
 
 }  // namespace breach::orchestrator

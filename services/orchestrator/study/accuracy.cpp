@@ -58,10 +58,11 @@ std::optional<Quantity> quantity_named(const std::string& text, const json& scen
     return std::nullopt;
 }
 
-Quantity read_quantity(const json& entry, const json& scene, std::vector<Fault>& faults) {
+Quantity read_quantity(const json& entry, const std::string& at, const json& scene,
+                       std::vector<Fault>& faults) {
     const std::string text = entry.at("quantity");
     if (auto known = quantity_named(text, scene)) return std::move(*known);
-    faults.push_back({"/accuracy/quantity", "\"" + text + "\" is nothing that a result has",
+    faults.push_back({at + "/quantity", "\"" + text + "\" is nothing that a result has",
                       "give one of " + names_of_results() +
                           "; factor_of_safety; or a field of the FEM's telemetry with its time, "
                           "like crest_displacement@4.5"});
@@ -240,17 +241,17 @@ std::vector<phases::Phase> phases_of(Reach reach) {
     return {phases::fem, phases::transfer, phases::mpm};
 }
 
+bool has_lattice(Reach reach) { return reach == Reach::chain || reach == Reach::filled_mpm; }
+
 AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fault>& faults) {
     AccuracyPlan plan;
-    plan.quantity = read_quantity(entry, scene, faults);
+    plan.quantity = read_quantity(entry, "/accuracy", scene, faults);
     plan.reference = read_reference(entry, faults);
     plan.ladders = read_ladders(entry.at("ladders"), plan.reference.kind, faults);
     plan.base = entry.at("base").get<std::vector<std::string>>();
     plan.draws = entry.at("draws");
     plan.asked_error = entry.at("asked_error");
-    const bool points =
-        plan.quantity.reach == Reach::chain || plan.quantity.reach == Reach::filled_mpm;
-    if (plan.draws > 1 && !points)
+    if (plan.draws > 1 && !has_lattice(plan.quantity.reach))
         faults.push_back({"/accuracy/draws",
                           std::string("repeats move the lattice of material points, and ") +
                               phases_of(plan.quantity.reach).front().program + " has none",
@@ -308,15 +309,39 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
     return entries;
 }
 
-std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, std::size_t draws) {
+BlindCheckPlan read_blind_check(const json& entry, const json& scene, std::size_t draws,
+                                std::vector<Fault>& faults) {
+    BlindCheckPlan plan{.of = entry.at("of"),
+                        .quantity = read_quantity(entry, "/check", scene, faults),
+                        .mean_of = entry.at("mean_of"),
+                        .reference = entry.at("reference"),
+                        .asked_error = entry.at("asked_error")};
+    if (!has_lattice(plan.quantity.reach))
+        faults.push_back({"/check/quantity",
+                          std::string(phases_of(plan.quantity.reach).front().program) +
+                              " has no lattice of points: every run of it gives the same",
+                          "check a quantity of the runout"});
+    if (plan.reference == 0.0)
+        faults.push_back({"/check/reference",
+                          "errors are relative to the reference, and it is zero",
+                          "check a quantity that is not zero, such as runout_largest"});
+    if (draws % plan.mean_of != 0)
+        faults.push_back({"/draws",
+                          std::to_string(draws) + " draws do not make whole means of " +
+                              std::to_string(plan.mean_of),
+                          "give a multiple of /check/mean_of"});
+    return plan;
+}
+
+std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, Draws draws, Reach reach) {
     std::vector<VariantEntry> entries;
     for (const VariantEntry& each : own) {
-        for (std::size_t d = 0; d < draws; ++d) {
+        for (std::size_t d = draws.first; d < draws.first + draws.count; ++d) {
             VariantEntry entry = each;
             const bool unnamed = each.name.empty();
             entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
             if (unnamed || d > 0) entry.made_by = "draws";
-            for (std::string& shift : lattice_of_draw(d, Reach::chain))
+            for (std::string& shift : lattice_of_draw(d, reach))
                 entry.overrides.push_back(std::move(shift));
             entries.push_back(std::move(entry));
         }

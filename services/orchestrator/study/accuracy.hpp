@@ -19,6 +19,8 @@ namespace breach::orchestrator {
 enum class Reach { chain, filled_mpm, fem, lem };
 /// The phases of a variant, first to last.
 std::vector<phases::Phase> phases_of(Reach reach);
+/// Whether there are material points, whose lattice can be moved.
+bool has_lattice(Reach reach);
 
 /// A number that an accuracy study judges.
 struct Quantity {
@@ -51,6 +53,16 @@ struct AccuracyPlan {
     double asked_error = 0.05;
 };
 
+/// A run of new draws of a setting that an accuracy study has measured: it needs its study's entry
+/// "check" only, not the study.
+struct BlindCheckPlan {
+    std::string of;  ///< the accuracy study's run; empty: not known
+    Quantity quantity;
+    std::size_t mean_of = 1;   ///< so many draws are averaged
+    double reference = 1.0;    ///< in the unit of the quantity
+    double asked_error = 0.0;  ///< relative
+};
+
 /// A variant before its scene is checked.
 struct VariantEntry {
     std::string name;
@@ -78,9 +90,19 @@ std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json&
 /// All variants of the plan, each once, in the order of the settings.
 std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const nlohmann::json& scene);
 
-/// The study's own variants, each on `draws` lattices: "soft", "soft_d2", "soft_d3"; of a study
+/// The entry "check"; faults have the study's pointers. draws: of the study.
+BlindCheckPlan read_blind_check(const nlohmann::json& entry, const nlohmann::json& scene,
+                                std::size_t draws, std::vector<fault::Fault>& faults);
+
+/// Which lattices: `count` of them from the one with the number `first`; number 0 is unmoved.
+struct Draws {
+    std::size_t first = 0;
+    std::size_t count = 1;
+};
+
+/// The study's own variants, each on these lattices: "soft", "soft_d2", "soft_d3"; of a study
 /// without variants "d1", "d2", "d3".
-std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, std::size_t draws);
+std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, Draws draws, Reach reach);
 /// What a variant of the completed study repeats: "soft_d2" -> "soft"; its own name when it is no
 /// repeat. variant: {name, made_by}.
 std::string repeated_variant(const nlohmann::json& variant);

@@ -229,18 +229,19 @@ std::vector<VariantEntry> own_variants(const json& entries) {
 }
 
 /// On as many lattices as the study asks for.
-std::vector<VariantEntry> wanted_variants(const json& document, std::vector<Fault>& faults) {
+std::vector<VariantEntry> wanted_variants(const json& document, Reach reach,
+                                          std::vector<Fault>& faults) {
     constexpr std::size_t longest_name = 32;  // of the schema
-    const std::size_t draws = document["draws"];
+    const Draws draws{.first = document["first_draw"], .count = document["draws"]};
     std::vector<VariantEntry> own = own_variants(document["variants"]);
-    if (draws == 1) return own;
+    if (draws.first == 0 && draws.count == 1) return own;
     if (own.empty())
         own.push_back({.name = "",
                        .overrides = {},
                        .name_pointer = "/draws",
                        .pointer = "/draws",
                        .made_by = ""});
-    std::vector<VariantEntry> entries = repeated(own, draws);
+    std::vector<VariantEntry> entries = repeated(own, draws, reach);
     for (const VariantEntry& each : entries)
         if (each.name.size() > longest_name)
             faults.push_back({each.name_pointer,
@@ -284,26 +285,45 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
 
 // ---------------------------------------------------------------- accuracy
 
+/// What a study cannot be besides one that judges one setting's or one ladder's runout.
+void check_one_state(const json& document, const std::string& judge, const Study& study,
+                     std::vector<Fault>& faults) {
+    if (!document["triggers"].empty())
+        faults.push_back({"/triggers", judge + " judges one state, at one time",
+                          "give one transfer time instead"});
+    const std::size_t times = study.transfer_times.size();
+    if (study.reach == Reach::chain && times > 1)
+        faults.push_back({"/transfer_times",
+                          judge + " judges one state, and there are " + std::to_string(times) +
+                              " transfer times",
+                          "give one time"});
+    if (study.reach != Reach::chain && times > 0)
+        faults.push_back({"/transfer_times", "nothing is transferred for this quantity",
+                          "leave \"transfer_times\" out"});
+}
+
+/// What a blind check cannot have.
+void check_blind(const json& document, const Study& study, std::vector<Fault>& faults) {
+    if (!own_variants(document["variants"]).empty())
+        faults.push_back(
+            {"/variants", "a blind check draws one setting", "put its changes into \"overrides\""});
+    check_one_state(document, "a blind check", study, faults);
+}
+
 /// What a study cannot be besides an accuracy study.
 void check_company(const json& document, const Study& study, std::vector<Fault>& faults) {
     if (!own_variants(document["variants"]).empty())
         faults.push_back({"/variants", "an accuracy study makes its variants of its ladders",
                           "leave \"variants\" out: a ladder's rungs say what is changed"});
-    if (!document["triggers"].empty())
-        faults.push_back({"/triggers", "an accuracy study judges one state, at one time",
-                          "give one transfer time instead"});
-    if (document["draws"] != 1)
-        faults.push_back(
-            {"/draws", "an accuracy study has its own entry for repeats", "give /accuracy/draws"});
-    const std::size_t times = study.transfer_times.size();
-    if (study.reach == Reach::chain && times > 1)
-        faults.push_back({"/transfer_times",
-                          "an accuracy study judges one state, and there are " +
-                              std::to_string(times) + " transfer times",
-                          "give one time"});
-    if (study.reach != Reach::chain && times > 0)
-        faults.push_back({"/transfer_times", "nothing is transferred for this quantity",
-                          "leave \"transfer_times\" out"});
+    for (const auto& [entry, none] : {std::pair{"draws", 1}, std::pair{"first_draw", 0}})
+        if (document[entry] != none)
+            faults.push_back({std::string("/") + entry,
+                              "an accuracy study has its own entry for repeats",
+                              "give /accuracy/draws"});
+    if (document.contains("check"))
+        faults.push_back({"/check", "a study measures or is checked, not both",
+                          "leave \"check\" out, or give it in a study without \"accuracy\""});
+    check_one_state(document, "an accuracy study", study, faults);
 }
 
 void check_time(const Quantity& quantity, const scene::Scene& scene, std::vector<Fault>& faults) {
@@ -341,11 +361,6 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
                               ": it is the rung before it once more",
                           "change an entry that the quantity hangs on"});
     }
-}
-
-/// Whether the entry says what it wants; the schema has told what is wrong with it otherwise.
-bool wants_accuracy(const json& document, const std::vector<Fault>& of_study) {
-    return document.is_object() && document.contains("accuracy") && is_sound(of_study, "/accuracy");
 }
 
 /// One fault instead of one per entry that a study lacks.
@@ -387,9 +402,12 @@ Study read_study(std::string_view text) {
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = document["scene"];
         if (sound("overrides")) base.overrides = document["overrides"];
-        if (wants_accuracy(document, of_study)) {
+        if (sound("accuracy")) {
             accuracy = read_accuracy(document["accuracy"], base.scene, faults);
             study.reach = accuracy->quantity.reach;
+        } else if (sound("check") && sound("draws")) {
+            study.reach = read_blind_check(document["check"], base.scene, document["draws"], faults)
+                              .quantity.reach;
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
@@ -412,13 +430,17 @@ Study read_study(std::string_view text) {
     }
     const bool rungs_are_sound = std::ranges::none_of(
         faults, [](const Fault& each) { return each.pointer.starts_with("/accuracy"); });
-    if (accuracy && scene && times_are_sound && sound("variants") && sound("draws")) {
+    const bool repeats_are_sound = sound("variants") && sound("draws") && sound("first_draw");
+    if (accuracy && scene && times_are_sound && repeats_are_sound) {
         check_company(document, study, faults);
         check_time(accuracy->quantity, scene->scene, faults);
+    } else if (scene && times_are_sound && repeats_are_sound && sound("check")) {
+        check_blind(document, study, faults);
     }
-    if (scene && sound("variants") && sound("draws") && rungs_are_sound) {
+    if (scene && repeats_are_sound && rungs_are_sound) {
         const std::vector<VariantEntry> entries =
-            accuracy ? variants_of(*accuracy, base.scene) : wanted_variants(document, faults);
+            accuracy ? variants_of(*accuracy, base.scene)
+                     : wanted_variants(document, study.reach, faults);
         const bool late = fem && !study.transfer_times.empty() &&
                           study.transfer_times.back() > dynamic_duration(*fem) + microsecond;
         study.variants = checked_variants(

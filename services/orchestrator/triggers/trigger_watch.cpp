@@ -14,6 +14,7 @@
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/records/repeats.hpp"
 #include "services/orchestrator/triggers/bisection.hpp"
 
 namespace breach::orchestrator {
@@ -60,6 +61,40 @@ json crossing_of(const criteria::Criterion& criterion) {
     for (std::size_t i = 0; i < line.values.size(); ++i)
         values[criterion.expression().fields[i]] = line.values[i];
     return values;
+}
+
+/// Decided by a mean that may lie on the other side of the level: its own scatter and that of the
+/// largest, of which the level is a share.
+bool straddles(const Repeats& sample, const Repeats& largest, double share) {
+    const double half = half_width_of_mean(sample).value_or(0.0);
+    const double of_level = share * half_width_of_mean(largest).value_or(0.0);
+    return std::abs(sample.mean - share * largest.mean) <= std::hypot(half, of_level);
+}
+
+/// Where the study has draws: which times were decided by a mean whose band straddles the level,
+/// and which by fewer draws than were asked for.
+void tell_draws(const std::vector<Sample>& samples, double share,
+                const std::optional<Plateau>& plateau, json& result) {
+    const auto repeated = std::ranges::max_element(samples, {}, &Sample::draws);
+    if (repeated == samples.end() || repeated->draws < 2) return;
+    result["draws"] = repeated->draws;
+    result["straddling"] = json::array();
+    result["with_fewer_draws"] = json::array();
+    for (const Sample& each : samples)
+        if (each.runouts.size() < each.draws)
+            result["with_fewer_draws"].push_back(each.transfer_time);
+    if (!plateau) return;
+    const auto top = std::ranges::find(samples, plateau->largest_at, &Sample::transfer_time);
+    const Repeats largest = repeats_of(top->runouts);
+    for (const Sample& each : samples) {
+        if (each.runouts.empty() || &each == &*top) continue;
+        const Repeats sample = repeats_of(each.runouts);
+        if (straddles(sample, largest, share))
+            result["straddling"].push_back(
+                {{"transfer_time", each.transfer_time},
+                 {"runout", sample.mean},
+                 {"half_width", half_width_of_mean(sample).value_or(0)}});
+    }
 }
 
 std::int64_t written_at(const std::filesystem::path& file) {
@@ -300,7 +335,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
         const auto found = std::ranges::find(times, each.transfer_time);
         if (found != times.end())
             runouts[static_cast<std::size_t>(found - times.begin())] =
-                each.runout.value_or(no_runout);
+                each.runouts.empty() ? no_runout : repeats_of(each.runouts).mean;
     }
     if (times.empty()) {
         move(armed, TriggerEvent::expire, {{"why", "no snapshot lies in the range"}});
@@ -322,6 +357,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
     json result{{"runs", samples.size()},
                 {"uniform_runs", times.size()},
                 {"complete", advice.run_next.empty()}};
+    tell_draws(samples, bisect.share, advice.plateau, result);
     if (advice.plateau) {
         const auto edge = [](const Edge& each) {
             return json{{"off", each.off ? json(*each.off) : json(nullptr)}, {"on", each.on}};

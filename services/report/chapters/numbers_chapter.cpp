@@ -75,6 +75,45 @@ Table errors_of(const Run& run) {
     return table;
 }
 
+/// "12.5 +- 0.3"; "-" for what is not known.
+std::string with_scatter(const json& mean, const std::string& measure) {
+    const json value = mean.value(measure, json());
+    if (!value.is_number()) return "-";
+    const json deviation = mean.value(measure + "_deviation", json());
+    return rounded(value.get<double>(), 4) +
+           (deviation.is_number() ? " +- " + rounded(deviation.get<double>(), 2) : "");
+}
+
+/// Mean and scatter of every runout of a study with draws.
+Table means_of(const Run& run) {
+    Table table{"numbers_means",
+                "Means over the draws",
+                {"t_T [s]", "variant", "draws", "runout [m]", "beyond the toe [m]", "farthest [m]",
+                 "mean runout is off by [m]", "not as it should be"},
+                {},
+                "Mean +- standard deviation of one draw. A draw is the same setting on another "
+                "lattice of points. Off by: nine of ten such means, by Student's distribution for "
+                "so few draws, with the bias where an accuracy study tells it."};
+    for (const json& mean : run.means) {
+        const json error = mean.value("runout_error", json());
+        std::string doubt;
+        for (const auto& [key, words] : {std::pair{"missing_draws", "without a result: "},
+                                         std::pair{"questionable_draws", "questionable: "}})
+            if (const std::string draws = mean.at(key); !draws.empty())
+                doubt += (doubt.empty() ? "" : "; ") + (words + draws);
+        const std::string variant = mean.at("variant");
+        table.rows.push_back({rounded(mean.at("transfer_time").get<double>(), 6),
+                              variant.empty() ? "all" : variant,
+                              rounded(mean.at("draws_done").get<double>(), 4) + " of " +
+                                  rounded(mean.at("draws").get<double>(), 4),
+                              with_scatter(mean, "runout"), with_scatter(mean, "runout_beyond_toe"),
+                              with_scatter(mean, "runout_largest"),
+                              error.is_number() ? rounded(error.get<double>(), 3) : "no estimate",
+                              doubt.empty() ? "-" : doubt});
+    }
+    return table;
+}
+
 /// Relative differences of the transfers' ledgers over the whole section: one row per transfer, one
 /// column per quantity.
 Table ledger(const Run& run) {
@@ -186,6 +225,8 @@ void add_numbers(const Material& from, Document& document) {
         "over initial volume; share of soil that lies in other soil. \u2265: a lower bound, the "
         "soil still "
         "moved.");
+    if (Table means = means_of(from.run); !means.rows.empty())
+        chapter.tables.push_back(std::move(means));
     if (Table errors = errors_of(from.run); !errors.rows.empty())
         chapter.tables.push_back(std::move(errors));
     if (Table flags = flag_table(from.run); !flags.rows.empty()) {

@@ -40,7 +40,44 @@ std::vector<const PhaseFolder*> chosen(const std::vector<const PhaseFolder*>& al
     return picked;
 }
 
+double number_in(const json& row, const char* key) {
+    const json value = row.value(key, json());
+    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Mean and scatter of the draws, one curve per variant.
+std::vector<Series> curves_of_means(const json& means) {
+    std::vector<Series> curves;
+    for (const json& mean : means) {
+        if (!mean.at("runout").is_number()) continue;
+        const std::string variant = mean.at("variant");
+        const std::string name = variant.empty() ? "mean of the draws" : variant;
+        auto curve = std::ranges::find(curves, name, &Series::name);
+        if (curve == curves.end())
+            curve = curves.insert(curve, Series{name, {}, {}, Style::line_and_points});
+        curve->x.push_back(mean.at("transfer_time"));
+        curve->y.push_back(mean.at("runout"));
+        curve->error.push_back(number_in(mean, "runout_deviation"));
+        const bool whole = mean.at("missing_draws") == "" && mean.at("questionable_draws") == "";
+        curve->certainty.push_back(whole ? Certainty::certain : Certainty::doubtful);
+    }
+    return curves;
+}
+
+Figure means_against_time(const Material& from) {
+    return {"runout_against_transfer_time",
+            {"Runout against transfer time",
+             {"transfer time t_T [s]"},
+             {"runout [m]"},
+             curves_of_means(from.run.means)},
+            "99th percentile of the mobile soil's distance beyond the toe, by mass: mean over the "
+            "draws, each on a lattice of points of its own; the band is the standard deviation of "
+            "one draw. Hollow and dashed: a draw has no result, or one that is questionable (table "
+            "of means)."};
+}
+
 Figure runout_against_time(const Material& from) {
+    if (!from.run.means.empty()) return means_against_time(from);
     Figure figure{
         "runout_against_transfer_time",
         {"Runout against transfer time", {"transfer time t_T [s]"}, {"runout [m]"}, {}},

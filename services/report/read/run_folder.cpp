@@ -157,7 +157,9 @@ Run read_run(const fs::path& folder) {
         run.scene = run.phases.front().scene;
         const json about = read_if_there(folder / "run.json");
         run.study = read_if_there(folder / "study.json");
-        take_errors(read_if_there(folder / "results.json"), run.phases);
+        const json results = read_if_there(folder / "results.json");
+        take_errors(results, run.phases);
+        if (results.is_object()) run.means = results.value("means", json::array());
         run.name = run.scene.at("name");
         run.title = run.scene.value("title", run.name);
         if (about.is_object()) {

@@ -34,6 +34,9 @@ struct Run {
     nlohmann::json scene;             ///< completed, of the first phase
     nlohmann::json study;             ///< null when the folder has none
     std::vector<PhaseFolder> phases;  ///< by phase, then transfer time, then variant
+    /// Over the draws of each runout, as the service tells them; empty: the study has no draws, or
+    /// the folder no results.json
+    nlohmann::json means = nlohmann::json::array();
 };
 
 /// A folder belongs to a phase when it holds scene.completed.json and its label begins with lem,

@@ -79,7 +79,7 @@ export const read_triggers = async (run) => (await get_json(path_of("runs", run,
 /// A stored JSON file.
 export const read_json_artifact = (sha256) => get_json(artifact_path(sha256), { cache: "default" });
 export const read_results = (run) => get_json(path_of("runs", run, "results"));
-export const results_csv = (run) => path_of("runs", run, "results") + "?format=csv";
+export const results_csv = (run, means) => path_of("runs", run, "results") + (means ? "?format=csv&table=means" : "?format=csv");
 /// A file of the server as a Blob.
 export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);

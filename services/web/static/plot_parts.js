@@ -126,14 +126,14 @@ export function band(plot, { from, to, label, kind }, index) {
             svg("text", { class: "band-text", x: left + 5, y: bottom - 24 - 17 * index }, label)];
 }
 
-export function legend({ series, marks, lines, bands }, lines_name) {
+export function legend({ series, marks, lines, bands, errors_name }, lines_name) {
     const items = series.map((data, i) => legend_item(
         [...(data.scatter ? [] : [svg("path", { class: `curve ${series_class(i)}`, d: "M0,7H24" })]),
          ...(data.points ? [svg("path", { class: `marker ${series_class(i)}`, d: shape_of(i), transform: "translate(12,7)" })] : [])],
         data.name));
     if (series.some((data) => data.y.some((_, i) => error_at(data, i) !== null))) {
         items.push(legend_item([svg("rect", { class: "error-band neutral", width: 24, height: 14 }),
-                                svg("path", { class: "whisker neutral", d: "M12,0V14" })], "error of one run"));
+                                svg("path", { class: "whisker neutral", d: "M12,0V14" })], errors_name ?? "error of one run"));
     }
     const seen = new Set(series.flatMap(({ looks = [], y }) => looks.filter((look, i) => look && Number.isFinite(y[i])))
         .flatMap((look) => look.split(" ")));

@@ -3,6 +3,7 @@ import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_codes, flag_note, look_of, rest_text, trust_of } from "./flags.js";
 import { by_point, is_active, number, point_name, show_state, state_look, variants_of } from "./format.js";
+import { draws_of, mean_rows } from "./means.js";
 import { Plot } from "./plot.js";
 import { plateaus, windows } from "./triggers.js";
 
@@ -19,18 +20,47 @@ const folded = new Set(["runout_largest", "volume_ratio", "overlap"]);
 export class Results {
     /// look_at(row): a person wants to see this point's particles. ask(row, column): where its numbers come from.
     constructor({ look_at, ask }) {
-        Object.assign(this, { look_at, ask, rows: [] });
+        Object.assign(this, { look_at, ask, rows: [], means: [], of_mean: null });
         this.plot = new Plot(by_id("runout-plot"), {
             title: "Runout", x: "transfer time t_T [s]", y: "runout from the toe [m]", x_name: "t_T", x_unit: "s",
             hint: "Point at the curve, or use the arrow keys; click or Enter shows where the number comes from.",
-        }, { height: 340, y_from_zero: true, choose: (_, key) => key && this.ask(this.row(key), this.measure()) });
+        }, { height: 340, y_from_zero: true, choose: (_, key) => key && this.trace(this.row(key), this.measure()) });
+        by_id("runout-draws").addEventListener("change", () => {
+            this.of_mean = null;
+            this.refresh();
+        });
         by_id("runout-measure").addEventListener("change", () => this.draw());
         by_id("runout-all").addEventListener("change", (event) => by_id("runout-table").classList.toggle("all", event.target.checked));
         by_id("runout-trust").addEventListener("change", () => this.refresh());
         by_id("runout-rows").addEventListener("click", (event) => {
             const cell = event.target.closest("[data-column]");
-            if (cell) this.ask(this.row(cell.parentElement.dataset.key), cell.dataset.column);
+            if (cell) this.trace(this.row(cell.parentElement.dataset.key), cell.dataset.column);
         });
+    }
+
+    /// Where a number comes from: of a mean the draws that it is made of.
+    trace(row, column) {
+        if (!row?.mean) {
+            this.ask(row, column);
+            return;
+        }
+        this.of_mean = row;
+        by_id("runout-draws").value = "runs";
+        this.refresh();
+    }
+
+    shows_means() {
+        return this.means.length > 0 && by_id("runout-draws").value === "means";
+    }
+
+    /// Of a study with draws: the means, each draw, or those of one mean.
+    chosen() {
+        if (this.shows_means()) return this.means;
+        return this.of_mean ? draws_of(this.of_mean, this.rows, this.run.study) : this.rows;
+    }
+
+    shown_variants() {
+        return this.shows_means() ? [...new Set(this.means.map(({ variant }) => variant))] : this.variants;
     }
 
     measure() {
@@ -38,13 +68,18 @@ export class Results {
     }
 
     row(key) {
-        return this.rows.find((row) => key_of(row) === key);
+        return [...(this.shows_means() ? this.means : []), ...this.rows].find((row) => key_of(row) === key);
     }
 
     /// Returns the rows, for those who want to draw other things of them.
     async show(run) {
-        const { rows } = await api.read_results(run.id);
-        by_id("runout-csv").href = api.results_csv(run.id);
+        const { rows, means } = await api.read_results(run.id);
+        if (this.run?.id !== run.id) {
+            this.of_mean = null;
+            by_id("runout-draws").value = "means";
+        }
+        this.means = mean_rows(means ?? []);
+        by_id("runout-draws-label").hidden = this.means.length === 0;
         this.run = run;
         this.variants = variants_of(run);
         this.rows = rows.sort(by_point(this.variants));
@@ -52,19 +87,23 @@ export class Results {
         const finished = rows.filter((row) => Number.isFinite(row.runout)).length;
         const several = this.variants.length > 1;
         const what = several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
-        set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${what} finished`);
-        by_id("runout-table").classList.toggle("one-variant", !several);
+        const draws = this.means[0]?.draws;
+        set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
         return this.rows;
     }
 
     /// The rows that a person wants to see: all, or without the finished ones that are not known to be sound.
     shown() {
-        if (by_id("runout-trust").value === "all") return this.rows;
-        return this.rows.filter((row) => !is_finished(row) || trust_of(row) === "sound");
+        if (by_id("runout-trust").value === "all") return this.chosen();
+        return this.chosen().filter((row) => !is_finished(row) || trust_of(row) === "sound");
     }
 
     refresh() {
-        const note = trust_note(this.rows, this.rows.length - this.shown().length);
+        const chosen = this.chosen();
+        by_id("runout-table").classList.toggle("one-variant", this.shown_variants().length < 2);
+        by_id("runout-csv").href = api.results_csv(this.run.id, this.shows_means());
+        const of = this.of_mean ? `Only the draws of ${point_name(this.of_mean)}. ` : "";
+        const note = of + trust_note(chosen, chosen.length - this.shown().length);
         by_id("runout-note").hidden = !note;
         set_text(by_id("runout-note"), note);
         mirror(by_id("runout-rows"), this.shown(), key_of, () => this.new_row(), fill_row);
@@ -73,12 +112,14 @@ export class Results {
 
     draw() {
         const measure = this.measure();
-        const several = this.variants.length > 1;
+        const variants = this.shown_variants();
+        const several = variants.length > 1;
         const rows = this.shown();
-        const lines = series_by_variant(rows, this.variants);
+        const lines = series_by_variant(rows, variants);
         const points = (some) => ({ unit: "m", points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
                                     errors: some.map((row) => error_of(row, measure)), looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
+        const errors_name = this.shows_means() ? "standard deviation of the draws" : "error of one run";
         const side_by_side = several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1;
         set_text(by_id("runout-title"), side_by_side ? "Runout by variant" : "Runout against transfer time");
         if (side_by_side) {
@@ -87,7 +128,7 @@ export class Results {
             this.plot.show({
                 series: [{ name: `${measures[measure]}, t_T = ${number(rows[0].transfer_time)} s`, scatter: true, ...points(rows), x: rows.map(at) }],
                 marks: marks.map((row) => ({ ...mark_of(row, several), x: at(row) })),
-                names: lines.map(({ variant }, x) => ({ x, label: variant })), x_label: "variant",
+                names: lines.map(({ variant }, x) => ({ x, label: variant })), x_label: "variant", errors_name,
             });
             return;
         }
@@ -95,13 +136,13 @@ export class Results {
             series: lines.map(({ variant, rows: some }) => ({ name: several ? variant : measures[measure], ...points(some),
                                                               x: some.map((row) => row.transfer_time) })),
             marks: marks.map((row) => mark_of(row, several)),
-            bands: [...windows(this.run.triggers), ...plateaus(this.run.triggers)],
+            bands: [...windows(this.run.triggers), ...plateaus(this.run.triggers)], errors_name,
         });
     }
 
     new_row() {
         const look = element("button", { type: "button", class: "link", onclick: () => this.look_at(this.row(row.dataset.key)) });
-        const ask = element("button", { type: "button", class: "link", onclick: () => this.ask(this.row(row.dataset.key), "runout") }, "trace");
+        const ask = element("button", { type: "button", class: "link", onclick: () => this.trace(this.row(row.dataset.key), "runout") }, "trace");
         const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", { class: "variant" }),
                             element("td", {}, element("span")));
         for (const column of columns) {
@@ -114,12 +155,13 @@ export class Results {
     }
 }
 
-export const key_of = (row) => `${row.transfer_time}/${row.variant}`;
+export const key_of = (row) => `${row.transfer_time}/${row.variant}${row.mean ? "/mean" : ""}`;
 
 const is_finished = (row) => Number.isFinite(row.runout);
 
-/// An accuracy study says whose error it measured; draws are of the runout.
+/// An accuracy study says whose error it measured; draws are of the runout. Of a mean: how its draws scatter.
 function error_of(row, measure) {
+    if (row.mean) return row[`${measure}_deviation`] ?? null;
     const judged = /: of (\w+)/.exec(row.runout_error_from ?? "")?.[1] ?? "runout";
     return judged === measure ? row.runout_error ?? null : null;
 }
@@ -128,8 +170,17 @@ function error_of(row, measure) {
 function note_of(row, measure) {
     if (!is_finished(row)) return "";
     const error = error_of(row, measure);
+    if (row.mean) return mean_note(row, measure, error);
     const off = error === null ? "" : `± ${number(error, 2)} m: ${row.runout_error_from}`;
     return [`${point_name(row)}: ${number(row[measure])} m, ${rest_text(row)}`, off, flag_note(row)].filter(Boolean).join("\n");
+}
+
+function mean_note(row, measure, deviation) {
+    const scatter = deviation === null ? "" : `, one draw scatters by ${number(deviation, 2)} m (standard deviation)`;
+    const off = measure === "runout" && Number.isFinite(row.runout_error)
+        ? `the mean may be off by ${number(row.runout_error, 2)} m: ${row.runout_error_from}` : "";
+    return [`${point_name(row)}: ${number(row[measure])} m, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
+        .filter(Boolean).join("\n");
 }
 
 /// In one line: how many of the finished runouts are not to be taken as they stand.
@@ -159,6 +210,12 @@ function mark_of(row, several) {
              label: [several ? row.variant : "", row.state.replace("_", " "), row.reason].filter(Boolean).join(": ") };
 }
 
+/// "12.5", of a mean "12.5 ± 0.3".
+function cell_text(values, column) {
+    const deviation = values.mean ? values[`${column}_deviation`] : null;
+    return number(values[column]) + (Number.isFinite(deviation) ? ` ± ${number(deviation, 2)}` : "");
+}
+
 function fill_row(row, values) {
     const [time, variant, state] = row.children;
     const look = time.firstElementChild;
@@ -169,15 +226,16 @@ function fill_row(row, values) {
     show_state(state.firstElementChild, values.reused && values.state === "succeeded" ? "cached" : values.state);
     if (is_finished(values) && trust_of(values) === "unknown") state.firstElementChild.className = "state off";
     state.title = [values.reason, values.state === "questionable" ? flag_note(values) : ""].filter(Boolean).join("\n");
-    for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, number(values[cell.dataset.column]));
+    for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, cell_text(values, cell.dataset.column));
     const bound = is_finished(values) && look_of(values).includes("bound");
     if (bound) set_text(row.querySelector('[data-column="runout"]'), `≥ ${number(values.runout)}`);
     const [rest, flags] = [row.querySelector(".rest"), row.querySelector(".flag-codes")];
-    set_text(rest, is_finished(values) ? rest_text(values) : "–");
+    set_text(rest, is_finished(values) && !values.mean ? rest_text(values) : "–");
     set_text(flags, is_finished(values) ? flag_codes(values.flags) : "–");
     flags.title = is_finished(values) ? flag_note(values) : "";
     row.dataset.trust = is_finished(values) ? trust_of(values) : "";
     set_text(row.children[row.children.length - 2], values.trigger === "at_time" ? "study" : values.trigger ?? "");
+    set_text(row.lastElementChild.firstElementChild, values.mean ? "draws" : "trace");
     row.lastElementChild.firstElementChild.setAttribute("aria-label", `Where the numbers at t_T = ${number(values.transfer_time)} s ` +
                                                                       `${values.variant} come from`);
     row.classList.toggle("waiting", is_active(values.state));

@@ -70,7 +70,10 @@ function outcome(trigger) {
     const { kind, result, firings, reason } = trigger;
     if (reason) return reason;
     if (kind === "bisect") {
-        return result ? `${result.runs} runs instead of ${result.uniform_runs}` : `${firings.length} runs asked for`;
+        if (!result) return `${firings.length} runs asked for`;
+        const close = (result.straddling ?? []).map(({ transfer_time }) => number(transfer_time)).join(", ");
+        return `${result.runs} runs instead of ${result.uniform_runs}` +
+               (close ? `; at ${close} s the ${result.draws} draws scatter across the level` : "");
     }
     return firings.map((firing) => `at ${number(firing.wanted_time)} s, known at step ${firing.fem_step}, ` +
                                    `snapshot ${number(firing.transfer_time)} s`).join("; ");

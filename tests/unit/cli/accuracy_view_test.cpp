@@ -17,6 +17,7 @@ json row(int step, const json& error) {
             {"draws", 3},
             {"error", error},
             {"error_of_a_run", error},
+            {"mean_within_asked", step == 1 ? json{{"draws", 4}, {"cpu_seconds", 6.5}} : json()},
             {"below_noise", step == 2},
             {"on_pareto_front", step == 1},
             {"questionable", false},
@@ -30,6 +31,7 @@ TEST(AccuracyTable, MarksFrontNoiseAndRecommendation) {
     const json answer{{"quantity", "runout"},
                       {"unit", "m"},
                       {"time", nullptr},
+                      {"asked_error", 0.05},
                       {"reference", "the finest rung of each ladder"},
                       {"rows", {row(1, 0.034), row(2, 0.01), row(3, nullptr)}},
                       {"ladders", {{{"name", "cells"}, {"message", "order 1.4"}}}},
@@ -37,7 +39,8 @@ TEST(AccuracyTable, MarksFrontNoiseAndRecommendation) {
                       {"recommendation", "The cheapest setting within 5 % is that."}};
     const std::string text = as_accuracy_table(answer);
     EXPECT_NE(text.find("runout [m]"), std::string::npos);
-    EXPECT_NE(text.find("3.4 %     3.4 %      1.5       1.6            -  => *\n"),
+    EXPECT_NE(text.find("3.4 %     3.4 %      1.5       1.6            -              4            "
+                        "6.5  => *\n"),
               std::string::npos)
         << text;
     EXPECT_NE(text.find("~  the error is not told apart"), std::string::npos);
@@ -45,6 +48,30 @@ TEST(AccuracyTable, MarksFrontNoiseAndRecommendation) {
     EXPECT_EQ(text.find("?  questionable"), std::string::npos) << "no row is";
     EXPECT_NE(text.find("cells: order 1.4\n"), std::string::npos);
     EXPECT_TRUE(text.ends_with("\nThe cheapest setting within 5 % is that.\n"));
+}
+
+TEST(CheckTable, TellsEachMeanAndTheVerdict) {
+    const json answer{{"quantity", "runout"},
+                      {"unit", "m"},
+                      {"asked_error", 0.05},
+                      {"means",
+                       {{{"variants", {"d4", "d5"}},
+                         {"value", 10.5},
+                         {"error", 0.02},
+                         {"kept", true},
+                         {"questionable", true},
+                         {"reason", ""}},
+                        {{"variants", {"d6", "d7"}},
+                         {"value", nullptr},
+                         {"error", nullptr},
+                         {"kept", false},
+                         {"questionable", false},
+                         {"reason", "d7: failed"}}}},
+                      {"verdict", "1 of 1 means."}};
+    const std::string text = as_check_table(answer);
+    EXPECT_NE(text.find("d4 d5        10.5    2 %  yes         ?\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("d7: failed"), std::string::npos);
+    EXPECT_TRUE(text.ends_with("\n1 of 1 means.\n"));
 }
 
 }  // namespace

@@ -94,6 +94,21 @@ TEST(ResultTable, ShowsADashWhereThereIsNoRunoutAndTheReason) {
               "      1  failed     -              -             -  no memory\n");
 }
 
+TEST(MeanTable, TellsScatterAndWhatIsMissing) {
+    const json answer = json::parse(R"({"means": [
+        {"transfer_time": 0.5, "variant": "", "state": "partial", "draws": 3, "draws_done": 2, "runout": 12.5,
+         "runout_deviation": 0.25, "runout_beyond_toe": 12.5, "runout_beyond_toe_deviation": 0.25, "runout_largest": 14,
+         "runout_largest_deviation": 1, "runout_error": 1.116, "missing_draws": "d2: failed", "questionable_draws": "d3"}]})");
+    const std::string text = as_mean_table(answer);
+    EXPECT_TRUE(text.starts_with("t_T [s]  state    draws   mean runout [m]    +-")) << text;
+    EXPECT_NE(text.find("0.5      partial  2 of 3             12.5  0.25"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("1.116  missing draws: d2: failed; questionable draws: d3\n"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(as_mean_table({{"rows", json::array()}}), "");
+}
+
 TEST(ResultTable, NamesTheVariantMarksWhatMovesAndExplainsTheFlags) {
     EXPECT_EQ(
         table_of(R"([

@@ -1,7 +1,9 @@
 // Accuracy studies over the API, with phases whose error is known: second order in the cells.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <csignal>
 
 #include "tests/faults/service_under_test.hpp"
 
@@ -94,6 +96,85 @@ TEST(Accuracy, DrawsGiveTheNoiseAndRungsOfALaterStudyComeFromTheCache) {
     EXPECT_EQ(accuracy_of(service, again).at("rows")[0].at("draws"), 2);
 }
 
+/// Of the finest rung one run scatters by 0.07 %, and its bias is 0.003 %.
+json noisy_study() {
+    return accuracy_study({{"draws", 4},
+                           {"asked_error", 0.0015},
+                           {"reference", {{"value", 10.3125}, {"source", "the formula"}}}});
+}
+
+TEST(Accuracy, WhereOneRunScattersTooMuchItTellsHowManyToAverage) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(noisy_study());
+    service.wait_for_end(run);
+    const json answer = accuracy_of(service, run);
+    const json& best = answer.at("recommended");
+    ASSERT_TRUE(best.is_object()) << answer.dump(1);
+    EXPECT_EQ(best.at("step"), 3);
+    EXPECT_EQ(best.at("draws"), 2);
+    EXPECT_DOUBLE_EQ(best.at("cpu_seconds"), 2 * 128.0);
+    // The shifts 0, 0.4588, 0.0176, -0.4237 move the runout by 2 cm each: s = 7.21 mm.
+    const double half = 2.3534 * 0.007207 / 10.3125 * std::sqrt(1.0 / 2 + 1.0 / 4);
+    EXPECT_NEAR(best.at("error").get<double>(), half + 0.000263 / 10.3125, 2e-6);
+    const std::string words = answer.at("recommendation");
+    EXPECT_NE(words.find("the mean of 2 draws of cells: /mpm/cell_size=0.25"), std::string::npos)
+        << words;
+    EXPECT_NE(words.find("256 CPU s"), std::string::npos) << words;
+    EXPECT_TRUE(answer.at("rows")[0].at("mean_within_asked").is_null()) << "its bias is 7 %";
+    const json wider =
+        service.get("/v1/runs/" + run + "/accuracy?asked_error=0.1").body.at("recommended");
+    EXPECT_EQ(wider.at("step"), 1);
+    EXPECT_EQ(wider.at("draws"), 1);
+}
+
+TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(noisy_study());
+    service.wait_for_end(run);
+    const std::string door = "/v1/runs/" + run + "/accuracy/check";
+    const auto made = service.post(door + "?repeats=3", "{}");
+    ASSERT_EQ(made.status, 202) << made.text;
+    const std::string check = made.body.at("id");
+    for (const json& each : service.wait_for_end(check).at("tasks"))
+        EXPECT_EQ(each.at("state"), each.at("phase") == "fem_solver" ? "cached" : "succeeded")
+            << each.at("label") << ": no lattice of the study";
+    const json told = service.get("/v1/runs/" + check + "/accuracy/check").body;
+    EXPECT_EQ(told.at("of"), run);
+    ASSERT_EQ(told.at("means").size(), 3u);
+    EXPECT_EQ(told.at("means")[0].at("variants"), json({"d5", "d6"}));
+    EXPECT_EQ(told.at("kept"), 3);
+    // Shifts -0.8649 and 0.4939.
+    EXPECT_NEAR(told.at("means")[0].at("value").get<double>(), 10.3125 - 0.02 * 0.1855, 1e-5);
+
+    // One by one the same six lattices: 0.02 m x 0.8649 and x 0.8298 are more than 0.15 %.
+    const std::string single =
+        service.post(door + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
+    for (const json& each : service.wait_for_end(single).at("tasks"))
+        EXPECT_EQ(each.at("state"), "cached") << each.at("label");
+    const json one_by_one = service.get("/v1/runs/" + single + "/accuracy/check").body;
+    EXPECT_EQ(one_by_one.at("judged"), 6);
+    EXPECT_EQ(one_by_one.at("kept"), 4) << one_by_one.dump(1);
+    EXPECT_NEAR(one_by_one.at("furthest").get<double>(), 0.02 * 0.8649 / 10.3125, 1e-6);
+    EXPECT_TRUE(one_by_one.at("verdict").get<std::string>().starts_with(
+        "4 of 6 new draws are within 0.15 % of 10.31 m; the furthest is off by 0.17 %"))
+        << one_by_one.at("verdict");
+}
+
+TEST(BlindCheck, OfNothingRecommendedIsRefusedWithTheReason) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(accuracy_study({{"asked_error", 1e-4}}));
+    service.wait_for_end(run);
+    const auto answer = service.post("/v1/runs/" + run + "/accuracy/check", "{}");
+    EXPECT_EQ(answer.status, 422);
+    EXPECT_NE(answer.body.dump().find("No setting meets"), std::string::npos) << answer.text;
+    EXPECT_FALSE(answer.body.at("faults")[0].at("remedy").get<std::string>().empty());
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/accuracy/check?ladder=cells", "{}").status, 422);
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/accuracy/check?repeats=0", "{}").status, 400);
+}
+
 TEST(Accuracy, IsRefusedWithPointerAndRemedy) {
     const Sandbox sandbox;
     Service service(sandbox);
@@ -162,6 +243,137 @@ TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
     for (const json& row : rows)
         EXPECT_NEAR(row.at("runout_error").get<double>(), std::sqrt(squares / 2), 1e-12);
     EXPECT_GT(squares, 0.0);
+}
+
+// The shifts of the first three lattices are 0, 0.4588 and 0.0176, and each moves the runout by 2 cm.
+json drawn_study(const std::string& title = "") {
+    json sweep = study("by_cell=1 fem_steps=1 mpm_steps=1 " + title, {0.5, 0.75});
+    sweep["scene"]["mpm"]["cell_size"] = 1;
+    sweep["draws"] = 3;
+    return sweep;
+}
+
+TEST(Means, TellMeanAndStandardDeviationOfEveryMeasure) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json sweep = drawn_study();
+    sweep["variants"] = json::array({{{"name", "coarse"}, {"overrides", {"/mpm/cell_size=2"}}},
+                                     {{"name", "fine"}, {"overrides", {"/mpm/cell_size=0.5"}}}});
+    const std::string run = service.submit(sweep);
+    EXPECT_EQ(service.wait_for_end(run).at("tasks").size(), 1u + 1u + 12u + 12u)
+        << "one FEM and one stability; the transfer looks at the MPM's cells";
+    const json answer = service.get("/v1/runs/" + run + "/results").body;
+    EXPECT_EQ(answer.at("rows").size(), 12u) << "single runs stay";
+    const json& means = answer.at("means");
+    ASSERT_EQ(means.size(), 4u);
+    const json& coarse = means[0];
+    EXPECT_EQ(coarse.at("variant"), "coarse");
+    EXPECT_EQ(coarse.at("draws"), 3);
+    EXPECT_EQ(coarse.at("draws_done"), 3);
+    EXPECT_EQ(coarse.at("state"), "succeeded");
+    const double shifts[]{0.0, 0.458780, 0.017559};
+    const double mean = (shifts[0] + shifts[1] + shifts[2]) / 3;
+    double squares = 0.0;
+    for (const double each : shifts) squares += (each - mean) * (each - mean);
+    const double deviation = 0.02 * std::sqrt(squares / 2);
+    EXPECT_NEAR(coarse.at("runout").get<double>(), 10.25 + 4.0 + 0.02 * mean, 1e-5);
+    EXPECT_NEAR(coarse.at("runout_deviation").get<double>(), deviation, 1e-6);
+    EXPECT_NEAR(coarse.at("runout_largest").get<double>(), 12.5, 1e-12);
+    EXPECT_NEAR(coarse.at("runout_largest_deviation").get<double>(), 0.0, 1e-12);
+    // Two degrees of freedom: t = 2.920.
+    EXPECT_NEAR(coarse.at("runout_error").get<double>(), 2.920 * deviation / std::sqrt(3.0), 1e-5);
+    EXPECT_NE(coarse.at("runout_error_from").get<std::string>().find("mean of 3 draws"),
+              std::string::npos);
+    EXPECT_EQ(means[3].at("variant"), "fine");
+    EXPECT_NEAR(means[3].at("transfer_time").get<double>(), 0.75, 1e-12);
+
+    const std::string csv = service.get("/v1/runs/" + run + "/results?format=csv&table=means").text;
+    EXPECT_TRUE(csv.starts_with("transfer_time,variant,state,draws,draws_done,runout,runout_dev"))
+        << csv;
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+    EXPECT_EQ(service.get("/v1/runs/" + run + "/results?table=medians").status, 400);
+}
+
+TEST(Means, AFailedDrawIsToldAndNotSilentlyLeftOut) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(drawn_study("fails_above=0.4 moving_above=0.01"));
+    EXPECT_EQ(service.wait_for_end(run).at("state"), "partial");
+    const json means = service.get("/v1/runs/" + run + "/results").body.at("means");
+    ASSERT_EQ(means.size(), 2u);
+    const json& first = means[0];
+    EXPECT_EQ(first.at("state"), "partial");
+    EXPECT_EQ(first.at("draws"), 3);
+    EXPECT_EQ(first.at("draws_done"), 2);
+    EXPECT_EQ(first.at("missing_draws"), "d2: failed");
+    EXPECT_EQ(first.at("questionable_draws"), "d3");
+    EXPECT_NEAR(first.at("runout").get<double>(), 11.25 + 0.01 * 0.017559, 1e-6);
+}
+
+TEST(Means, OfASweepWithoutDrawsThereAreNone) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(study("fem_steps=1 mpm_steps=1", {0.5}));
+    service.wait_for_end(run);
+    EXPECT_TRUE(service.get("/v1/runs/" + run + "/results").body.at("means").empty());
+}
+
+TEST(Means, OfMoreTransferTimesAreOfAllDraws) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(drawn_study());
+    service.wait_for_end(run);
+    EXPECT_EQ(service.post("/v1/sweeps/" + run + "/extend", R"({"transfer_times": [1.0]})").status,
+              202);
+    service.wait_for_end(run);
+    const json means = service.get("/v1/runs/" + run + "/results").body.at("means");
+    ASSERT_EQ(means.size(), 3u);
+    EXPECT_EQ(means[2].at("draws_done"), 3);
+}
+
+TEST(Means, BiasComesFromTheAccuracyStudyOfAnEqualScene) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json sweep = accuracy_study();
+    sweep.erase("accuracy");
+    sweep["draws"] = 3;
+    const std::string run = service.submit(sweep);
+    service.wait_for_end(run);
+    const std::string study = service.submit(accuracy_study());
+    service.wait_for_end(study);
+    const json mean = service.get("/v1/runs/" + run + "/results").body.at("means").at(0);
+    const double scatter = 2.920 * mean.at("runout_deviation").get<double>() / std::sqrt(3.0);
+    // Cells of 1 m against 0.25 m, 11.25 - 10.3125 m, and what those are off: 1.25 x 0.0625 m.
+    EXPECT_NEAR(mean.at("runout_error").get<double>(), 0.9375 + 1.25 * 0.0625 + scatter, 1e-4);
+    EXPECT_NE(mean.at("runout_error_from").get<std::string>().find(study), std::string::npos);
+}
+
+/// As Faults.KillingServiceAndPhasesTogetherLosesNothing, with draws.
+TEST(Means, AreTheSameAfterAKill) {
+    const auto means_of = [](Service& service, const std::string& run) {
+        return service.get("/v1/runs/" + run + "/results?format=csv&table=means").text;
+    };
+    std::string undisturbed;
+    {
+        const Sandbox sandbox;
+        Service service(sandbox);
+        const std::string run = service.submit(drawn_study("mpm_steps=10"));
+        service.wait_for_end(run);
+        undisturbed = means_of(service, run);
+    }
+    const Sandbox sandbox;
+    std::string run;
+    {
+        Service first(sandbox);
+        run = first.submit(drawn_study("mpm_steps=10"));
+        ASSERT_TRUE(eventually([&] { return !phases_alive(sandbox, "mpm_solver").empty(); }));
+        for (const pid_t each : phases_alive(sandbox, "mpm_solver")) kill(each, SIGKILL);
+        first.kill_at_once();
+    }
+    Service again(sandbox);
+    EXPECT_EQ(again.wait_for_end(run).at("state"), "succeeded");
+    EXPECT_EQ(means_of(again, run), undisturbed);
+    for (const auto& [output, count] : sandbox.successes()) EXPECT_EQ(count, 1) << output;
 }
 
 }  // namespace

@@ -243,6 +243,78 @@ TEST(Draws, OfASweepAreVariantsOfTheirOwn) {
     refusal(study, "/variants/0/name");
 }
 
+TEST(Draws, BeginWithAnyNumber) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study["draws"] = 2;
+    study["first_draw"] = 1;
+    const Study late = read_study(study.dump());
+    ASSERT_EQ(late.variants.size(), 2u);
+    EXPECT_EQ(late.variants[0].name, "d2");
+    study["draws"] = 3;
+    study["first_draw"] = 0;
+    const Study all = read_study(study.dump());
+    EXPECT_EQ(late.variants[0].scene, all.variants[1].scene);
+    EXPECT_EQ(late.variants[1].scene, all.variants[2].scene);
+    study["draws"] = 1;
+    study["first_draw"] = 4;
+    EXPECT_EQ(read_study(study.dump()).variants.at(0).name, "d5");
+}
+
+TEST(Draws, OfAScanThatIsTooLargeOrNoNumberAreRefused) {
+    json study = study_with({});
+    study.erase("accuracy");
+    for (const json& wrong : {json(0), json(2.5), json(-1), json(201), json("3")}) {
+        study["draws"] = wrong;
+        EXPECT_FALSE(refusal(study, "/draws").remedy.empty()) << wrong;
+    }
+}
+
+json check_entry() {
+    return {{"quantity", "runout"}, {"reference", 30.0}, {"mean_of", 2}, {"asked_error", 0.05}};
+}
+
+TEST(BlindCheck, DrawsOneSettingAtOneTime) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study["draws"] = 4;
+    study["first_draw"] = 3;
+    study["check"] = check_entry();
+    const Study read = read_study(study.dump());
+    ASSERT_EQ(read.variants.size(), 4u);
+    EXPECT_EQ(read.variants[0].name, "d4");
+    json stored = read.document;
+    stored["scene"] = read.scene;
+    EXPECT_EQ(read_study(stored.dump()).document, read.document);
+
+    const auto with = [&](const std::string& at, const json& value) {
+        json changed = study;
+        changed[json::json_pointer(at)] = value;
+        return changed;
+    };
+    refusal(with("/draws", 5), "/draws");
+    refusal(with("/transfer_times", {0.2, 0.4}), "/transfer_times");
+    refusal(with("/variants", json::array({{{"name", "soft"}}})), "/variants");
+    refusal(with("/triggers", json::array({{{"kind", "manual"}, {"name", "now"}}})), "/triggers");
+    refusal(with("/check/reference", 0), "/check/reference");
+    refusal(with("/check/quantity", "runnout"), "/check/quantity");
+    refusal(with("/check/quantity", "crest_displacement@0.5"), "/check/quantity");
+    refusal(with("/accuracy", accuracy_entry()), "/check");
+}
+
+TEST(BlindCheck, OfASceneWithoutFemMovesTheSquaresOfTheFilling) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study.erase("transfer_times");
+    study["scene"].erase("fem");
+    study["draws"] = 2;
+    study["first_draw"] = 1;
+    study["check"] = check_entry();
+    const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
+    ASSERT_EQ(graph.tasks.size(), 2u);
+    EXPECT_TRUE(graph.tasks[0].overrides.back().starts_with("/mpm/fill_shift="));
+}
+
 TEST(ValueAt, LiesBetweenTheLinesAndNeverBeyond) {
     const json lines = json::array({{{"time", 0.0}, {"crest", 0.0}},
                                     {{"time", 1.0}, {"crest", 2.0}},

@@ -58,9 +58,9 @@ class Described(unittest.TestCase):
             return error.code, error.headers, error.read()
 
     @classmethod
-    def wait(cls):
+    def wait(cls, run_id=None):
         for _ in range(600):
-            run = json.loads(cls.ask("GET", f"/v1/runs/{cls.run_id}")[2])
+            run = json.loads(cls.ask("GET", f"/v1/runs/{run_id or cls.run_id}")[2])
             if run["finished"]:
                 return run
             time.sleep(0.05)
@@ -124,7 +124,8 @@ class Described(unittest.TestCase):
         get("/v1/runs/{id}", f"/v1/runs/{run}")
         get("/v1/runs/{id}/tasks", f"/v1/runs/{run}/tasks?limit=2")
         for kind, name in (("runs", "/v1/runs"), ("sweeps", "/v1/sweeps")):
-            for form in ("", "?format=csv", "?format=hdf5", "?from=1&limit=1"):
+            for form in ("", "?format=csv", "?format=hdf5", "?format=csv&table=means", "?format=hdf5&table=means",
+                         "?from=1&limit=1"):
                 get(f"/v1/{kind}/{{id}}/results", f"{name}/{run}/results{form}")
         get("/v1/runs/{id}/telemetry", f"/v1/runs/{run}/telemetry")
         get("/v1/runs/{id}/triggers", f"/v1/runs/{run}/triggers")
@@ -139,7 +140,15 @@ class Described(unittest.TestCase):
             {"name": "cells", "steps": [["/mpm/cell_size=1"], ["=0.5"]]}]}}
         accurate = json.loads(post("/v1/runs", "/v1/runs", 202, judged))["id"]
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy")
+        get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy?asked_error=0.1")
+        get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy?asked_error=0", 400)
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{run}/accuracy", 404)
+        self.wait(accurate)
+        check = "/v1/runs/{id}/accuracy/check"
+        made = post(check, f"/v1/runs/{accurate}/accuracy/check?repeats=2&ladder=cells&step=1&mean_of=2", 202)
+        get(check, f"/v1/runs/{json.loads(made)['id']}/accuracy/check")
+        get(check, f"/v1/runs/{accurate}/accuracy/check", 404)
+        post(check, f"/v1/runs/{accurate}/accuracy/check?ladder=cells&step=9", 422)
         post("/v1/sweeps/{id}/extend", f"/v1/sweeps/{run}/extend", 202, {"transfer_times": [0.25, 0.75]})
         self.wait()
         criterion = {"kind": "criterion", "when": "time > 0.1"}

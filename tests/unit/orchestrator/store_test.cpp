@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <thread>
 
 #include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/store/migrations.hpp"
 #include "services/orchestrator/store/versions.hpp"
 #include "tests/folder.hpp"
@@ -354,6 +357,49 @@ TEST_F(StoreTest, ResultsOfAnOlderDatabaseSayWhatTheyKnew) {
     EXPECT_TRUE(value_of(rows[1], "questionable").is_null());
     EXPECT_EQ(store.run("r")->state, "questionable");
     EXPECT_EQ(store.run("r")->message, "1 of 2 runouts still moving: lower bounds");
+}
+
+TEST_F(StoreTest, DrawsOfAnOlderDatabaseHaveTheirMeans) {
+    {
+        Connection database(file(), Access::read_write);
+        for (const char* version : {version_1, version_2, version_3, version_4, version_5})
+            database.script(version);
+        database.script(
+            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
+            "'2026-01-01T00:00:00.000Z', '{\"draws\": 2, \"variants\": [{\"name\": "
+            "\"soft_dam\"}, {\"name\": \"soft_dam_d2\", \"made_by\": \"draws\"}]}', '{}');"
+            "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
+            "overrides, state, finished, result, variant) VALUES "
+            "('r-0', 'r', 'transfer_tool', 'ta', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
+            "'{}', 'soft_dam'),"
+            "('r-1', 'r', 'mpm_solver', 'ma', 1, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
+            "'{\"runout\": 1, \"at_rest\": true}', 'soft_dam'),"
+            "('r-2', 'r', 'mpm_solver', 'mb', 1, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
+            "'{\"runout\": 3, \"at_rest\": false}', 'soft_dam_d2'),"
+            "('r-3', 'r', 'mpm_solver', 'mc', 2, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
+            "'{\"runout\": 5, \"at_rest\": true}', 'soft_dam'),"
+            "('r-4', 'r', 'mpm_solver', 'md', 2, 'r-0', 'at_once', '', '[]', 'failed', '1', NULL, "
+            "'soft_dam_d2');"
+            "PRAGMA user_version=5");
+    }
+    const Store store(file());
+    const std::vector<ResultRow> means = store.means("r");
+    ASSERT_EQ(means.size(), 2u);
+    const auto value = [&](std::size_t row, std::string_view name) {
+        const auto found = std::ranges::find(mean_columns(), name, &ResultColumn::name);
+        return means[row][static_cast<std::size_t>(found - mean_columns().begin())];
+    };
+    EXPECT_EQ(value(0, "variant"), "soft_dam");
+    EXPECT_EQ(value(0, "runout"), 2.0);
+    EXPECT_NEAR(value(0, "runout_deviation").get<double>(), std::sqrt(2.0), 1e-15);
+    EXPECT_EQ(value(0, "state"), "questionable");
+    EXPECT_EQ(value(0, "questionable_draws"), "soft_dam_d2");
+    EXPECT_TRUE(value(0, "volume_ratio").is_null());
+    EXPECT_EQ(value(1, "state"), "partial");
+    EXPECT_EQ(value(1, "runout"), 5.0);
+    EXPECT_TRUE(value(1, "runout_deviation").is_null());
+    EXPECT_EQ(value(1, "missing_draws"), "soft_dam_d2: failed");
+    EXPECT_TRUE(store.means("nobody").empty());
 }
 
 TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {

@@ -19,6 +19,7 @@ json row(int step, const json& error, double cpu, bool on_front) {
             {"draws", 1},
             {"error", error},
             {"error_of_a_run", error},
+            {"mean_within_asked", {{"draws", 4}, {"error", 0.049}, {"cpu_seconds", 4 * cpu}}},
             {"is_reference", error.is_null()},
             {"below_noise", false},
             {"on_pareto_front", on_front},
@@ -61,7 +62,8 @@ TEST(AccuracyPage, HasTheTableAndWhatFollowsFromIt) {
     const std::string page =
         accuracy_page({answer(json::array({row(1, 0.2, 1.0, true)}))}, "accuracy");
     EXPECT_NE(
-        page.find("| cells | `/mpm/cell_size=4` | 10 | - | 1 | 20 % | 20 % | 1 | 1 | - | `*` |"),
+        page.find(
+            "| cells | `/mpm/cell_size=4` | 10 | - | 1 | 20 % | 20 % | 1 | 1 | - | 4 | 4 | `*` |"),
         std::string::npos)
         << page;
     EXPECT_NE(page.find("**No setting meets 5 %.**"), std::string::npos);

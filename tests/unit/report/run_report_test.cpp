@@ -303,6 +303,35 @@ TEST_F(WetRun, MarksLowerBoundsWhereverTheyStand) {
     EXPECT_TRUE(compared);
 }
 
+TEST_F(WetRun, DrawsTheMeanOfItsDrawsWithTheirScatter) {
+    const auto mean = [](double time, const nlohmann::json& deviation, const char* missing) {
+        return nlohmann::json{{"transfer_time", time},
+                              {"variant", ""},
+                              {"draws", 3.0},
+                              {"draws_done", 2.0},
+                              {"runout", 100 + time},
+                              {"runout_deviation", deviation},
+                              {"missing_draws", missing},
+                              {"questionable_draws", ""},
+                              {"runout_error", nullptr}};
+    };
+    std::ofstream(folder_ / "results.json")
+        << nlohmann::json{{"rows", nlohmann::json::array()},
+                          {"means", {mean(13, 2.5, ""), mean(16, nullptr, "d2: failed")}}};
+    const Document d = document();
+    const Figure& against = figure(d, "runout_against_transfer_time");
+    const Series& curve = against.chart.series.front();
+    EXPECT_EQ(curve.name, "mean of the draws");
+    EXPECT_EQ(curve.y, (std::vector{113.0, 116.0}));
+    EXPECT_EQ(curve.error[0], 2.5);
+    EXPECT_TRUE(std::isnan(curve.error[1])) << "one draw has no scatter";
+    EXPECT_EQ(curve.certainty, (std::vector{Certainty::certain, Certainty::doubtful}));
+    EXPECT_EQ(cell(d, "numbers_means", 0, "runout [m]"), "113 +- 2.5");
+    EXPECT_EQ(cell(d, "numbers_means", 1, "runout [m]"), "116");
+    EXPECT_EQ(cell(d, "numbers_means", 1, "draws"), "2 of 3");
+    EXPECT_EQ(cell(d, "numbers_means", 1, "not as it should be"), "without a result: d2: failed");
+}
+
 TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
     flag_all();
     const Document d = document();

@@ -1,0 +1,38 @@
+// What new draws of a setting make of an accuracy study's promise: a run whose study has the entry
+// "check" averages its draws in order, so many at a time, and each mean is within the asked error
+// of the reference or not.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/accuracy/accuracy_rows.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+constexpr std::size_t most_repeats_of_a_check = 100;
+
+/// Which setting is checked: a row of the table, so many draws of it in a mean.
+struct CheckWish {
+    std::size_t repeats = 10;  ///< so many means; with mean_of as many draws as a study may have
+    std::optional<std::string> ladder = {};
+    std::optional<std::size_t> step = {};  ///< from 1; with the ladder: instead of the recommended
+    std::optional<std::size_t> mean_of = {};
+};
+
+/// The study that draws the setting on lattices that the accuracy study has not used. Throws
+/// BadInput, with pointers into the request, when there is no such setting, or none is recommended.
+nlohmann::json study_of_check(const Store& store, const std::string& run,
+                              const AccuracyTable& table, const CheckWish& wish);
+
+/// Nothing: the run is no such check, or there is none.
+std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data,
+                                      const std::string& run);
+
+/// The answer of GET /v1/runs/{id}/accuracy/check, without the run's id and state.
+nlohmann::json as_json(const BlindCheck& check);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,30 @@
+// Repeats of one setting on moved lattices: mean, scatter, and what the scatter leaves of a mean of
+// few. Pure functions of numbers.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace breach::orchestrator {
+
+struct Repeats {
+    double mean = 0.0;
+    std::optional<double> deviation;  ///< standard deviation of one repeat; nothing: one repeat
+    std::size_t count = 0;
+};
+/// At least one value.
+Repeats repeats_of(std::span<const double> values);
+
+/// Of the means, so many are to keep what is promised of them.
+constexpr double confidence = 0.9;
+
+/// t such that |T| <= t with probability `share` for Student's distribution with `freedom` >= 1
+/// degrees of freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). 0 < share < 1.
+double student_factor(double share, std::size_t freedom);
+
+/// t s / sqrt(n): so far the mean of all lattices may be from that of these, in nine of ten times;
+/// nothing: one repeat.
+std::optional<double> half_width_of_mean(const Repeats& repeats);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,29 @@
+// A study with draws: rows of means over moved lattices, shown like rows of runs, and which draws a mean is made of.
+
+const names_in = (text) => (text ?? "").split("; ").filter(Boolean);
+
+function flag_of_draws(code, draws, message) {
+    return draws.length ? [{ code, severity: "questionable", message: `${message}: ${draws.join(", ")}`, pointer: "" }] : [];
+}
+
+/// The service's means as the table of results shows rows; what is doubtful in a draw is doubtful in the mean.
+export function mean_rows(means) {
+    return means.map((mean) => {
+        const missing = names_in(mean.missing_draws);
+        const doubtful = names_in(mean.questionable_draws);
+        const flags = [...flag_of_draws("missing_draws", missing, "the mean is without them"),
+                       ...flag_of_draws("questionable_draws", doubtful, "the mean has them in it")];
+        return { ...mean, mean: true, flags, questionable: flags.length > 0, at_rest: null };
+    });
+}
+
+/// The variant that a draw repeats; "" for the draws of a study without variants.
+export function repeated_variant(name, study) {
+    const made = (study?.variants ?? []).find((variant) => variant.name === name);
+    return made?.made_by === "draws" ? name.replace(/_?d\d+$/, "") : name;
+}
+
+/// The draws that a mean is made of.
+export function draws_of(mean, rows, study) {
+    return rows.filter((row) => row.transfer_time === mean.transfer_time && repeated_variant(row.variant, study) === mean.variant);
+}
