@@ -52,6 +52,22 @@ std::string offer_in_words(const AccuracyTable& table, const AccuracyRow& row) {
            shown(row.cost->cpu_seconds, "%.3g") + " CPU s";
 }
 
+/// What a run of the row is off, ladder by ladder, where it is worth telling.
+std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
+    if (table.plan.reference.kind == ReferenceKind::given) return "";
+    constexpr double told = 0.05;  // of the whole
+    std::string words;
+    const auto tell = [&](const std::string& ladder, double error) {
+        if (error < told * *row.error_of_a_run) return;
+        words += (words.empty() ? " It is off by " : ", ") + percent(error) + " by " + ladder;
+    };
+    tell(table.plan.ladders[row.setting.ladder].name, row.error_of_own_ladder.value_or(0.0));
+    for (std::size_t i = 0; i < table.ladders.size(); ++i)
+        if (i != row.setting.ladder)
+            tell(table.plan.ladders[i].name, table.ladders[i].error_of_base.value_or(0.0));
+    return words.empty() ? "" : words + ": finer rungs of the largest would tell more.";
+}
+
 /// The row that comes nearest to what is asked; nothing: no row has an error.
 const AccuracyRow* nearest(const AccuracyTable& table) {
     const AccuracyRow* best = nullptr;
@@ -129,7 +145,7 @@ std::string recommendation_in_words(const AccuracyTable& table) {
                         setting_in_words(table, *best) + " (" + offer_in_words(table, *best) + ")";
     if (best->below_noise)
         words += "; that is the noise of single runs: the mean of several is nearer";
-    return words + ".";
+    return words + "." + shares_of(table, *best);
 }
 
 }  // namespace breach::orchestrator
