@@ -97,6 +97,8 @@ std::string other_methods(const json& facts) {
     std::string words;
     if (const json& spencer = facts.at("spencer"); !spencer.is_null())
         words += spelt("; Spencer %.3f", spencer.at("factor_of_safety"));
+    else
+        words += "; Spencer none";
     if (const json& ordinary = facts.at("ordinary"); !ordinary.is_null())
         words += spelt("; Ordinary %.3f", ordinary.at("factor_of_safety"));
     return words;
@@ -127,6 +129,8 @@ void say(const json& result) {
     const double F = result.at("factor_of_safety");
     spdlog::info("least factor of safety {:.3f} (simplified Bishop{}): {}", F,
                  other_methods(result), F < 1.0 ? "the slope fails" : "the slope stands");
+    if (const std::string why = result.at("spencer_reason"); !why.empty())
+        spdlog::info("Spencer's method has no answer: {}", why);
     spdlog::info("its circle about {}, radius {:.4g} m, enters at {}, leaves at {}, lowest at {}",
                  place(result.at("circle").at("center")),
                  result.at("circle").at("radius").get<double>(), place(result.at("entry")),

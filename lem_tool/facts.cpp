@@ -1,6 +1,9 @@
 #include "lem_tool/facts.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 
 #include "lem_tool/slip_circle.hpp"
 #include "lem_tool/spencer.hpp"
@@ -63,6 +66,22 @@ std::string because(const Bishop& result, const scene::MAlphaLimit& limit) {
     return "has no factor of safety";
 }
 
+std::string because(const Unbalanced& mass) {
+    if (mass.force_factor == 0.0) return "level interslice forces balance the mass at no factor";
+    std::array<char, 256> words{};
+    std::snprintf(
+        words.data(), words.size(),
+        "no one inclination of the interslice forces balances the mass: at best (%.3g rad, "
+        "forces in balance at F = %.4g) %.2g %% of the driving moment is left over",
+        mass.theta, mass.force_factor, 100.0 * std::abs(mass.moment_left));
+    std::string text = words.data();
+    if (mass.without_friction)
+        text +=
+            "; without friction the moments alone give factor_of_safety, for interslice forces of "
+            "any inclinations";
+    return text;
+}
+
 }  // namespace
 
 json facts_of(const Model& model, const Critical& critical, Slices& slices) {
@@ -85,14 +104,18 @@ json facts_of(const Model& model, const Critical& critical, Slices& slices) {
                {"iterations", critical.bishop.iterations},
                {"slices", slices.count},
                {"ordinary", nullptr},
-               {"spencer", nullptr}};
+               {"spencer", nullptr},
+               {"spencer_reason", ""}};
     if (const auto F = ordinary(slices, s.circle, slide, model.k_h)) {
         facts["ordinary"] = {{"factor_of_safety", F->factor_of_safety},
                              {"conventional", F->conventional}};
     }
-    if (const auto rigorous = spencer(slices, s.circle, slide, model.k_h)) {
-        facts["spencer"] = {{"factor_of_safety", rigorous->factor_of_safety},
-                            {"interslice_inclination", rigorous->theta}};
+    const auto rigorous = spencer(slices, s.circle, slide, model.k_h);
+    if (const auto* balanced = std::get_if<Spencer>(&rigorous)) {
+        facts["spencer"] = {{"factor_of_safety", balanced->factor_of_safety},
+                            {"interslice_inclination", balanced->theta}};
+    } else {
+        facts["spencer_reason"] = because(std::get<Unbalanced>(rigorous));
     }
     return facts;
 }

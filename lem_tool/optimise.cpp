@@ -258,8 +258,9 @@ std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices
     const bool to_left = polyline.points.front().y() < polyline.points.back().y();
     const auto found =
         spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h);
-    if (!found) return std::nullopt;
-    return Bent{polyline, *found, slices.depth, frictionless_share(slices)};
+    const auto* balanced = std::get_if<Spencer>(&found);
+    if (balanced == nullptr) return std::nullopt;
+    return Bent{polyline, *balanced, slices.depth, frictionless_share(slices)};
 }
 
 Room room_of(const scene::Lem& lem, const Strata& strata) {

@@ -121,17 +121,23 @@ std::optional<double> force_balance(const Mass& mass, const Direction& theta) {
     return F;
 }
 
-/// Moment about the centre that is left over when the forces balance.
-std::optional<double> moment_left(const Mass& mass, double inclination) {
+/// What is left over where the forces balance.
+struct Leftover {
+    double theta;
+    double F;
+    double moment;  ///< about the centre over R [N/m]
+};
+
+std::optional<Leftover> leftover(const Mass& mass, double inclination) {
     const Direction theta(inclination);
     const auto F = force_balance(mass, theta);
     if (!F) return std::nullopt;
-    double left = mass.driving;
+    Leftover left{inclination, *F, mass.driving};
     for (const Block& b : mass.blocks) {
         const double Q = resultant(b, *F, theta);
         const double S = b.along - Q * theta.cos_turn(b);
         const double N = b.normal + Q * theta.sin_turn(b);
-        left -= S * b.r + N * b.f;
+        left.moment -= S * b.r + N * b.f;
     }
     return left;
 }
@@ -141,9 +147,9 @@ std::optional<double> moment_left(const Mass& mass, double inclination) {
 double balanced(const Mass& mass, double a, double at_a, double b, double at_b) {
     for (int n = 0; n < 60 && std::abs(b - a) > 1e-12; ++n) {
         const double theta = (a * at_b - b * at_a) / (at_b - at_a);
-        const auto left = moment_left(mass, theta);
-        if (!left || *left == 0.0) return theta;
-        if ((*left > 0.0) != (at_b > 0.0)) {
+        const auto left = leftover(mass, theta);
+        if (!left || left->moment == 0.0) return theta;
+        if ((left->moment > 0.0) != (at_b > 0.0)) {
             a = b;
             at_a = at_b;
         } else {
@@ -151,21 +157,59 @@ double balanced(const Mass& mass, double a, double at_a, double b, double at_b) 
         }
         if (std::abs(theta - b) <= 1e-12) return theta;
         b = theta;
-        at_b = *left;
+        at_b = left->moment;
     }
     return b;
 }
 
-std::optional<Spencer> answer(const Mass& mass, double inclination) {
-    const Direction theta(inclination);
-    const auto F = force_balance(mass, theta);
-    if (!F) return std::nullopt;
+Spencer answer(const Mass& mass, const Leftover& balanced) {
+    const Direction theta(balanced.theta);
     double m_alpha = 1.0;
     for (const Block& b : mass.blocks) {
         if (b.tan_phi == 0.0) continue;
-        m_alpha = std::min(m_alpha, theta.cos_turn(b) + theta.sin_turn(b) * b.tan_phi / *F);
+        m_alpha = std::min(m_alpha, theta.cos_turn(b) + theta.sin_turn(b) * b.tan_phi / balanced.F);
     }
-    return Spencer{*F, inclination, m_alpha};
+    return {balanced.F, balanced.theta, m_alpha};
+}
+
+/// Looks from level interslice forces outwards for a balance of both. Before bases turn over, where F
+/// runs away, steps are halved.
+std::optional<Leftover> outwards(const Mass& mass, const Leftover& level, double sense,
+                                 Leftover& nearest) {
+    constexpr double longest = 0.05;
+    constexpr double shortest = 1e-4;
+    const double reach = sense > 0.0 ? 1.2 : 0.6;
+    Leftover here = level;
+    double step = longest;
+    while (step >= shortest && std::abs(here.theta) < reach) {
+        const auto next = leftover(mass, here.theta + sense * step);
+        if (!next) {
+            step *= 0.5;
+            continue;
+        }
+        if ((here.moment > 0.0) != (next->moment > 0.0))
+            return leftover(mass,
+                            balanced(mass, here.theta, here.moment, next->theta, next->moment));
+        here = *next;
+        if (std::abs(here.moment) < std::abs(nearest.moment)) nearest = here;
+    }
+    return std::nullopt;
+}
+
+/// Between two steps the moment may pass zero and come back: looks closer about the nearest one.
+std::optional<Leftover> between_steps(const Mass& mass, Leftover& nearest) {
+    for (double step = 0.025; step > 1e-4; step *= 0.5) {
+        const double center = nearest.theta;
+        for (const double theta : {center - step, center + step}) {
+            const auto next = leftover(mass, theta);
+            if (!next) continue;
+            if ((nearest.moment > 0.0) != (next->moment > 0.0))
+                return leftover(
+                    mass, balanced(mass, nearest.theta, nearest.moment, next->theta, next->moment));
+            if (std::abs(next->moment) < std::abs(nearest.moment)) nearest = *next;
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -191,27 +235,19 @@ std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circ
     return Ordinary{*F, *conventional};
 }
 
-std::optional<Spencer> spencer(const Slices& slices, const scene::Circle& circle, Slide slide,
-                               double k_h) {
-    constexpr double step = 0.05;
+std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
+                                          Slide slide, double k_h) {
     const Mass mass = mass_of(slices, circle, slide, k_h);
-    // outwards from level interslice forces: the solution nearest to them is the physical one
-    for (const double sense : {1.0, -1.0}) {
-        const double reach = sense > 0.0 ? 1.2 : 0.6;
-        double theta = 0.0;
-        auto left = moment_left(mass, theta);
-        while (left && std::abs(theta) < reach) {
-            const double next = theta + sense * step;
-            const auto then = moment_left(mass, next);
-            if (!then) break;
-            if ((*left > 0.0) != (*then > 0.0)) {
-                return answer(mass, balanced(mass, theta, *left, next, *then));
-            }
-            theta = next;
-            left = then;
-        }
-    }
-    return std::nullopt;
+    const bool frictionless =
+        std::ranges::all_of(mass.blocks, [](const Block& b) { return b.tan_phi == 0.0; });
+    const auto level = leftover(mass, 0.0);
+    if (!level) return Unbalanced{0.0, 0.0, 0.0, frictionless};
+    Leftover nearest = *level;
+    // the solution nearest to level interslice forces is the physical one
+    for (const double sense : {1.0, -1.0})
+        if (const auto found = outwards(mass, *level, sense, nearest)) return answer(mass, *found);
+    if (const auto found = between_steps(mass, nearest)) return answer(mass, *found);
+    return Unbalanced{nearest.theta, nearest.F, nearest.moment / mass.driving, frictionless};
 }
 
 }  // namespace breach::lem

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
 #include "lem_tool/bishop.hpp"
 #include "lem_tool/slices.hpp"
@@ -29,10 +30,18 @@ struct Spencer {
     double m_alpha;  ///< least cos(a - theta) + sin(a - theta) tan phi / F of frictional slices [-]
 };
 
+/// No one inclination of the interslice forces balances forces and moments: what comes nearest.
+struct Unbalanced {
+    double theta;           ///< [rad]
+    double force_factor;    ///< F that balances the forces there [-]; 0: no inclination has one
+    double moment_left;     ///< over the driving moment, with its sign; positive: it drives [-]
+    bool without_friction;  ///< no slice has any: the moments alone have one F, whatever theta
+};
+
 /// Spencer (1967): all interslice forces have one inclination, forces and moments of the whole mass
-/// balance. None where no inclination between -0.6 and 1.2 rad does that with positive bases.
+/// balance. Looked for between -0.6 and 1.2 rad, where all bases stay positive.
 /// circle: what the slices' moments are about.
-std::optional<Spencer> spencer(const Slices& slices, const scene::Circle& circle, Slide slide,
-                               double k_h);
+std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
+                                          Slide slide, double k_h);
 
 }  // namespace breach::lem

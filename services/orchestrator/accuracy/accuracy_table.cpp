@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/phases/phases.hpp"
+#include "core/scene/schema.hpp"
 #include "services/orchestrator/accuracy/mean_of_draws.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
@@ -135,9 +136,9 @@ void tell_errors_of_runs(AccuracyTable& table) {
         const LadderSummary& own = table.ladders[row.setting.ladder];
         for (const LadderSummary& each : table.ladders)
             if (&each != &own) row.error_of_other_ladders += each.error_of_base.value_or(0.0);
-        const auto of_ladder = bias_of(row, own, reference);
-        if (!of_ladder) continue;
-        row.bias = *of_ladder + row.error_of_other_ladders;
+        row.error_of_own_ladder = bias_of(row, own, reference);
+        if (!row.error_of_own_ladder) continue;
+        row.bias = *row.error_of_own_ladder + row.error_of_other_ladders;
         row.error_of_a_run = error_of_one_run(*row.bias, *row.value, *own.reference);
     }
 }
@@ -186,7 +187,22 @@ void choose(AccuracyTable& table) {
     table.recommendation = recommendation_in_words(table);
 }
 
-void judge(AccuracyTable& table) {
+/// Softening without a length of its own goes on in one element, however small it is.
+bool softens_in_one_element(const AccuracyPlan& plan, json scene, const Ladder& ladder) {
+    for (const std::string& each : plan.base) scene::apply_override(scene, each);
+    if (plan.quantity.reach != Reach::fem && plan.quantity.reach != Reach::chain) return false;
+    const bool changes_mesh =
+        std::ranges::any_of(ladder.steps.front(),
+                            [](const std::string& each) { return each.starts_with("/section/"); });
+    if (!changes_mesh) return false;
+    const json& materials = scene.at("materials");
+    return std::ranges::any_of(scene.at("section").at("regions"), [&](const json& region) {
+        const json& law = materials.at(region.at("material").get<std::string>()).at("law");
+        return law.contains("softening") && law["softening"].is_object();
+    });
+}
+
+void judge(AccuracyTable& table, const json& scene) {
     for (std::size_t i = 0; i < table.plan.ladders.size(); ++i) {
         std::vector<AccuracyRow*> rows;
         for (AccuracyRow& each : table.rows)
@@ -197,6 +213,12 @@ void judge(AccuracyTable& table) {
         ladder.reference_is_questionable =
             table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
         ladder.message = course_in_words(ladder.convergence, table.plan, i);
+        const Course course = ladder.convergence.course;
+        if ((course == Course::not_falling || course == Course::oscillating) &&
+            softens_in_one_element(table.plan, scene, table.plan.ladders[i]))
+            ladder.message +=
+                "; the soil softens, which in the FEM has no length of its own: every mesh slides "
+                "along a band as wide as its elements, and there may be no limit";
         if (ladder.reference_is_questionable)
             ladder.message += "; its finest rung is questionable, so nothing of it is recommended";
         tell_errors(table.plan, ladder, rows);
@@ -222,6 +244,7 @@ json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
                 {"standard_deviation", nullptr},
                 {"draws", 0},
                 {"error", or_null(row.error)},
+                {"error_of_own_ladder", or_null(row.error_of_own_ladder)},
                 {"error_of_other_ladders", row.error_of_other_ladders},
                 {"error_of_a_run", or_null(row.error_of_a_run)},
                 {"bias", or_null(row.bias)},
@@ -283,7 +306,7 @@ std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder
     const auto measured = measured_variants(tasks, table.plan.quantity, data);
     for (const Setting& each : settings_of(table.plan, scene))
         table.rows.push_back(row_of(table.plan, each, measured));
-    judge(table);
+    judge(table, scene);
     return table;
 }
 

@@ -102,8 +102,8 @@ double two_grid_error(double change, double ratio) {
 }
 
 /// What the finest rung may be off, in the unit of the value; order and limit where there are any.
-double judge(const Ending& e, Convergence& found) {
-    if (found.noise && e.is_noise(*found.noise)) {
+double judge(const Ending& e, std::optional<double> noise, Convergence& found) {
+    if (noise && e.is_noise(*noise)) {
         found.course = Course::below_noise;
         return std::abs(e.change_fine);
     }
@@ -133,9 +133,12 @@ Convergence convergence_of(std::span<const Rung> rungs) {
     if (rungs.size() < 2) return found;
     const Rung& fine = rungs[rungs.size() - 1];
     const Rung& middle = rungs[rungs.size() - 2];
-    const double error = rungs.size() < 3 ? two_grid_error(fine.value.mean - middle.value.mean,
-                                                           middle.size / fine.size)
-                                          : judge({rungs[rungs.size() - 3], middle, fine}, found);
+    double error = two_grid_error(fine.value.mean - middle.value.mean, middle.size / fine.size);
+    if (rungs.size() >= 3) {
+        // Coarse rungs scatter more than fine ones: they say nothing about what tells these apart.
+        const auto noise = pooled_noise(rungs.last(3));
+        error = judge({rungs[rungs.size() - 3], middle, fine}, noise, found);
+    }
     if (fine.value.mean == 0.0) return found;
     found.error_of_finest = error / std::abs(fine.value.mean);
     if (found.order) found.gci = found.error_of_finest;

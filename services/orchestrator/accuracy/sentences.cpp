@@ -62,6 +62,22 @@ std::string run_in_words(const AccuracyTable& table, const AccuracyRow& row) {
            cost_in_words(row.cost->cpu_seconds);
 }
 
+/// What a run of the row is off, ladder by ladder, where it is worth telling.
+std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
+    if (table.plan.reference.kind == ReferenceKind::given) return "";
+    constexpr double told = 0.05;  // of the whole
+    std::string words;
+    const auto tell = [&](const std::string& ladder, double error) {
+        if (error < told * *row.error_of_a_run) return;
+        words += (words.empty() ? " It is off by " : ", ") + percent(error) + " by " + ladder;
+    };
+    tell(table.plan.ladders[row.setting.ladder].name, row.error_of_own_ladder.value_or(0.0));
+    for (std::size_t i = 0; i < table.ladders.size(); ++i)
+        if (i != row.setting.ladder)
+            tell(table.plan.ladders[i].name, table.ladders[i].error_of_base.value_or(0.0));
+    return words.empty() ? "" : words + ": finer rungs of the largest would tell more.";
+}
+
 /// The row whose means come nearest to what is asked; nothing: no row has an error.
 const AccuracyRow* nearest(const AccuracyTable& table) {
     const auto of_means = [&](const AccuracyRow& row) {
@@ -158,7 +174,7 @@ std::string recommendation_in_words(const AccuracyTable& table) {
     words += "; the nearest is " + setting_in_words(table, *best) + " (";
     if (best->value->deviation && *best->bias > table.plan.asked_error)
         words += "its own error is " + percent(*best->bias) + ", whatever is averaged; ";
-    return words + run_in_words(table, *best) + ").";
+    return words + run_in_words(table, *best) + ")." + shares_of(table, *best);
 }
 
 std::string verdict_in_words(const BlindCheck& check) {

@@ -75,9 +75,38 @@ TEST(Accuracy, NoSettingMeetsWhatIsAskedTooSharply) {
     service.wait_for_end(run);
     const json answer = accuracy_of(service, run);
     EXPECT_TRUE(answer.at("recommended").is_null());
-    EXPECT_TRUE(answer.at("recommendation").get<std::string>().starts_with("No setting meets"));
+    const std::string words = answer.at("recommendation");
+    EXPECT_TRUE(words.starts_with("No setting meets"));
+    EXPECT_NE(words.find("It is off by 0.76 % by cells"), std::string::npos) << words;
     EXPECT_TRUE(answer.at("rows")[2].at("is_reference"));
     EXPECT_TRUE(answer.at("rows")[2].at("error").is_null());
+}
+
+/// What a ladder of meshes says that goes up and down: cells of 1, 0.25 and 0.5 m make it do so.
+std::string words_of_meshes(Service& service, const json& base) {
+    const json meshes = {{{"name", "meshes"},
+                          {"sizes", {2, 1, 0.6667}},
+                          {"steps",
+                           {{"/section/regions/0/mesh/divisions=[30,2]",
+                             "/section/regions/1/mesh/divisions=[15,5]", "/mpm/cell_size=1"},
+                            {"=[60,4]", "=[30,10]", "=0.25"},
+                            {"=[90,6]", "=[45,15]", "=0.5"}}}}};
+    const std::string run = service.submit(accuracy_study({{"ladders", meshes}, {"base", base}}));
+    service.wait_for_end(run);
+    const json ladder = accuracy_of(service, run).at("ladders")[0];
+    EXPECT_EQ(ladder.at("course"), "oscillating");
+    return ladder.at("message");
+}
+
+TEST(Accuracy, MeshesWithoutALimitAreExplainedWhereTheSoilSoftens) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string softening = words_of_meshes(service, json::array());
+    EXPECT_NE(softening.find("the soil softens"), std::string::npos) << softening;
+    const std::string plain = words_of_meshes(
+        service,
+        {R"(/materials/slope_soil/law={"type":"mohr_coulomb","E_MPa":20,"nu":0.3,"c_kPa":12,"phi_deg":20})"});
+    EXPECT_EQ(plain.find("the soil softens"), std::string::npos) << plain;
 }
 
 TEST(Accuracy, DrawsGiveTheNoiseAndRungsOfALaterStudyComeFromTheCache) {

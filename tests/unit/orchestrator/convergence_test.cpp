@@ -92,6 +92,17 @@ TEST(Convergence, ADifferenceBelowTheNoiseIsNotToldAsAnOrder) {
     EXPECT_NEAR(smallest_told_difference(1.0, 4), 1.96 / std::sqrt(2.0), 1e-12);
 }
 
+TEST(Convergence, CoarseRungsThatScatterDoNotHideWhatFineOnesTell) {
+    // 10 + h at 8, 4, 2, 1: the coarsest scatters by more than the finest differ
+    std::vector<Rung> rungs;
+    for (const double h : {8.0, 4.0, 2.0, 1.0})
+        rungs.push_back({h, Repeats{10.0 + h, h > 4.0 ? 20.0 : 0.1, 3}});
+    const Convergence found = convergence_of(rungs);
+    EXPECT_EQ(found.course, Course::monotone);
+    EXPECT_NEAR(*found.order, 1.0, 1e-9);
+    EXPECT_NEAR(*found.noise, std::sqrt((400.0 + 3 * 0.01) / 4.0), 1e-12) << "of the ladder";
+}
+
 TEST(Convergence, NoiseIsPooledByTheNumberOfRepeats) {
     const Convergence found =
         convergence_of(std::array{rung(2, 1.0, 2.0, 3), rung(1, 1.0, 1.0, 2), rung(0.5, 1.0)});

@@ -154,6 +154,51 @@ TEST(Methods, AgreeWithoutFrictionOnACircle) {
     EXPECT_NEAR(all.at("spencer").at("factor_of_safety").get<double>() / F, 1.0, 1e-6);
 }
 
+/// A homogeneous bank of clay, 10 m high, on a circle, all in units of s_u = 50 kPa and 20 kN/m3.
+json bank(double run, double x, double y, double radius, json lem) {
+    lem["circle"] = {{"center", {x, y}}, {"radius", radius}};
+    return small::scene(
+        {{"clay", small::soil(20, 50, 0)}},
+        json::array({small::region(
+            "clay", "clay", {{0, -30}, {130, -30}, {130, 10}, {60 + run, 10}, {60, 0}, {0, 0}})}),
+        lem);
+}
+
+TEST(Methods, SpencerSaysWhyItHasNoAnswer) {
+    // The forces alone balance at F = sum(c l / cos(a - t)) / sum(W sin a / cos(a - t)), which for this
+    // circle is nowhere below 1.6857 (t = 0.2 rad), while the moments ask for 1.6700: worked out
+    // apart from this program.
+    const json all = facts(bank(5, 59.425, 34.712, 33.9175, json::object()));
+    EXPECT_NEAR(all.at("factor_of_safety").get<double>(), 1.6700, 1e-3);
+    EXPECT_TRUE(all.at("spencer").is_null());
+    const std::string why = all.at("spencer_reason");
+    EXPECT_NE(why.find("forces in balance at F = 1.686"), std::string::npos) << why;
+    EXPECT_NE(why.find("without friction the moments alone give"), std::string::npos) << why;
+}
+
+TEST(Methods, SpencerHasTheMomentsFactorOrAReasonWithoutFriction) {
+    int answered = 0;
+    for (const double run : {5.0, 20.0}) {
+        for (const double x : {52.0, 60.0, 68.0}) {
+            for (const double y : {12.0, 20.0, 32.0}) {
+                for (const double bottom : {-25.0, -8.0, -1.0}) {
+                    const json all = facts(bank(run, x, y, y - bottom, json::object()));
+                    if (all.at("spencer").is_null()) {
+                        EXPECT_NE(all.at("spencer_reason"), "");
+                        continue;
+                    }
+                    ++answered;
+                    EXPECT_EQ(all.at("spencer_reason"), "");
+                    const double F = all.at("factor_of_safety");
+                    const double S = all.at("spencer").at("factor_of_safety");
+                    EXPECT_NEAR(S / F, 1.0, 1e-6) << x << " " << y << " " << bottom;
+                }
+            }
+        }
+    }
+    EXPECT_GE(answered, 40);
+}
+
 TEST(Methods, AgreeOnALongSlope) {
     // shallow arc, c = 0: the infinite slope, tan(phi) / tan(beta) for all of them
     const double slope = 0.5;

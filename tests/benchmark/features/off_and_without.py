@@ -1,0 +1,217 @@
+"""What being off costs: instructions per step of a scene with every feature off, in the program as it is and in one built without
+the code that asks for them.
+
+    off_and_without.py FOLDER [--program fem_solver|mpm_solver] [--write docs/what_is_left_out.md]
+
+Copies the sources to FOLDER, builds them, takes out what EDITS says, builds again, and counts both by valgrind as what_is_left_out.py
+does. Both programs must give the same result, to the last digit: what was taken out did nothing. An edit whose text is not in the
+source stops the script: the source has changed, and so must the edit."""
+import argparse
+import copy
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+import what_is_left_out as features
+
+root = features.root
+
+# Feature, file, what stands there, what would stand there in a program that has not got the feature.
+MPM_STEP, MPM_RUN = "mpm_solver/step.cpp", "mpm_solver/simulation.cpp"
+NEWTON, FORCE, STEP = "fem_solver/solve/newton.cpp", "fem_solver/solve/internal_force.cpp", "fem_solver/solve/step.cpp"
+MATRIX = "fem_solver/solve/linear_system.cpp"
+EDITS = {
+    "mpm_solver": [
+        ("viscosity", MPM_STEP, "    body.tally.viscous += for_all_points(body, &Loops::dissipate, Writes::own_points, dt).viscous;\n", ""),
+        ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.remember(body.points, body.zones);\n", ""),
+        ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.spread(body.points, body.zones, body.grid);\n", ""),
+        ("anti-locking", MPM_STEP, "    average(body, &CellSum::trD);\n", ""),
+        ("anti-locking", MPM_STEP, "    average(body, &CellSum::sigma_m);\n", ""),
+        ("anti-locking", MPM_STEP, "    if (body.order == UpdateOrder::usl) forget_averages(body);\n", ""),
+        ("anti-locking", MPM_STEP, "/// Totals of one kind in the cells become averages over their volume.\n"
+         "void average(", "[[maybe_unused]] void average("),
+        ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);\n", ""),
+        ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::musl) map_again(body, dt);\n", ""),
+        ("another order of the update", MPM_STEP, "    if (body.order != UpdateOrder::usf) update_stress(body, dt);\n", "    update_stress(body, dt);\n"),
+        ("friction zones", MPM_STEP, "            if (must & condition::floor) {\n"
+         "                friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);\n            }\n", ""),
+        ("friction zones", MPM_STEP, "double rub(double m, double mu,", "[[maybe_unused]] double rub(double m, double mu,"),
+        ("terrain", MPM_STEP, "            if (must & condition::terrain) {\n"
+         "                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);\n            }\n", ""),
+        ("terrain", MPM_STEP, "    double friction_work = 0.0;\n", ""),
+        ("terrain", MPM_STEP, "    body.tally.friction += friction_work;\n", ""),
+        ("overlap correction", MPM_RUN, "    if (mpm_.overlap_correction.rate > 0.0 && clock_.step % steps_between_marks == 0) {\n"
+         "        overlap_.mark(body_, mpm_.overlap_correction.tolerance);\n    }\n", ""),
+        ("gaps held to their room", MPM_RUN, "    if (mpm_.gap_closure && mpm_.gap_room && clock_.step % steps_between_marks == 0) {\n"
+         "        overlap_.hold_gaps_to_room(body_);\n    }\n", ""),
+    ],
+    "fem_solver": [
+        ("water", NEWTON, "    matrix_.add_water(rule);\n", ""),
+        ("water", NEWTON, "    if (unknowns().pressures() > 0) add_water(problem, trial);\n", ""),
+        ("water", NEWTON, "    const double c_v = problem.rule.c_v;\n    for (std::size_t i = 0; i < n.of_pressure.size(); ++i) {\n"
+         "        const std::int32_t row = n.of_pressure[i];\n"
+         "        if (row >= 0) residual_[row] -= R_p_[static_cast<Eigen::Index>(i)] / c_v;\n    }\n", ""),
+        ("water", NEWTON, "void Newton::gather_residual(const StepProblem& problem) {", "void Newton::gather_residual(const StepProblem&) {"),
+        ("water", NEWTON, "    for (std::size_t i = 0; i < n.of_pressure.size(); ++i) {\n        const std::int32_t row = n.of_pressure[i];\n"
+         "        if (row >= 0) trial.p[static_cast<Eigen::Index>(i)] += correction_[row];\n    }\n", ""),
+        ("water", NEWTON, "    const std::int32_t n_u = unknowns().displacements, n_p = unknowns().pressures();\n",
+         "    const std::int32_t n_u = unknowns().displacements;\n"),
+        ("water", NEWTON, "    const double of_force = reference > 0.0 ? force / reference : force;\n    if (n_p == 0) return of_force;\n"
+         "    const double exchange = std::max(exchanged_.norm(), water_rounding_ / settings_.tolerance);\n    const double volume =\n"
+         "        problem.rule.c_v * residual_.tail(n_p).cwiseProduct(share_.tail(n_p)).norm();\n"
+         "    return std::max(of_force, exchange > 0.0 ? volume / exchange : 0.0);\n",
+         "    return reference > 0.0 ? force / reference : force;\n"),
+        ("dashpots", NEWTON, "    if (model_.base.any()) matrix_.add_diagonal(rule.c_v, model_.base.dashpot);\n", ""),
+        ("dashpots", NEWTON, "        if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();\n", ""),
+        ("dashpots", STEP, "    if (model.base.any()) model.base.add_force(time, force);\n", ""),
+        ("dashpots", STEP, "void set_external_force(const Model& model, const Beginning& beginning, double time,",
+         "void set_external_force(const Model& model, const Beginning& beginning, double,"),
+        ("Rayleigh damping", NEWTON, "    if (elastic_) {\n"
+         "        internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);\n    }\n", ""),
+        ("Rayleigh damping", NEWTON, "rule.c_a + rule.c_v * model_.rayleigh.mass;", "rule.c_a;"),
+        ("Rayleigh damping", NEWTON, "        R_u_.array() -=\n"
+         "            model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());\n"
+         "        if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_u_);\n",
+         "        R_u_.array() -= model_.mass.array() * trial.a.array();\n"),
+        ("free field", NEWTON, "    if (share_of_dof_.size() == 0) return per_dof.norm();\n"
+         "    return (share_of_dof_.array() * per_dof.array()).matrix().norm();\n", "    return per_dof.norm();\n"),
+        ("free field", NEWTON, "    if (model_.row_weight.size() > 0) R_u_.array() *= model_.row_weight.array();\n", ""),
+        ("sand", NEWTON, "    const bool sand = !problem.old.sand.empty();\n", "    constexpr bool sand = false;\n"),
+        ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n"
+         "        for (std::size_t e = 0; e < elements; ++e) {\n"
+         "            if (moving_strains(e, old, trial) == Geometry::degenerate) return Geometry::degenerate;\n"
+         "        }\n        return Geometry::sound;\n    }\n", ""),
+        ("moving mesh", FORCE, "    const bool turns = !half_angle_.empty();\n    for (std::size_t p = zone.first * points_; p < end; ++p) {\n"
+         "        if (!turns) {\n            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;\n"
+         "            continue;\n        }\n        State turned = old.points[p];\n"
+         "        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n"
+         "        turned = materials::integrate(law, turned, d_epsilon_[p]).state;\n"
+         "        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n"
+         "        trial.points[p] = turned;\n    }\n",
+         "    for (std::size_t p = zone.first * points_; p < end; ++p)\n"
+         "        trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;\n"),
+        ("moving mesh", FORCE, "    const bool turns = !half_angle_.empty();\n    Matrix4 D;\n", "    Matrix4 D;\n"),
+        ("moving mesh", FORCE, "        if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);\n", ""),
+        ("moving mesh", FORCE, "        if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);\n", ""),
+        ("moving mesh", FORCE, "    return current_.empty() ? model_.reference[element] : current_[element];\n", "    return model_.reference[element];\n"),
+        ("moving mesh", FORCE, "    return hourglass_.empty() ? model_.hourglass[element] : hourglass_[element];\n", "    return model_.hourglass[element];\n"),
+        ("moving mesh", FORCE, "            if (current_.empty()) continue;\n            const Voigt& s = trial.points[p].sigma;\n            Matrix2 sigma;\n"
+         "            sigma << s[0], s[3], s[3], s[1];\n            const Gradient& dN = gradients_[e].dN[g];\n"
+         "            const Eigen::Matrix4d initial = q.weight[g] * dN.transpose() * sigma * dN;\n"
+         "            for (int j = 0; j < 4; ++j) {\n                for (int i = 0; i < 4; ++i) {\n"
+         "                    K(2 * i, 2 * j) += initial(i, j);\n                    K(2 * i + 1, 2 * j + 1) += initial(i, j);\n"
+         "                }\n            }\n", ""),
+        ("moving mesh", FORCE, "void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A)",
+         "void InternalForce::stiffness_pass(const Motion& old, const Motion&, LinearSystem& A)"),
+        ("moving mesh", FORCE, "        if (!half_angle_.empty()) half = Eigen::Rotation2Dd(half_angle_[e]).toRotationMatrix();\n", ""),
+    ],
+}
+
+
+def mpm_off(folder):
+    """The scene of what_is_left_out.py with every feature off."""
+    scene = features.mpm_scene(folder)
+    for switch_off, _ in features.MPM.values():
+        switch_off(scene)
+    scene["section"]["regions"][0]["polygon"] = features.rectangle(5, 4, 15, 14)  # on the floor, where the terrain was
+    return scene
+
+
+def fem_off(folder):
+    scene = features.fem_scene(folder)
+    for name, (switch_off, _) in features.FEM.items():
+        if name == "plasticity":  # the law stays: without it there would be nothing to iterate on
+            continue
+        if name == "watch of liquefaction" and "liquefaction" not in scene["fem"]:
+            continue
+        switch_off(scene)
+    return scene
+
+
+SCENES = {"mpm_solver": mpm_off, "fem_solver": fem_off}
+KEPT = ("CMakeLists.txt", "CMakePresets.json", "core", "fem_solver", "lem_tool", "mpm_solver", "transfer_tool", "services", "tests", "workflows", "deploy")
+
+
+def build(folder, program):
+    """The program of these sources, each file on its own, as the release is built."""
+    launcher = [f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX")] if shutil.which("ccache") else []
+    subprocess.run(["cmake", "--preset", "release", "-DBREACH_UNITY=OFF", "-DBREACH_TESTS=OFF", *launcher], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", folder / "build/release", "--target", program], check=True, stdout=subprocess.DEVNULL)
+    return folder / "build/release/bin"
+
+
+def copy_sources(folder):
+    for name in KEPT:
+        if (root / name).is_dir():
+            shutil.copytree(root / name, folder / name, dirs_exist_ok=True)
+        else:
+            folder.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(root / name, folder / name)
+
+
+def strip(folder, program):
+    for feature, name, old, new in EDITS[program]:
+        file = folder / name
+        text = file.read_text()
+        if text.count(old) != 1:
+            raise SystemExit(f"{name} has not this text once, which is {feature}'s:\n{old}")
+        file.write_text(text.replace(old, new))
+
+
+def answer(program, programs, scene, folder):
+    """Instructions per step, and the results but for what tells time and place."""
+    features.programs = programs
+    count = features.per_step(program, copy.deepcopy(scene), folder)
+    result = json.loads((folder / "out/result.json").read_text())
+    return count, {key: value for key, value in result.items() if "second" not in key and key not in ("peak_memory_MB", "provenance")}
+
+
+PAGE = f"""{features.WITHOUT}
+
+The two scenes above with every feature off (the FEM keeps its law, Mohr-Coulomb), in the program as it is and in one that was built after the code that asks
+for the features was taken out of its sources. Both give the same `result.json`, to the last digit. Written by
+
+    tests/benchmark/features/off_and_without.py FOLDER --write docs/what_is_left_out.md
+
+| | instructions per step, off | without the code | off costs | taken out |
+|---|---|---|---|---|
+"""
+
+
+def row_of(program, folder):
+    whole, stripped = folder / "whole", folder / f"without_{program}"
+    for each in (whole, stripped):
+        copy_sources(each)
+    strip(stripped, program)
+    programs = {each: build(each, program) for each in (whole, stripped)}
+    with tempfile.TemporaryDirectory() as name:
+        scene = SCENES[program](pathlib.Path(name))
+        off, result = answer(program, programs[whole], scene, pathlib.Path(name))
+        without, same = answer(program, programs[stripped], scene, pathlib.Path(name))
+    if result != same:
+        different = [key for key in result if result[key] != same.get(key)]
+        raise SystemExit(f"{program}: the results differ ({', '.join(different)}), so what was taken out was at work")
+    named = ", ".join(dict.fromkeys(edit[0] for edit in EDITS[program]))
+    return f"| {program} | {off:,.0f} | {without:,.0f} | {100 * (off / without - 1):.2f} % | {named} |"
+
+
+def main():
+    options = argparse.ArgumentParser()
+    options.add_argument("folder", type=pathlib.Path)
+    options.add_argument("--program", choices=list(EDITS))
+    options.add_argument("--write", type=pathlib.Path)
+    asked = options.parse_args()
+    rows = []
+    for program in [asked.program] if asked.program else list(EDITS):
+        rows.append(row_of(program, asked.folder))
+        print(rows[-1], flush=True)
+    if asked.write:
+        page = asked.write.read_text().partition(features.WITHOUT)[0].rstrip()
+        asked.write.write_text(page + "\n\n" + PAGE + "\n".join(rows) + "\n")
+
+
+if __name__ == "__main__":
+    main()
