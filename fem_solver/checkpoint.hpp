@@ -45,6 +45,6 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
                            const Model& model, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
-inline constexpr int checkpoint_version = 3;
+inline constexpr int checkpoint_version = 4;
 
 }  // namespace breach::fem

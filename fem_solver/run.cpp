@@ -172,6 +172,13 @@ process::Plan plan(const scene::Scene& scene) {
         on_if(fem.free_field.has_value(), "free-field columns",
               "thick columns move the sides as the free field does", "the scene asks for none",
               "/fem/free_field"),
+        on_if(
+            fem.base && fem.motion && fem.free_field, "motion of the free ground",
+            "the columns alone to the end of the motion, before the mesh moves: snapshots carry it "
+            "for runouts that are shaken on",
+            fem.motion ? "there are no columns: no runout can be shaken on after the transfer"
+                       : "no motion is given",
+            "/fem/free_field"),
         on_if(fem.liquefaction.has_value(), "liquefied layers",
               "depth and r_u below the watched ground", "nothing is watched", "/fem/liquefaction"),
         on_if(!fem.surcharge.empty(), "surcharge", "on the ground", "nothing lies on the ground",
