@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
+#include "core/exchange/publish.hpp"
+#include "core/motion/read_motion.hpp"
 #include "core/phases/files.hpp"
 #include "core/words/number.hpp"
 #include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/model/pore_water.hpp"
+#include "fem_solver/solve/base_motion.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 #include "fem_solver/solve/trial.hpp"
 
@@ -148,6 +152,39 @@ void Analysis::begin_motion() {
     beginning_ = beginning_of(model_, motion_);
     set_skeleton_modulus(beginning_, model_);
     evaluate_pore_water(model_, motion_.u, model_.water);
+    note_free_ground();
+}
+
+void Analysis::flag_no_base_motion(const std::string& why) {
+    session_.flag({"no_base_motion", fault::Severity::warning,
+                   "no runout can be shaken on after the transfer: " + why, "/fem/free_field"});
+}
+
+/// Now, and not at the end: every snapshot then knows how the ground will move after it.
+void Analysis::note_free_ground() {
+    if (session_.settings().switches.contains(trial_switch))
+        return;  // ten steps want no earthquake
+    if (!decided_.free_ground.value) {
+        if (model_.base.any() && scene::fem_of(session_.scene()).motion)
+            flag_no_base_motion("the scene has no free-field columns (/fem/free_field)");
+        return;
+    }
+    const double began = seconds_.clock();
+    FreeGround ground = free_ground(session_.scene(), model_, motion_);
+    seconds_for_free_ground_ = seconds_.clock() - began;
+    if (!ground.why_not.empty()) {
+        flag_no_base_motion(ground.why_not);
+        return;
+    }
+    beginning_.base_motion = std::move(ground.motion);
+    const motion::Series velocity{beginning_.base_motion.time_step,
+                                  beginning_.base_motion.velocity};
+    std::ostringstream csv;
+    motion::write_csv(csv, {motion::Quantity::velocity, velocity, {}},
+                      "velocity of the base beneath the free-field columns alone");
+    exchange::publish_text(session_.output(phases::files::base_motion), csv.str());
+    spdlog::info("  the free ground's base moves with at most {:.3g} m/s until {:.4g} s",
+                 motion::peak(velocity), velocity.duration());
 }
 
 /// The switch from elastic stages to the scene's laws. A static stage after another one brings the

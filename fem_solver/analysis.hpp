@@ -37,6 +37,8 @@ class Analysis {
     void begin_stage(const scene::Stage& stage);
     void begin_laws(const scene::Stage& stage);
     void begin_motion();
+    void note_free_ground();
+    void flag_no_base_motion(const std::string& why);
     void note_geostatic_state(const scene::Stage& stage, const NewtonOutcome& outcome);
     Distortion trial_distortion();
     void note_entanglement(const Distortion& folded, double time);
@@ -58,6 +60,7 @@ class Analysis {
     void report_facts();
     void report_crest();
     void report_end();
+    void report_base_motion();
     void print_profile();
     double stage_begin(std::int64_t stage) const;
 
@@ -80,7 +83,8 @@ class Analysis {
     Watch watch_;
     std::size_t crest_node_;
     std::optional<Entanglement> entanglement_;
-    double step_error_ = 0.0;          ///< of the last step [m]
+    double step_error_ = 0.0;  ///< of the last step [m]
+    double seconds_for_free_ground_ = 0.0;
     double span_ = 0.0;                ///< all dynamic stages [s]
     double checkpoint_written_ = 0.0;  ///< wall clock [s]
     bool checkpoint_wanted_ = false;   ///< since the last one a wanted snapshot was written

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/motion/series.hpp"
 #include "core/phases/files.hpp"
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/snapshot.hpp"
@@ -307,6 +308,7 @@ void Analysis::report_facts() {
     facts["unknowns"] = unknowns.displacements;
     facts["pressure_unknowns"] = unknowns.pressures();
     facts["largest_displacement"] = largest;
+    report_base_motion();
     facts["mesh"] = {{"shortest_edge", quality.shortest_edge},
                      {"longest_edge", quality.longest_edge},
                      {"smallest_angle_deg", quality.smallest_angle * 180.0 / std::numbers::pi},
@@ -317,11 +319,28 @@ void Analysis::report_facts() {
     }
     spdlog::info("seconds: assembly {:.2f}, law {:.2f}, factor {:.2f}, solve {:.2f}, output {:.2f}",
                  seconds_.assembly, seconds_.law, seconds_.factor, seconds_.solve, seconds_.output);
-    facts["seconds"] = {{"assembly", seconds_.assembly},
-                        {"law", seconds_.law},
-                        {"factor", seconds_.factor},
-                        {"solve", seconds_.solve},
-                        {"output", seconds_.output}};
+    facts["seconds"] = {{"assembly", seconds_.assembly}, {"law", seconds_.law},
+                        {"factor", seconds_.factor},     {"solve", seconds_.solve},
+                        {"output", seconds_.output},     {"free_ground", seconds_for_free_ground_}};
+}
+
+/// The free ground's motion stands in for the FEM's own base after a transfer: how far the two were
+/// apart as long as there were both.
+void Analysis::report_base_motion() {
+    const exchange::BaseMotion& ground = beginning_.base_motion;
+    if (!ground.any()) return;
+    const motion::Series velocity{ground.time_step, ground.velocity};
+    const double peak = motion::peak(velocity);
+    double farthest = 0.0;
+    for (const Reading& each : history_) {
+        const double apart = each.base_velocity - motion::value_at(velocity, each.time);
+        farthest = std::max(farthest, std::abs(apart));
+    }
+    session_.result()["base_motion"] = {
+        {"file", phases::files::base_motion},
+        {"duration", velocity.duration()},
+        {"peak_velocity", peak},
+        {"largest_difference_to_mesh", peak > 0.0 ? farthest / peak : 0.0}};
 }
 
 void Analysis::print_profile() {

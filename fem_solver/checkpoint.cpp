@@ -128,13 +128,17 @@ void put(exchange::Archive& archive, const Beginning& beginning) {
     archive.reals["beginning.p"] = flat(beginning.p);
     archive.reals["beginning.sigma_v0"] = beginning.sigma_v0;
     archive.reals["beginning.skeleton_modulus"] = beginning.skeleton_modulus;
+    archive.reals["beginning.base_motion"] = beginning.base_motion.velocity;
+    archive.reals["beginning.base_motion.time_step"] = {beginning.base_motion.time_step};
 }
 
 Beginning beginning_from(const exchange::Archive& archive) {
     return {.base_reaction = vector_from(archive.reals.at("beginning.base_reaction")),
             .p = vector_from(archive.reals.at("beginning.p")),
             .sigma_v0 = archive.reals.at("beginning.sigma_v0"),
-            .skeleton_modulus = archive.reals.at("beginning.skeleton_modulus")};
+            .skeleton_modulus = archive.reals.at("beginning.skeleton_modulus"),
+            .base_motion = {archive.reals.at("beginning.base_motion.time_step").at(0),
+                            archive.reals.at("beginning.base_motion")}};
 }
 
 /// What is absent until its stage may be empty.

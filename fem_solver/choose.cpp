@@ -81,6 +81,17 @@ Decided<MemoryStart> memory_start_of(const scene::Fem& fem,
                     "/fem/stages")};
 }
 
+Decided<bool> free_ground_of(const scene::Fem& fem) {
+    const bool known = fem.base && fem.motion && fem.free_field;
+    return {known, line_of("motion of the free ground", use_if(known),
+                           {"the columns alone to the end of the motion, before the mesh moves: "
+                            "snapshots carry it for runouts that are shaken on",
+                            fem.motion ? "there are no columns: no runout can be shaken on after "
+                                         "the transfer"
+                                       : "no motion is given"},
+                           "/fem/free_field")};
+}
+
 }  // namespace
 
 RunDecisions decide_run(const scene::Scene& scene) {
@@ -89,6 +100,7 @@ RunDecisions decide_run(const scene::Scene& scene) {
     return {
         .memory = memory,
         .memory_start = memory_start_of(fem, memory.value),
+        .free_ground = free_ground_of(fem),
         .snapshot_times = {fem.snapshot_times,
                            line_of("snapshots on the way", use_if(!fem.snapshot_times.empty()),
                                    {std::to_string(fem.snapshot_times.size()) + " times",
@@ -143,6 +155,7 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
         model.base.line,
         model.motion.line,
         model.free_field.line,
+        run.free_ground.line,
         run.liquefaction.line,
         model.surcharge.line,
         run.largest_step_error.line,

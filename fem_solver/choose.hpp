@@ -14,6 +14,8 @@ struct RunDecisions {
     /// The stage with which such laws begin, the first with the scene's laws; nothing: there is none.
     process::Decided<std::optional<std::int64_t>> memory;
     process::Decided<MemoryStart> memory_start;
+    /// Whether the columns run alone before the mesh moves: snapshots then carry their base's motion.
+    process::Decided<bool> free_ground;
     process::Decided<std::vector<double>> snapshot_times;  ///< [s]
     process::Decided<double> snapshot_interval;            ///< 0: none [s]
     process::Decided<std::optional<scene::LiquefactionWatch>> liquefaction;

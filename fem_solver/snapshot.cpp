@@ -42,6 +42,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         s.pore_pressure_0 = first(beginning.p, nodes);
         s.sigma_v0 = beginning.sigma_v0;
     }
+    s.base_motion = beginning.base_motion;
     s.quads = first(mesh.quads, elements);
     s.region_of_element = first(mesh.region_of_element, elements);
     for (const Zone& zone : model.zones)

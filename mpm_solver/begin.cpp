@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <numeric>
+
 #include "mpm_solver/body/fill.hpp"
 
 namespace breach::mpm {
@@ -26,7 +28,47 @@ Body fresh_body(const scene::Scene& scene, const exchange::ParticleState& state,
     return body;
 }
 
+GroundMotion ground_beneath(const exchange::ParticleState& state, const std::string& source) {
+    if (!state.base_motion.any()) {
+        throw fault::BadInput(
+            source, {{"/breachline/base_motion",
+                      "is missing, and /mpm/shaking is on: nothing says how the ground moves after "
+                      "the transfer",
+                      "give the points of a transfer from a FEM with /fem/base, /fem/motion and "
+                      "/fem/free_field (run again where an earlier version did), or set "
+                      "/mpm/shaking to off"}});
+    }
+    return {state.base_motion, state.transfer_time};
+}
+
+void say(const GroundMotion& ground, const scene::Mpm& mpm) {
+    if (ground.end() <= 0.0) {
+        spdlog::warn(
+            "the earthquake is over {:.2f} s before the transfer: nothing shakes the runout",
+            -ground.end());
+        return;
+    }
+    spdlog::info("the ground shakes on with up to {:.3g} m/s2 until {:.2f} s, and rests after that",
+                 ground.peak_acceleration(), ground.end());
+    if (!mpm.until_rest && mpm.duration < ground.end()) {
+        spdlog::warn("the runout ends at {:.2f} s, before the earthquake does", mpm.duration);
+    }
+}
+
 }  // namespace
+
+void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state) {
+    const double v_ground = ground.velocity(0.0);
+    for (Vec2& v : state.velocity) v.x() -= v_ground;
+    const double mass = std::accumulate(state.mass.begin(), state.mass.end(), 0.0);
+    double momentum = 0.0;
+    for (std::size_t p = 0; p < state.size(); ++p)
+        momentum += state.mass[p] * state.velocity[p].x();
+    spdlog::info(
+        "horizontal momentum {:.6g} N s against far rock is {:.6g} N s on the ground, which moves "
+        "with {:.4g} m/s",
+        momentum + mass * v_ground, momentum, v_ground);
+}
 
 Computing computing_of(const process::Session& session) {
     return {.threads = session.settings().threads};
@@ -35,15 +77,29 @@ Computing computing_of(const process::Session& session) {
 Begun begin(const process::Session& session) {
     const scene::Scene& scene = session.scene();
     if (session.settings().inputs.empty()) {
+        if (scene::mpm_of(scene).shaking == scene::Shaking::goes_on) {
+            throw fault::BadInput(scene.name,
+                                  {{"/mpm/shaking",
+                                    "is on, and a section filled with points has no FEM behind it "
+                                    "that says how the ground moves",
+                                    "give a transfer's points with --input, or set it to off"}});
+        }
         const FilledSection filled = fill_section(scene);
         log_sampling(filled.regions);
         const std::string source = scene.name + " (section filled with points)";
         return {fresh_body(scene, filled.state, source, computing_of(session)), 0.0};
     }
-    const exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
+    exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
     const std::string source = session.input().string();
     log_sampling(sampling_of(scene, state));
-    return {fresh_body(scene, state, source, computing_of(session)), state.transfer_time};
+    std::optional<GroundMotion> ground;
+    if (scene::mpm_of(scene).shaking == scene::Shaking::goes_on) {
+        ground = ground_beneath(state, source);
+        say(*ground, scene::mpm_of(scene));
+        stand_on_ground(*ground, state);
+    }
+    return {fresh_body(scene, state, source, computing_of(session)), state.transfer_time,
+            std::move(ground)};
 }
 
 }  // namespace breach::mpm

@@ -9,7 +9,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 6;
+constexpr int version = 7;
 constexpr const char* records_prefix = "records.";
 
 [[noreturn]] void refuse(const std::string& file, const std::string& where,
@@ -29,6 +29,7 @@ void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& 
     visit("start_mobile_volume", start.mobile_volume);
     visit("plastic", tally.plastic), visit("friction", tally.friction);
     visit("viscous", tally.viscous), visit("pushed_in", tally.pushed_in);
+    visit("shaking", tally.shaking);
     visit("kinetic", tally.kinetic), visit("fastest", tally.fastest);
     visit("strayed", tally.strayed);
 }
@@ -46,6 +47,37 @@ void refuse_if_different(const Archive& archive, const std::string& name, const 
     throw fault::BadInput(file, {{"/" + name, "is not that of this run",
                                   "resume with the scene, overrides and input of the run that was "
                                   "stopped, or start afresh without --resume"}});
+}
+
+constexpr const char* ground_velocity = "ground.velocity";
+constexpr const char* ground_clock = "ground.clock";  ///< time step of the samples, transfer time
+
+void store(const std::optional<GroundMotion>& ground, Archive& archive) {
+    if (!ground) return;
+    archive.reals[ground_velocity] = ground->base().velocity;
+    archive.reals[ground_clock] = {ground->base().time_step, ground->transfer_time()};
+}
+
+std::optional<GroundMotion> load_ground(const Archive& archive, const std::string& file) {
+    if (!archive.reals.contains(ground_velocity)) return std::nullopt;
+    const std::vector<double>& velocity = archive.reals.at(ground_velocity);
+    const std::vector<double>& clock = archive.reals.at(ground_clock);
+    if (velocity.empty() || !(clock.at(0) > 0.0))
+        refuse(file, "/ground.velocity", "has no samples");
+    return GroundMotion({clock.at(0), velocity}, clock.at(1));
+}
+
+/// Said before that the scenes differ: half a run on ground that moves and half on ground at rest is
+/// neither.
+void refuse_other_ground(const Archive& archive, scene::Shaking here, const std::string& file) {
+    const bool moved = archive.reals.contains(ground_velocity);
+    const bool moves = here == scene::Shaking::goes_on;
+    if (moved == moves) return;
+    const std::string then = moved ? "on" : "off";
+    throw fault::BadInput(
+        file, {{"/mpm/shaking",
+                "was " + then + " when this run began and is " + (moves ? "on" : "off") + " now",
+                "resume with --set /mpm/shaking=" + then + ", or start afresh without --resume"}});
 }
 
 /// Arrays of one length, and indices that lie in what they point into: a checkpoint that another
@@ -135,6 +167,7 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
     store(records.history, records_prefix, archive);
     store(simulation.gauges(), records.gauges, records_prefix, archive);
     store(records.profiles, simulation.view(), records_prefix, archive);
+    store(simulation.ground(), archive);
     archive.texts["scene"] = provenance.scene;
     archive.texts["inputs"] = digests(provenance);
     write_archive(file, archive, provenance);
@@ -143,6 +176,7 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
 Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
                         const exchange::Provenance& provenance, const Computing& computing) {
     const Archive archive = exchange::read_archive(file, kind, version, exchange::Reals::finite);
+    refuse_other_ground(archive, scene::mpm_of(scene).shaking, file.string());
     refuse_if_different(archive, "scene", provenance.scene, file.string());
     refuse_if_different(archive, "inputs", digests(provenance), file.string());
     try {
@@ -162,7 +196,8 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         Records records{load(archive, records_prefix),
                         load_gauges(scene::mpm_of(scene).gauges, archive, records_prefix),
                         load_profiles(archive, records_prefix)};
-        return {Simulation(scene, std::move(body), clock, start, std::move(records)),
+        return {Simulation(scene, std::move(body), clock, start, std::move(records),
+                           load_ground(archive, file.string())),
                 archive.integers.at("run.telemetry_lines").at(0)};
     } catch (const std::out_of_range&) {
         refuse(file.string(), "/", "lacks an array of a checkpoint");

@@ -71,6 +71,7 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
     plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
                     "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
     plan.push_back(decided.overlap.line);
+    plan.push_back(decided.shaking.line);
     plan.push_back({"stiffness scaling", mpm.stiffness_scale != 1.0 ? Use::on : Use::left_out,
                     "factor " + text_of(mpm.stiffness_scale) + " on every E",
                     "/mpm/stiffness_scale"});

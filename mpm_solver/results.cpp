@@ -31,6 +31,7 @@ json energy_json(const Simulation& simulation, const Row& row) {
             {"plastic", entry(now.plastic)},
             {"friction", entry(now.friction)},
             {"viscous", entry(now.viscous)},
+            {"shaking", entry(now.shaking)},
             {"overlap_correction", entry(row.overlap_energy)},
             {"numerical", entry(row.energy_numerical)}};
 }
@@ -54,13 +55,21 @@ json gauges_json(const Simulation& simulation) {
     return result;
 }
 
-json rest_json(const scene::Mpm& mpm, const Ending& ending) {
-    return {{"change", mpm.rest.change},
-            {"window", mpm.rest.window},
-            {"earliest", mpm.rest.earliest},
-            {"speed", mpm.rest.speed},
+json rest_json(const scene::Mpm& mpm, const scene::Rest& rest, const Ending& ending) {
+    return {{"change", rest.change},
+            {"window", rest.window},
+            {"earliest", rest.earliest},
+            {"speed", rest.speed},
             {"longest_duration", mpm.duration},
             {"moving", ending.moving ? json(*ending.moving) : json(nullptr)}};
+}
+
+/// What the ground did; a place against far rock is the place on the ground plus its displacement.
+json shaking_json(const GroundMotion& ground, double time) {
+    return {{"until", ground.end()},
+            {"peak_acceleration", ground.peak_acceleration()},
+            {"ground_velocity_at_transfer", ground.velocity(0.0)},
+            {"ground_displacement", ground.displacement(time)}};
 }
 
 Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
@@ -93,8 +102,9 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["ended"] = simulation.verdict() == Verdict::rests ? "at_rest" : "duration";
     result["end_time"] = clock.time;
     result["kinetic_share"] = ending.kinetic_share;
-    result["rest"] = rest_json(mpm, ending);
+    result["rest"] = rest_json(mpm, simulation.rest(), ending);
     result["transfer_time"] = clock.transfer_time;
+    if (simulation.ground()) result["shaking"] = shaking_json(*simulation.ground(), clock.time);
     result["energy"] = energy_json(simulation, row);
     result["volume_ratio"] = row.volume_ratio;
     result["overlap"] = row.overlap;

@@ -31,7 +31,7 @@ Simulation begin_or_resume(Session& session) {
     }
     session.truncate_telemetry(0);
     Begun begun = begin(session);
-    return {session.scene(), std::move(begun.body), begun.transfer_time};
+    return {session.scene(), std::move(begun.body), begun.transfer_time, std::move(begun.ground)};
 }
 
 void save(const Session& session, const Simulation& simulation) {
@@ -66,7 +66,8 @@ void show_progress(Session& session, const Simulation& simulation) {
     std::snprintf(message, sizeof message, "t = %.2f s", time);
     const scene::Mpm& mpm = *session.scene().mpm;
     // When soil will rest nobody knows: the share then only grows towards 1.
-    session.progress(time / (mpm.until_rest ? time + mpm.rest.earliest : mpm.duration), message);
+    session.progress(time / (mpm.until_rest ? time + simulation.rest().earliest : mpm.duration),
+                     message);
 }
 
 void look_and_write(Session& session, Simulation& simulation) {

@@ -8,23 +8,40 @@
 
 namespace breach::mpm {
 
-Simulation::Simulation(const scene::Scene& scene, Body body, double transfer_time)
-    : Simulation(scene, std::move(body), Clock{.transfer_time = transfer_time}, Start{}, {}) {
+namespace {
+
+double swing_of(const std::optional<GroundMotion>& ground) {
+    return ground ? ground->largest_swing() : 0.0;
+}
+
+scene::Rest rest_on(const std::optional<GroundMotion>& ground, scene::Rest rest) {
+    if (ground) rest.earliest = std::max(rest.earliest, ground->end());
+    return rest;
+}
+
+}  // namespace
+
+Simulation::Simulation(const scene::Scene& scene, Body body, double transfer_time,
+                       std::optional<GroundMotion> ground)
+    : Simulation(scene, std::move(body), Clock{.transfer_time = transfer_time}, Start{}, {},
+                 std::move(ground)) {
     start_ = {energy_of(body_), volume_of(body_.points, view_.mobile)};
-    limits_ = limits_of(body_, mpm_, start_.energy);
+    limits_ = limits_of(body_, mpm_, start_.energy, swing_of(ground_));
 }
 
 Simulation::Simulation(const scene::Scene& scene, Body body, Clock clock, Start start,
-                       Records records)
+                       Records records, std::optional<GroundMotion> ground)
     : scene_(scene),
       mpm_(scene::mpm_of(scene)),
       body_(std::move(body)),
       clock_(clock),
       start_(start),
       records_(std::move(records)),
+      ground_(std::move(ground)),
+      rest_(rest_on(ground_, mpm_.rest)),
       view_(flow_view(scene, body_.grid)),
       overlap_(body_, scene.thickness),
-      limits_(limits_of(body_, mpm_, start_.energy)),
+      limits_(limits_of(body_, mpm_, start_.energy, swing_of(ground_))),
       last_good_(body_.points, clock.time, clock.step) {}
 
 double Simulation::next_step() const {
@@ -43,6 +60,7 @@ void Simulation::advance() {
         overlap_.hold_gaps_to_room(body_);
     }
     const double dt = next_step();
+    if (ground_) body_.frame_acceleration = ground_->acceleration(clock_.time, dt);
     step(body_, dt);
     clock_.dt_min = clock_.step == 0 ? dt : std::min(clock_.dt_min, dt);
     clock_.dt_max = std::max(clock_.dt_max, dt);
@@ -93,6 +111,7 @@ const Row& Simulation::look() {
          .plastic_dissipation = now.plastic,
          .friction_dissipation = now.friction,
          .viscous_dissipation = now.viscous,
+         .shaking_work = now.shaking,
          .energy_numerical = numerical_loss(start_.energy, now),
          .energy_numerical_share = numerical_share(start_.energy, now),
          .volume_ratio = start_.mobile_volume > 0.0 ? volume / start_.mobile_volume : 1.0,
@@ -104,7 +123,7 @@ const Row& Simulation::look() {
         break_down(*complaint);
     }
     if (const auto complaint = ground_complaint(body_)) break_down(*complaint);
-    moving_ = why_moving(records_.history, start_.energy, body_, view_.mobile, mpm_.rest);
+    moving_ = why_moving(records_.history, start_.energy, body_, view_.mobile, rest_);
     const double interval = mpm_.telemetry_interval;
     clock_.looks =
         interval > 0.0 ? static_cast<std::int64_t>(std::floor(clock_.time / interval)) + 1 : 0;
@@ -118,9 +137,9 @@ Verdict Simulation::verdict() const {
 }
 
 double Simulation::scale_of_energy() const {
-    const Energy now{.gravitational = last_row().gravitational_energy};
-    return energy_scale(mpm_.rest, released(start_.energy, now),
-                        mass_of(body_.points, view_.mobile));
+    const Energy now{.gravitational = last_row().gravitational_energy,
+                     .shaking = last_row().shaking_work};
+    return energy_scale(rest_, released(start_.energy, now), mass_of(body_.points, view_.mobile));
 }
 
 exchange::ParticleState Simulation::stamped(const Points& points, double time,

@@ -4,6 +4,7 @@
 
 #include "core/process/session.hpp"
 #include "mpm_solver/body/body.hpp"
+#include "mpm_solver/body/ground_motion.hpp"
 #include "mpm_solver/last_good.hpp"
 #include "mpm_solver/measure/energy.hpp"
 #include "mpm_solver/measure/gauges.hpp"
@@ -43,10 +44,12 @@ enum class Verdict { goes_on, rests, time_is_up };
 
 class Simulation {
   public:
-    /// `body` at time 0.
-    Simulation(const scene::Scene& scene, Body body, double transfer_time);
+    /// `body` at time 0; its velocities are those on the ground, which moves with it or rests.
+    Simulation(const scene::Scene& scene, Body body, double transfer_time,
+               std::optional<GroundMotion> ground = {});
     /// From a checkpoint.
-    Simulation(const scene::Scene& scene, Body body, Clock clock, Start start, Records records);
+    Simulation(const scene::Scene& scene, Body body, Clock clock, Start start, Records records,
+               std::optional<GroundMotion> ground);
 
     /// One step; never past the next snapshot or the end. Throws Breakdown.
     void advance();
@@ -66,6 +69,10 @@ class Simulation {
     const Body& body() const { return body_; }
     const Clock& clock() const { return clock_; }
     const Start& start() const { return start_; }
+    /// Nothing where the ground is at rest.
+    const std::optional<GroundMotion>& ground() const { return ground_; }
+    /// When the soil rests: never while the ground shakes.
+    const scene::Rest& rest() const { return rest_; }
     const Records& records() const { return records_; }
     const Row& last_row() const { return records_.history.back(); }
     /// The profile now.
@@ -87,6 +94,8 @@ class Simulation {
     Clock clock_;
     Start start_;
     Records records_;
+    std::optional<GroundMotion> ground_;
+    scene::Rest rest_;
     FlowView view_;
     OverlapMeter overlap_;
     Limits limits_;

@@ -49,6 +49,16 @@ void average(Body& body, double CellSum::*number) {
     }
 }
 
+/// Work of the moving frame's force, impulse x (v_before + v_after) / 2 as that of friction [J].
+double work_of_frame(const Body& body, double dt) {
+    const Grid& grid = body.grid;
+    double momentum = 0.0;
+    for (const std::int32_t node : grid.active) {
+        momentum += grid.mass[node] * (grid.motion[node][0] - 0.5 * grid.motion[node][2]);
+    }
+    return -body.frame_acceleration * dt * momentum;
+}
+
 void find_lightest(Body& body) {
     for (std::size_t z = 0; z < body.zones.size(); ++z) {
         double largest = 0.0;
@@ -74,6 +84,7 @@ void step(Body& body, double dt) {
     particle_to_grid(body, dt);
     if (body.order == UpdateOrder::usf) update_stress_first(body, dt);
     update_momentum(body, dt);
+    if (body.frame_acceleration != 0.0) body.tally.shaking += work_of_frame(body, dt);
     grid_to_particle(body, dt);
     if (body.order == UpdateOrder::musl) map_again(body, dt);
     if (body.order != UpdateOrder::usf) update_stress(body, dt);
@@ -85,6 +96,7 @@ void particle_to_grid(Body& body, double dt) {
 
 void update_momentum(Body& body, double dt) {
     Grid& grid = body.grid;
+    const Vec2 pull = body.gravity - Vec2{body.frame_acceleration, 0.0};
     double friction_work = 0.0;
     for (const std::int32_t node : grid.active) {
         const double m = grid.mass[node];
@@ -94,7 +106,7 @@ void update_momentum(Body& body, double dt) {
         }
         const Lane motion = grid.motion[node] / m;
         const Vec2 v_before{motion[0], motion[1]};
-        Vec2 v = v_before + dt * (Vec2{motion[2], motion[3]} + body.gravity);
+        Vec2 v = v_before + dt * (Vec2{motion[2], motion[3]} + pull);
         if (const std::uint8_t must = grid.conditions[node]; must != 0) {
             if (must & condition::floor) {
                 friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);

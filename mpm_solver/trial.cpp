@@ -101,7 +101,7 @@ process::Cost measure(process::Session& session) {
                    {"grid", bytes_of(body.grid)},
                    {"anti-locking's cells", averages}};
     const double dt = mpm.time_step ? *mpm.time_step : courant_step(body, mpm.cfl);
-    Simulation simulation(scene, std::move(body), begun.transfer_time);
+    Simulation simulation(scene, std::move(body), begun.transfer_time, std::move(begun.ground));
     Laps looking;
     looking.time("telemetry", [&] { simulation.look(); });
     const double looks_per_step =

@@ -57,6 +57,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.softening = softening_of(laws, points.state);
     t.liquefaction = liquefaction_of(map);
     t.state = std::move(points.state);
+    t.state.base_motion = mesh.base_motion;
     return t;
 }
 

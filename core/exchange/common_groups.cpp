@@ -102,6 +102,27 @@ void check_positive(Hdf5Reader& reader, const std::string& path,
                                           std::to_string(values[i]) + ", must be positive");
 }
 
+namespace {
+const std::string base_motion = "/breachline/base_motion";
+}  // namespace
+
+void write_base_motion(Hdf5Image& image, const BaseMotion& motion) {
+    if (!motion.any()) return;
+    image.group(base_motion);
+    image.attribute(base_motion, "time_step", motion.time_step);
+    image.array(base_motion + "/velocity", motion.velocity, 0, "m/s");
+}
+
+BaseMotion read_base_motion(Hdf5Reader& reader) {
+    if (!reader.exists(base_motion)) return {};
+    BaseMotion motion;
+    motion.time_step = reader.real_attribute(base_motion, "time_step");
+    motion.velocity = reader.finite_reals(base_motion + "/velocity");
+    if (!(motion.time_step > 0.0)) reader.fault(base_motion + "@time_step", "must be positive");
+    if (!motion.any()) reader.fault(base_motion + "/velocity", "is empty");
+    return motion;
+}
+
 void write_provenance(Hdf5Image& image, const Provenance& provenance) {
     const std::string here = "/breachline/provenance";
     image.group(here);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/exchange/base_motion.hpp"
 #include "core/exchange/hdf5_file.hpp"
 #include "core/exchange/provenance.hpp"
 #include "core/mechanics/tensor.hpp"
@@ -31,6 +32,10 @@ void check_region_indices(Hdf5Reader& reader, const std::string& path,
                           const std::vector<std::int32_t>& indices, std::size_t regions);
 /// Notes a fault at the first value that is not positive.
 void check_positive(Hdf5Reader& reader, const std::string& path, const std::vector<double>& values);
+
+/// Nothing where the motion is unknown.
+void write_base_motion(Hdf5Image& image, const BaseMotion& motion);
+BaseMotion read_base_motion(Hdf5Reader& reader);
 
 void write_provenance(Hdf5Image& image, const Provenance& provenance);
 Provenance read_provenance(Hdf5Reader& reader);

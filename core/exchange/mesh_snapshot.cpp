@@ -183,6 +183,7 @@ void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& 
     Hdf5Image image(kind);
     write_visible(image, snapshot);
     write_exact(image, snapshot);
+    write_base_motion(image, snapshot.base_motion);
     write_provenance(image, provenance);
     std::move(image).save(path);
 }
@@ -207,6 +208,7 @@ MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
     read_regions(reader, s.regions, s.materials_of_regions);
     read_nodes(reader, s, nodes, has_pore_pressure);
     read_elements(reader, s, elements, gauss);
+    s.base_motion = read_base_motion(reader);
     file.provenance = read_provenance(reader);
     reader.check_rest();
     reader.refuse_if_faulty();

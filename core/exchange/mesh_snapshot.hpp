@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/exchange/base_motion.hpp"
 #include "core/exchange/provenance.hpp"
 #include "core/mechanics/tensor.hpp"
 
@@ -50,6 +51,8 @@ struct MeshSnapshot {
     std::vector<mechanics::Voigt> strain;   ///< total, since the first dynamic stage began [-]
     std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]
     std::vector<double> epsilon_q_plastic;  ///< accumulated by the law [-]
+
+    BaseMotion base_motion;  ///< of the whole earthquake, after `time` too
 };
 
 void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& snapshot,

@@ -167,6 +167,7 @@ void write_particle_state(const std::filesystem::path& path, const ParticleState
     write_points(image, state);
     write_regions(image, state.regions, state.materials_of_regions);
     write_stress_measures(image, state.stress_of_regions);
+    write_base_motion(image, state.base_motion);
     if (!ledger.empty()) write_ledger(image, ledger);
     write_provenance(image, provenance);
     std::move(image).save(path);
@@ -188,6 +189,7 @@ ParticleStateFile read_particle_state(const std::filesystem::path& path) {
     read_points(reader, s, n);
     read_regions(reader, s.regions, s.materials_of_regions);
     s.stress_of_regions = read_stress_measures(reader, s.regions.size());
+    s.base_motion = read_base_motion(reader);
     file.ledger = read_ledger(reader);
     file.provenance = read_provenance(reader);
     reader.check_rest();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/exchange/base_motion.hpp"
 #include "core/exchange/ledger.hpp"
 #include "core/exchange/provenance.hpp"
 #include "core/mechanics/tensor.hpp"
@@ -50,6 +51,10 @@ struct ParticleState {
     std::vector<std::int32_t> region;
     std::vector<double> pore_pressure;  ///< u [Pa]; empty when there is no water
     std::vector<double> r_u;  ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
+
+    /// On the FEM's clock; only what the transfer wrote has it, as velocities there are still those
+    /// against far rock.
+    BaseMotion base_motion{};
 
     std::size_t size() const { return position.size(); }
 };

@@ -14,10 +14,11 @@ inline constexpr const char* telemetry = "telemetry.jsonl";
 inline constexpr const char* checkpoint = "checkpoint.h5";
 
 inline constexpr const char* history = "history.h5";
-inline constexpr const char* motion = "motion.csv";           ///< fem: as it is applied
-inline constexpr const char* particles = "particles.vtkhdf";  ///< transfer: the new points
-inline constexpr const char* final_state = "final.vtkhdf";    ///< mpm
-inline constexpr const char* request = "snapshot_request";    ///< to the fem, in its output
+inline constexpr const char* motion = "motion.csv";            ///< fem: as it is applied
+inline constexpr const char* base_motion = "base_motion.csv";  ///< fem: of the free ground
+inline constexpr const char* particles = "particles.vtkhdf";   ///< transfer: the new points
+inline constexpr const char* final_state = "final.vtkhdf";     ///< mpm
+inline constexpr const char* request = "snapshot_request";     ///< to the fem, in its output
 inline constexpr const char* element_tests = "element_tests.h5";
 
 inline constexpr const char* snapshot_extension = ".vtkhdf";

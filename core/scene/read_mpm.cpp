@@ -58,8 +58,21 @@ void check_gauges(Reader& reader, const Mpm& mpm) {
     }
 }
 
+/// What the FEM of this scene does not write, no runout can be shaken by. A scene without a FEM is
+/// judged by the file that it is given.
+void check_shaking(Reader& reader, const Mpm& mpm) {
+    const json& document = reader.document();
+    if (mpm.shaking == Shaking::off || !document.contains("fem")) return;
+    for (const char* part : {"base", "motion", "free_field"}) {
+        if (document.at("fem").contains(part)) continue;
+        reader.add("/mpm/shaking", std::string("is on, and the FEM has no /fem/") + part,
+                   "give /fem/base, /fem/motion and /fem/free_field, or switch it off");
+    }
+}
+
 void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     check_grid(reader, mpm);
+    check_shaking(reader, mpm);
     check_terrain(reader, mpm);
     check_gauges(reader, mpm);
     check_order(
@@ -179,6 +192,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.fill_points = mpm.at("fill_points");
     result.fill_shift = range_from(mpm.at("fill_shift"));
     result.fill_stress = word_at<FillStress>(mpm, "fill_stress");
+    result.shaking = word_at<Shaking>(mpm, "shaking");
     check_mpm(reader, scene, result);
     scene.mpm = std::move(result);
 }

@@ -409,6 +409,12 @@ using grid::UpdateOrder;
 enum class AntiLocking { on, off, automatic };
 enum class Wall { roller, fixed, open };
 
+/// How the ground moves during the runout.
+enum class Shaking {
+    off,      ///< not at all: the earthquake ends with the transfer
+    goes_on,  ///< as the base of the FEM's free-field columns does; the grid moves with it
+};
+
 /// Stress of points that fill the section: none, or what the soil above weighs, sigma_h = K_0
 /// sigma_v with K_0 = nu / (1 - nu).
 enum class FillStress { none, overburden };
@@ -491,6 +497,7 @@ struct Mpm {
     int fill_points;             ///< points per cell and direction when no particles are given
     std::array<double, 2> fill_shift{};  ///< moves the squares of the filling, in squares [-]
     FillStress fill_stress = FillStress::none;
+    Shaking shaking = Shaking::off;
 };
 
 struct Scene {

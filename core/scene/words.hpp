@@ -172,6 +172,11 @@ constexpr auto words_of(FillStress) {
     return words::in_order<FillStress>({{none, "none"}, {overburden, "overburden"}});
 }
 
+constexpr auto words_of(Shaking) {
+    using enum Shaking;
+    return words::in_order<Shaking>({{off, "off"}, {goes_on, "on"}});
+}
+
 using words::word_at;
 
 }  // namespace breach::scene

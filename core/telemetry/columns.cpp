@@ -16,6 +16,8 @@ constexpr std::array fem_table{
     Column{"crest_displacement", "m", "displacement of the crest's node"},
     Column{"crest_dx", "m", "its horizontal part"},
     Column{"crest_dy", "m", "its vertical part"},
+    Column{"base_velocity", "m/s",
+           "horizontal velocity of the elastic base, averaged over its nodes"},
     Column{"kinetic_energy", "J", "of the body without free-field columns"},
     Column{"kinetic_energy_over_peak", "1",
            "kinetic energy over its largest value so far: below 1 the peak is past"},

@@ -23,6 +23,7 @@ const std::vector<Column>& columns() {
         Named{"crest_displacement", &R::crest_displacement},
         Named{"crest_dx", &R::crest_dx},
         Named{"crest_dy", &R::crest_dy},
+        Named{"base_velocity", &R::base_velocity},
         Named{"kinetic_energy", &R::kinetic_energy},
         Named{"kinetic_energy_over_peak", &R::kinetic_energy_over_peak},
         Named{"external_work", &R::external_work},
@@ -119,6 +120,17 @@ Softened softened_volume(const Model& model, const Motion& motion) {
     return volume;
 }
 
+/// 0 where the base is held.
+double base_velocity(const Model& model, const Motion& motion) {
+    double sum = 0.0, nodes = 0.0;
+    for (std::size_t i = 0; i < model.body.nodes && !model.constraints.is_base.empty(); ++i) {
+        if (!model.constraints.is_base[i]) continue;
+        sum += motion.v[2 * static_cast<Eigen::Index>(i)];
+        nodes += 1.0;
+    }
+    return nodes > 0.0 ? sum / nodes : 0.0;
+}
+
 }  // namespace
 
 Reading read_monitors(const Model& model, const Motion& motion, const Distortion& distortion,
@@ -128,6 +140,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     r.crest_dx = motion.u[crest];
     r.crest_dy = motion.u[crest + 1];
     r.crest_displacement = std::hypot(r.crest_dx, r.crest_dy);
+    r.base_velocity = base_velocity(model, motion);
     const auto dofs = static_cast<Eigen::Index>(2 * model.body.nodes);
     r.kinetic_energy =
         0.5 * (model.mass.head(dofs).array() * motion.v.head(dofs).array().square()).sum();

@@ -30,6 +30,7 @@ struct Reading {
     double crest_displacement = 0.0;        ///< [m]
     double crest_dx = 0.0;                  ///< [m]
     double crest_dy = 0.0;                  ///< [m]
+    double base_velocity = 0.0;             ///< horizontal, of an elastic base [m/s]
     double kinetic_energy = 0.0;            ///< [J]
     double kinetic_energy_over_peak = 1.0;  ///< over its largest value so far [-]
     double external_work = 0.0;             ///< of gravity since the first dynamic stage [J]

@@ -1,7 +1,8 @@
 // What is kept of the moment at which the first dynamic stage begins: what r_u is measured against,
-// and the forces that held the base until then.
+// the forces that held the base until then, and how the free ground will move.
 #pragma once
 
+#include "core/exchange/base_motion.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
@@ -14,6 +15,7 @@ struct Beginning {
     std::vector<double> sigma_v0;          ///< vertical effective stress, per node of the body,
                                            ///< compression positive; empty when dry [Pa]
     std::vector<double> skeleton_modulus;  ///< of the saturated elements, K + 4G/3 [Pa]
+    exchange::BaseMotion base_motion{};    ///< of the free-field columns alone (base_motion.hpp)
 };
 
 Beginning beginning_of(const Model& model, const Motion& motion);

@@ -21,6 +21,7 @@ struct Tally {
     double friction = 0.0;   ///< work dissipated by the floor's friction so far [J]
     double viscous = 0.0;    ///< work dissipated by viscosity so far [J]
     double pushed_in = 0.0;  ///< work that the overlap correction put in so far [J]
+    double shaking = 0.0;    ///< work of the moving frame's force so far [J]
     /// Of the points at the end of the step; not finite when any velocity is not [J]
     double kinetic = 0.0;
     double fastest = 0.0;  ///< largest speed of a point [m/s]
@@ -39,7 +40,9 @@ struct Body {
     Grid grid;
     Points points;
     std::vector<Zone> zones;
-    Vec2 gravity;           ///< [m/s2]
+    Vec2 gravity;  ///< [m/s2]
+    /// Of the grid itself, horizontal, over the step to come; set by whoever knows the time [m/s2]
+    double frame_acceleration = 0.0;
     double gimp_half_size;  ///< [cells]
     double blending_rate;   ///< beta [1/s]
     double overlap_rate;    ///< of the overlap correction [1/s]

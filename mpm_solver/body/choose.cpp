@@ -99,6 +99,20 @@ Decided<Overlap> overlap_of(const scene::OverlapCorrection& correction) {
             {what, Use::left_out, "rate 0: overlap is measured only", pointer}};
 }
 
+Decided<scene::Shaking> shaking_of(scene::Shaking asked) {
+    const std::string what = "shaking after the transfer", pointer = "/mpm/shaking";
+    if (asked == scene::Shaking::goes_on)
+        return {asked,
+                {what, Use::on,
+                 "the grid moves with the base of the FEM's free-field columns, exactly for any "
+                 "step; approximate: one rigid ground (the dam's pull on its base and waves back "
+                 "into the rock are left out), walls at rest on it, no further liquefaction",
+                 pointer}};
+    return {asked,
+            {what, Use::left_out, "the ground is at rest: an earthquake ends with the transfer",
+             pointer}};
+}
+
 }  // namespace
 
 SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil) {
@@ -108,7 +122,8 @@ SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil) {
 SchemeDecisions decide(const scene::Mpm& mpm) {
     return {{mpm.kernel, line_of_kernel(mpm)},
             {mpm.order, line_of_order(mpm.order)},
-            overlap_of(mpm.overlap_correction)};
+            overlap_of(mpm.overlap_correction),
+            shaking_of(mpm.shaking)};
 }
 
 Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil) {

@@ -38,6 +38,7 @@ struct SchemeDecisions {
     process::Decided<KernelKind> kernel;
     process::Decided<UpdateOrder> order;
     process::Decided<Overlap> overlap;
+    process::Decided<scene::Shaking> shaking;
 };
 SchemeDecisions decide(const scene::Mpm& mpm);
 

@@ -7,7 +7,8 @@ Energy energy_of(const Body& body) {
     Energy energy{.kinetic = body.tally.kinetic,
                   .plastic = body.tally.plastic,
                   .friction = body.tally.friction,
-                  .viscous = body.tally.viscous};
+                  .viscous = body.tally.viscous,
+                  .shaking = body.tally.shaking};
     for (const Zone& zone : body.zones) {
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
             const mechanics::Voigt sigma{points.sxx[p], points.syy[p], points.szz[p],
@@ -22,12 +23,12 @@ Energy energy_of(const Body& body) {
 }
 
 double released(const Energy& start, const Energy& now) {
-    return start.kinetic + start.gravitational - now.gravitational;
+    return start.kinetic + start.gravitational - now.gravitational + now.shaking - start.shaking;
 }
 
 double numerical_loss(const Energy& start, const Energy& now) {
     const double gone = start.kinetic - now.kinetic + start.gravitational - now.gravitational +
-                        start.elastic - now.elastic;
+                        start.elastic - now.elastic + now.shaking - start.shaking;
     return gone - (now.plastic - start.plastic) - (now.friction - start.friction) -
            (now.viscous - start.viscous);
 }

@@ -13,6 +13,7 @@ struct Energy {
     double plastic = 0.0;   ///< dissipated by plastic strain
     double friction = 0.0;  ///< dissipated by the floor's friction
     double viscous = 0.0;   ///< dissipated by viscosity
+    double shaking = 0.0;   ///< put in by the moving frame's force; negative: taken out
 };
 
 Energy energy_of(const Body& body);
@@ -21,7 +22,8 @@ Energy energy_of(const Body& body);
 /// gave.
 double numerical_loss(const Energy& start, const Energy& now);
 
-/// Potential energy released since the start and kinetic energy brought along at the start [J].
+/// Potential energy released since the start, kinetic energy brought along at the start and what the
+/// shaking put in since [J].
 double released(const Energy& start, const Energy& now);
 
 /// numerical_loss / released; 0 while nothing has been released.

@@ -46,11 +46,11 @@ std::size_t worst_point(const Points& points) {
 
 }  // namespace
 
-Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start) {
+Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start, double swing) {
     const double g = body.gravity.norm();
     const double fall = std::sqrt(2.0 * g * (body.grid.high - body.grid.low).norm());
     const double mass = std::accumulate(body.points.m.begin(), body.points.m.end(), 0.0);
-    return {.speed = runaway_factor * (wave_speed(body) + fall + body.tally.fastest),
+    return {.speed = runaway_factor * (wave_speed(body) + fall + body.tally.fastest + swing),
             .energy_gain = mpm.largest_energy_gain,
             .energy_floor = start.elastic + start.kinetic + 0.01 * mass * g * body.grid.h,
             .volume_ratio = largest_volume_ratio};

@@ -16,8 +16,8 @@ struct Limits {
     double volume_ratio;  ///< the soil's volume over the initial one [-]
 };
 
-/// Limits of a body as it is at the start.
-Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start);
+/// Limits of a body as it is at the start. `swing`: largest change of the ground's velocity to come [m/s].
+Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start, double swing = 0.0);
 
 /// After every step: lost point, NaN, runaway velocity. Empty when all is well.
 std::optional<std::string> step_complaint(const Body& body, const Limits& limits);

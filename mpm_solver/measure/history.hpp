@@ -26,6 +26,7 @@ struct Row {
     double plastic_dissipation = 0.0;
     double friction_dissipation = 0.0;
     double viscous_dissipation = 0.0;
+    double shaking_work = 0.0;  ///< of the moving frame's force
     double energy_numerical = 0.0;
     double energy_numerical_share = 0.0;
     double volume_ratio = 0.0;
@@ -50,6 +51,7 @@ void for_each_column(AnyRow& row, Visit&& visit) {
     visit("plastic_dissipation", "J", row.plastic_dissipation);
     visit("friction_dissipation", "J", row.friction_dissipation);
     visit("viscous_dissipation", "J", row.viscous_dissipation);
+    visit("shaking_work", "J", row.shaking_work);
     visit("energy_numerical", "J", row.energy_numerical);
     visit("energy_numerical_share", "1", row.energy_numerical_share);
     visit("volume_ratio", "1", row.volume_ratio), visit("overlap", "1", row.overlap);

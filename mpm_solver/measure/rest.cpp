@@ -146,7 +146,7 @@ std::optional<std::string> why_moving(const History& history, const Energy& star
                " s, the least that can tell";
     }
     const double mass = mass_of(body.points, counts);
-    const Energy then{.gravitational = now.gravitational_energy};
+    const Energy then{.gravitational = now.gravitational_energy, .shaking = now.shaking_work};
     const double scale = energy_scale(rest, released(start, then), mass);
     const Window window = window_of(history, from);
     if (auto reason = why_lively(history, window, scale, mass, rest)) return reason;

@@ -111,6 +111,7 @@ cases = [
     Case("floor above the section's foot", M, "refused", r"floor", {"/mpm/floor/level": 5}),
     Case("the grid ends inside the dam", M, "refused", r"domain_x", {"/mpm/domain_x": [-40.5, 200]}),
     Case("the grid is lower than the crest", M, "refused", r"domain_y", {"/mpm/domain_y": [-5, 20]}),
+    Case("shaking on without columns that tell the ground's motion", M, "refused", r"free_field", {"/mpm/shaking": "on"}, drops=["/fem/free_field"]),
     Case("a gauge outside the grid", M, "refused", r"gauge", {"/mpm/gauges/0/x": 5000}),
     Case("cells wider than the dam", "slope", "refused", r"cell", {"/mpm/cell_size": 10}),
     Case("cells of which three span the slope", "slope", "warned", r"cell", {"/mpm/cell_size": 2.5}),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
@@ -88,6 +89,100 @@ TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
     std::filesystem::remove(file);
 }
 
+/// 0.3 g at 2 Hz for 1.2 s from the transfer at 0.4 s on.
+GroundMotion shaking_ground() {
+    exchange::BaseMotion base{.time_step = 0.01, .velocity = {}};
+    for (int k = 0; k <= 160; ++k)
+        base.velocity.push_back(0.24 * std::sin(4.0 * std::numbers::pi * 0.01 * k));
+    return {base, 0.4};
+}
+
+Simulation fresh_and_shaken(const scene::Scene& scene) {
+    exchange::ParticleState state = fill_section(scene).state;
+    stand_on_ground(shaking_ground(), state);
+    return {scene, make_body(scene, zoned_points(scene, state, "test"), "test"), 0.4,
+            shaking_ground()};
+}
+
+TEST(ShakenRun, GoesOnAfterAStopWithTheSameBits) {
+    scene::Scene scene = heap();
+    scene.mpm->shaking = scene::Shaking::goes_on;
+    const exchange::Provenance provenance{
+        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+    const auto file = std::filesystem::temp_directory_path() / "breach_mpm_resume_shaken.h5";
+    Simulation whole = fresh_and_shaken(scene);
+    Simulation stopped = fresh_and_shaken(scene);
+    advance_looking(whole, 137);
+    advance_looking(stopped, 137);
+    ASSERT_LT(stopped.clock().time, 1.0);
+    save_checkpoint(file, stopped, 42, provenance);
+    Resumed resumed = load_checkpoint(file, scene, provenance);
+    advance_looking(whole, 200);
+    advance_looking(resumed.simulation, 200);
+    expect_same_bits(whole, resumed.simulation);
+    EXPECT_EQ(whole.body().tally.shaking, resumed.simulation.body().tally.shaking);
+    EXPECT_NE(whole.body().tally.shaking, 0.0);
+
+    scene.mpm->shaking = scene::Shaking::off;
+    try {
+        load_checkpoint(file, scene, provenance);
+        FAIL() << "half a run on moving ground";
+    } catch (const fault::BadInput& bad) {
+        ASSERT_EQ(bad.faults().size(), 1U);
+        EXPECT_EQ(bad.faults()[0].pointer, "/mpm/shaking");
+        EXPECT_NE(bad.faults()[0].remedy.find("/mpm/shaking=on"), std::string::npos);
+    }
+    Simulation still = fresh(scene);
+    advance_looking(still, 10);
+    save_checkpoint(file, still, 1, provenance);
+    scene.mpm->shaking = scene::Shaking::goes_on;
+    EXPECT_THROW(load_checkpoint(file, scene, provenance), fault::BadInput);
+    std::filesystem::remove(file);
+}
+
+TEST(ShakenRun, IsNotAtRestBeforeTheGroundIs) {
+    scene::Scene scene = heap();
+    scene.materials[0].law = elastic(5e6, 0.3);
+    scene.mpm->rest.earliest = 0.1;
+    scene.mpm->rest.window = 0.1;
+    const Simulation shaken = fresh_and_shaken(scene);
+    EXPECT_DOUBLE_EQ(shaken.rest().earliest, shaking_ground().end());
+    EXPECT_DOUBLE_EQ(fresh(scene).rest().earliest, 0.1);
+}
+
+TEST(ShakenRun, StandsOnTheGroundWithTheMomentumThatItHad) {
+    const scene::Scene scene = heap();
+    exchange::ParticleState state = fill_section(scene).state;
+    for (std::size_t p = 0; p < state.size(); ++p)
+        state.velocity[p] = {0.5 + 0.01 * static_cast<double>(p % 7), -0.25};
+    const auto momentum = [&] {
+        mechanics::Vec2 sum = mechanics::Vec2::Zero();
+        for (std::size_t p = 0; p < state.size(); ++p) sum += state.mass[p] * state.velocity[p];
+        return sum;
+    };
+    double mass = 0.0;
+    for (const double m : state.mass) mass += m;
+    const mechanics::Vec2 before = momentum();
+    const double v_ground = shaking_ground().velocity(0.0);
+    ASSERT_GT(std::abs(v_ground), 0.1);
+    stand_on_ground(shaking_ground(), state);
+    const mechanics::Vec2 after = momentum();
+    EXPECT_NEAR(after.x() + mass * v_ground, before.x(), 1e-12 * before.norm());
+    EXPECT_EQ(after.y(), before.y());
+}
+
+// Ground that does not move, moves nothing: not a bit.
+TEST(ShakenRun, OnGroundAtRestHasTheBitsOfARunWithout) {
+    const scene::Scene scene = heap();
+    Simulation without = fresh(scene);
+    Simulation with(scene, filled_body(scene), 0.0,
+                    GroundMotion({.time_step = 0.1, .velocity = {0.2, 0.2, 0.2}}, 0.0));
+    advance_looking(without, 150);
+    advance_looking(with, 150);
+    expect_same_bits(without, with);
+    EXPECT_EQ(with.body().tally.shaking, 0.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Orders, Resume,
                          testing::Values(scene::UpdateOrder::usl, scene::UpdateOrder::musl,
                                          scene::UpdateOrder::usf));
@@ -128,7 +223,7 @@ class ChangedCheckpoint : public testing::Test {
   protected:
     ChangedCheckpoint() : scene_(heap()) {
         save_checkpoint(file_, fresh(scene_), 0, provenance_);
-        archive_ = exchange::read_archive(file_, "mpm_checkpoint", 6);
+        archive_ = exchange::read_archive(file_, "mpm_checkpoint", 7);
     }
     ~ChangedCheckpoint() override { std::filesystem::remove(file_); }
 

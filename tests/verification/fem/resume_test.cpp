@@ -124,6 +124,8 @@ TEST(Stopped, AShakenWetSceneGoesOnBitForBit) {
     EXPECT_FALSE(end_1.pore_pressure.empty());
     EXPECT_EQ(end_1.pore_pressure, end_2.pore_pressure);
     EXPECT_EQ(end_1.sigma_v0, end_2.sigma_v0);
+    EXPECT_TRUE(end_1.base_motion.any());
+    EXPECT_EQ(end_1.base_motion.velocity, end_2.base_motion.velocity);
     EXPECT_EQ(end_1.quads.size(), 40U) << "columns stay behind";
 }
 

@@ -2,6 +2,7 @@
 // columns, rest, and what is refused.
 #include <fstream>
 
+#include "core/phases/files.hpp"
 #include "tests/verification/fem/wet.hpp"
 
 namespace breach::fem {
@@ -143,6 +144,45 @@ std::filesystem::path pulse(const bench::Folder& folder) {
         out << t << ',' << 0.2 * std::exp(-std::pow((t - 0.4) / 0.08, 2)) << '\n';
     }
     return file;
+}
+
+// Level ground has no dam: the columns alone are the whole of it, and their base is the mesh's. What is left is
+// Newton's tolerance.
+TEST(FreeField, TheColumnsAloneMoveTheBaseOfLevelGroundAsTheMeshDoes) {
+    const bench::Folder folder;
+    json scene = level_ground(1e4, pulse(folder));
+    bench::Run run(scene);
+    const Analysis& a = run.go();
+    const exchange::BaseMotion& ground = a.beginning().base_motion;
+    ASSERT_TRUE(ground.any());
+    const motion::Series velocity{ground.time_step, ground.velocity};
+    double apart = 0.0;
+    for (const Reading& each : a.history()) {
+        apart =
+            std::max(apart, std::abs(each.base_velocity - motion::value_at(velocity, each.time)));
+    }
+    const double peak = motion::peak(velocity);
+    EXPECT_GT(peak, 0.05);
+    expect_error("largest difference over the peak velocity", apart / peak, 1e-7);
+    EXPECT_NEAR(velocity.duration(), std::max(1.0, a.position().time), 1e-9)
+        << "to the end of the earthquake or of the stages";
+    const exchange::MeshSnapshot last =
+        exchange::read_mesh_snapshot(run.folder() / phases::files::snapshot_name(a.position().time))
+            .snapshot;
+    EXPECT_EQ(last.base_motion.velocity, ground.velocity);
+    EXPECT_EQ(last.base_motion.time_step, ground.time_step);
+    EXPECT_TRUE(std::filesystem::exists(run.folder() / "base_motion.csv"));
+}
+
+TEST(FreeField, WithoutColumnsNothingIsKnownOfTheFreeGround) {
+    const bench::Folder folder;
+    json scene = level_ground(1e4, pulse(folder));
+    scene["fem"].erase("free_field");
+    bench::Run run(scene);
+    EXPECT_FALSE(run.go().beginning().base_motion.any());
+    const auto& flags = run.session().flags();
+    EXPECT_TRUE(std::ranges::any_of(
+        flags, [](const fault::Flag& each) { return each.code == "no_base_motion"; }));
 }
 
 // The stress on the body's vertical side pulls the column; the column's inner side, counted once

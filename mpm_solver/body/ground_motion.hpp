@@ -1,0 +1,42 @@
+// How the ground moves beneath the runout, on the runout's clock. The grid moves with it (a moving frame):
+// floor, terrain and walls are at rest there, and the soil feels minus the ground's acceleration.
+#pragma once
+
+#include <vector>
+
+#include "core/exchange/base_motion.hpp"
+
+namespace breach::mpm {
+
+/// Straight lines between the samples of the velocity, so impulses are exact for any time step; before
+/// the first and after the last one the velocity stays, and nothing is felt.
+class GroundMotion {
+  public:
+    /// `base` has samples; `transfer_time` is where the runout's clock starts on theirs [s].
+    GroundMotion(exchange::BaseMotion base, double transfer_time);
+
+    /// Against far rock, at time t of the runout [m/s].
+    double velocity(double t) const;
+    /// Mean acceleration from t to t + dt, the change of velocity over dt [m/s2].
+    double acceleration(double t, double dt) const;
+    /// From time 0 to t of the runout [m].
+    double displacement(double t) const;
+    /// The runout's time at which the last sample lies [s]; not after 0: nothing shakes the runout.
+    double end() const;
+    /// From time 0 of the runout on: largest acceleration between two samples [m/s2] and largest
+    /// change of velocity since time 0 [m/s].
+    double peak_acceleration() const;
+    double largest_swing() const;
+
+    const exchange::BaseMotion& base() const { return base_; }
+    double transfer_time() const { return transfer_time_; }
+
+  private:
+    /// The first sample at or after time 0 of the runout.
+    std::size_t first_sample() const;
+
+    exchange::BaseMotion base_;
+    double transfer_time_;
+};
+
+}  // namespace breach::mpm
