@@ -52,12 +52,12 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds)
     }
 }
 
-const Quadrature& InternalForce::quadrature(std::size_t element) const {
-    return current_.empty() ? model_.reference[element] : current_[element];
+const std::vector<Quadrature>& InternalForce::quadratures() const {
+    return current_.empty() ? model_.reference : current_;
 }
 
-const SspGeometry& InternalForce::hourglass(std::size_t element) const {
-    return hourglass_.empty() ? model_.hourglass[element] : hourglass_[element];
+const std::vector<SspGeometry>& InternalForce::hourglasses() const {
+    return hourglass_.empty() ? model_.hourglass : hourglass_;
 }
 
 Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
@@ -124,12 +124,12 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
                                        Motion& trial) {
     const Zone& zone = model_.zones[z];
     const std::size_t end = (zone.first + zone.count) * points_;
-    const bool turns = !half_angle_.empty();
-    for (std::size_t p = zone.first * points_; p < end; ++p) {
-        if (!turns) {
+    if (half_angle_.empty()) {
+        for (std::size_t p = zone.first * points_; p < end; ++p)
             trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
-            continue;
-        }
+        return Geometry::sound;
+    }
+    for (std::size_t p = zone.first * points_; p < end; ++p) {
         State turned = old.points[p];
         turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
         turned = materials::integrate(law, turned, d_epsilon_[p]).state;
@@ -217,16 +217,24 @@ void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
 /// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
 /// element. H of the end configuration stands for that of the middle, as in the tangent.
 void InternalForce::hourglass_pass(const Motion& old, Motion& trial) const {
-    for (std::size_t e = 0; e < d_q_.size(); ++e) {
-        const Hourglass& before = old.hourglass[e];
-        Hourglass& after = trial.hourglass[e];
-        Matrix2 half = Matrix2::Identity();
-        if (!half_angle_.empty()) half = Eigen::Rotation2Dd(half_angle_[e]).toRotationMatrix();
-        const Vec2 start = half * before.force;
-        const Vec2 end = start + before.c_s * (hourglass(e).H * d_q_[e]);
-        after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
-        after.force = half * end;
-        after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
+    const std::vector<SspGeometry>& geometries = hourglasses();
+    const auto pass = [&](const auto& turned) {
+        for (std::size_t e = 0; e < d_q_.size(); ++e) {
+            const Hourglass& before = old.hourglass[e];
+            Hourglass& after = trial.hourglass[e];
+            const Vec2 start = turned(e, before.force);
+            const Vec2 end = start + before.c_s * (geometries[e].H * d_q_[e]);
+            after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
+            after.force = turned(e, end);
+            after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
+        }
+    };
+    if (half_angle_.empty()) {
+        pass([](std::size_t, const Vec2& force) { return force; });
+    } else {
+        pass([&](std::size_t e, const Vec2& force) -> Vec2 {
+            return Eigen::Rotation2Dd(half_angle_[e]) * force;
+        });
     }
 }
 
@@ -251,15 +259,17 @@ double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Mo
 
 void InternalForce::force_pass(Motion& trial) const {
     trial.force.setZero();
+    const std::vector<Quadrature>& current = quadratures();
+    const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
-        const Quadrature& q = quadrature(e);
+        const Quadrature& q = current[e];
         Dofs8 f = Dofs8::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
             const Voigt& s = trial.points[e * points_ + g].sigma;
             const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
             f.noalias() += q.B[g].transpose() * sigma;
         }
-        if (!d_q_.empty()) f += hourglass_forces(hourglass(e), trial.hourglass[e].force);
+        if (!d_q_.empty()) f += hourglass_forces(geometries[e], trial.hourglass[e].force);
         for (int k = 0; k < 4; ++k) {
             const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
             trial.force.segment<2>(d) += f.segment<2>(2 * k);
@@ -269,8 +279,10 @@ void InternalForce::force_pass(Motion& trial) const {
 
 void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
     const bool symmetric = A.symmetry() == Symmetry::symmetric;
+    const std::vector<Quadrature>& current = quadratures();
+    const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
-        const Quadrature& q = quadrature(e);
+        const Quadrature& q = current[e];
         Stiffness K = Stiffness::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
             const std::size_t p = e * points_ + g;
@@ -291,7 +303,7 @@ void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, Linea
                 }
             }
         }
-        if (!d_q_.empty()) K += hourglass_stiffness(hourglass(e), old.hourglass[e].c_s);
+        if (!d_q_.empty()) K += hourglass_stiffness(geometries[e], old.hourglass[e].c_s);
         A.add_element(e, K);
     }
 }

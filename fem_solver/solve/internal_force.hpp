@@ -56,8 +56,9 @@ class InternalForce {
                                   const Motion& trial) const;
     void force_pass(Motion& trial) const;
     void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
-    const Quadrature& quadrature(std::size_t element) const;
-    const SspGeometry& hourglass(std::size_t element) const;
+    /// Of all elements, as the mesh is now.
+    const std::vector<Quadrature>& quadratures() const;
+    const std::vector<SspGeometry>& hourglasses() const;
 
     const Model& model_;
     const std::size_t points_;  ///< per element

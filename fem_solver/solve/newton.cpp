@@ -169,8 +169,12 @@ void Newton::set_residual(const StepProblem& problem, Motion& trial) {
     trial.v = problem.v_predicted + rule.c_v * (trial.u - problem.u_predicted);
     R_u_ = problem.external - trial.force;
     if (rule.c_a > 0.0) {
-        R_u_.array() -=
-            model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());
+        if (model_.rayleigh.mass > 0.0) {
+            R_u_.array() -=
+                model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());
+        } else {
+            R_u_.array() -= model_.mass.array() * trial.a.array();
+        }
         if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_u_);
         if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();
     }

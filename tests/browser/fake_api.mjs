@@ -27,7 +27,7 @@ export const two_variants = {
 };
 
 export const drawn = {
-    ...study, name: "drawn", title: "Three draws of every runout", draws: 3,
+    ...study, name: "three-draws", title: "Three draws of every runout", draws: 3,
     variants: ["d1", "d2", "d3"].map((name) => ({ name, overrides: [], made_by: "draws" })),
 };
 

@@ -27,5 +27,10 @@ def studies(bases):
             {"name": "a", "overrides": ["/mpm/cfl=0.3"]},
             {"name": "b", "overrides": ["/fem/motion/file=\"/nowhere/record.csv\""]}]), r"record\.csv"),
         ("a trigger of a field that is not there", study(triggers=[{"kind": "criterion", "name": "t", "when": "pore_joy > 1"}]), r"pore_joy"),
+        ("no draws", study(draws=0), r"draws"),
+        ("draws by halves", study(draws=2.5), r"draws"),
+        ("more draws than anyone waits for", study(draws=5000), r"draws"),
+        ("draws of one point per element", study(draws=3, overrides=["/transfer/points_per_direction=1"]), r"/draws[\s\S]*points_per_direction 2"),
+        ("a check of a deterministic number", study(draws=4, check={"quantity": "factor_of_safety", "reference": 1.2}), r"lattice"),
         ("faults of study and scene at once", study(scene=broken, transfer_times=[-1]), r"density[\s\S]*transfer_times|transfer_times[\s\S]*density"),
     ]

@@ -179,6 +179,9 @@ Reference read_reference(const json& entry, std::vector<Fault>& faults) {
 
 // ---------------------------------------------------------------- lattices
 
+constexpr const char* point_shift = "/transfer/point_shift";
+constexpr const char* fill_shift = "/mpm/fill_shift";
+
 /// The k-th place of the R2 sequence (Roberts 2018), which fills the unit square evenly however far
 /// it is taken; the 0-th is the corner.
 std::array<double, 2> place_of_draw(std::size_t draw) {
@@ -197,10 +200,10 @@ std::string override_of(const char* pointer, double a, double b) {
 std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
     if (draw == 0) return {};
     const auto [a, b] = place_of_draw(draw);
-    if (reach == Reach::filled_mpm) return {override_of("/mpm/fill_shift", a, b)};
+    if (reach == Reach::filled_mpm) return {override_of(fill_shift, a, b)};
     constexpr double largest_shift = 0.9;  // that the scene allows, to either side
-    return {override_of("/transfer/point_shift", largest_shift * (2.0 * a - 1.0),
-                        largest_shift * (2.0 * b - 1.0))};
+    return {
+        override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
 }
 
 std::string name_of_draw(const std::string& variant, std::size_t draw) {
@@ -239,6 +242,10 @@ std::vector<phases::Phase> phases_of(Reach reach) {
             return {phases::lem};
     }
     return {phases::fem, phases::transfer, phases::mpm};
+}
+
+bool is_lattice(const std::string& pointer) {
+    return pointer.starts_with(point_shift) || pointer.starts_with(fill_shift);
 }
 
 bool has_lattice(Reach reach) { return reach == Reach::chain || reach == Reach::filled_mpm; }
@@ -301,6 +308,7 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
                                .name_pointer = ladder + "/name",
                                .pointer = ladder + "/steps/" + std::to_string(setting.step),
                                .made_by = "accuracy"};
+            if (d > 0) entry.draws_pointer = "/accuracy/draws";
             for (std::string& each : lattice_of_draw(d, plan.quantity.reach))
                 entry.overrides.push_back(std::move(each));
             entries.push_back(std::move(entry));
@@ -341,6 +349,7 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, Draws d
             const bool unnamed = each.name.empty();
             entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
             if (unnamed || d > 0) entry.made_by = "draws";
+            if (d > 0) entry.draws_pointer = "/draws";
             for (std::string& shift : lattice_of_draw(d, reach))
                 entry.overrides.push_back(std::move(shift));
             entries.push_back(std::move(entry));

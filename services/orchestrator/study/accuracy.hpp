@@ -14,6 +14,9 @@
 
 namespace breach::orchestrator {
 
+/// Whether this entry of a scene moves the lattice of points, as draws do.
+bool is_lattice(const std::string& pointer);
+
 /// How far a study's tasks go: FEM, transfer and MPM; the MPM alone, from the section itself; the
 /// FEM alone; lem_tool alone.
 enum class Reach { chain, filled_mpm, fem, lem };
@@ -67,9 +70,10 @@ struct BlindCheckPlan {
 struct VariantEntry {
     std::string name;
     std::vector<std::string> overrides;
-    std::string name_pointer;  ///< of the study's entry that its name comes from
-    std::string pointer;       ///< of the entry that its overrides come from
-    std::string made_by;       ///< "draws", "accuracy"; empty: it is the study's own
+    std::string name_pointer;        ///< of the study's entry that its name comes from
+    std::string pointer;             ///< of the entry that its overrides come from
+    std::string made_by;             ///< "draws", "accuracy"; empty: it is the study's own
+    std::string draws_pointer = {};  ///< of the entry that its lattice comes from; empty: unmoved
 };
 
 /// A rung of a ladder and the variants that give its value. Rungs that come to the same scene, as

@@ -275,8 +275,16 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
         std::vector<std::string> overrides = base.overrides;
         overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
         const check::Checked changed = checked_scene(base.scene, overrides);
-        for (const Fault& each : faults_of_variant(changed, base, times))
-            faults.push_back({entry.pointer, each.pointer + ": " + each.cause, each.remedy});
+        for (const Fault& each : faults_of_variant(changed, base, times)) {
+            const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
+            const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
+                              each.pointer + ": " + each.cause,
+                              each.remedy + (of_lattice ? "; or ask for no draws" : "")};
+            const bool told = std::ranges::any_of(faults, [&](const Fault& other) {
+                return of_lattice && other.pointer == fault.pointer && other.cause == fault.cause;
+            });
+            if (!told) faults.push_back(fault);
+        }
         if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
         variants.push_back(std::move(variant));
     }

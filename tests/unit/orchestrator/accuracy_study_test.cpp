@@ -261,12 +261,29 @@ TEST(Draws, BeginWithAnyNumber) {
     EXPECT_EQ(read_study(study.dump()).variants.at(0).name, "d5");
 }
 
-TEST(Draws, OfAScanThatIsTooLargeOrNoNumberAreRefused) {
+TEST(Draws, OfATooLargeNumberOrNoWholeOneAreRefused) {
     json study = study_with({});
     study.erase("accuracy");
     for (const json& wrong : {json(0), json(2.5), json(-1), json(201), json("3")}) {
         study["draws"] = wrong;
         EXPECT_FALSE(refusal(study, "/draws").remedy.empty()) << wrong;
+    }
+}
+
+TEST(Draws, NeedALatticeThatCanBeMoved) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study["draws"] = 5;
+    study["scene"]["transfer"]["points_per_direction"] = 1;
+    const fault::Fault told = refusal(study, "/draws");
+    EXPECT_NE(told.cause.find("/transfer/point_shift"), std::string::npos) << told.cause;
+    EXPECT_NE(told.remedy.find("points_per_direction 2 or more"), std::string::npos) << told.remedy;
+    EXPECT_NE(told.remedy.find("ask for no draws"), std::string::npos) << told.remedy;
+    try {
+        read_study(study.dump());
+        FAIL() << "it is accepted";
+    } catch (const fault::BadInput& error) {
+        EXPECT_EQ(error.faults().size(), 1u) << "not once for each draw";
     }
 }
 

@@ -179,7 +179,7 @@ TEST(Methods, SpencerSaysWhyItHasNoAnswer) {
 TEST(Methods, SpencerHasTheMomentsFactorOrAReasonWithoutFriction) {
     int answered = 0;
     for (const double run : {5.0, 20.0}) {
-        for (const double x : {52.0, 60.0, 68.0}) {
+        for (const double x : {58.0, 63.0, 68.0}) {
             for (const double y : {12.0, 20.0, 32.0}) {
                 for (const double bottom : {-25.0, -8.0, -1.0}) {
                     const json all = facts(bank(run, x, y, y - bottom, json::object()));
