@@ -83,8 +83,12 @@ double critical_void_ratio(const Ready& law, double p);
 double critical_slope(const Ready& law, double p);
 /// Mean stress of the critical state line at the void ratio e [Pa].
 double critical_pressure(const Ready& law, double e);
-/// Least chi lambda / M_tc that is singular is 1; parameters are accepted below this.
+/// Largest lambda chi_tc / M_tc that is believed; at 1 the image state is singular.
 inline constexpr double most_chi_lambda = 0.9;
+/// Lode angle [rad] of the critical state in plane strain and simple shear (section 6).
+double plane_critical_angle(const Ready& law);
+/// M at a Lode angle [rad].
+double critical_ratio(const Ready& law, double theta);
 
 /// What a stress state was like that a point of the law was to be made of.
 struct Beginning {

@@ -1,6 +1,7 @@
 // What follows from the parameters, the beginning of a point, and what can be read off it.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/materials/norsand/image.hpp"
 
@@ -30,6 +31,30 @@ double critical_pressure(const Ready& law, double e) {
     if (par.semi_log) return kPa * std::exp((par.semi_log->Gamma - e) / par.semi_log->lambda);
     const CurvedLine& line = *par.curved;
     return e < line.C_a ? line.p_ref * std::pow((line.C_a - e) / line.C_b, 1.0 / line.C_c) : 0.0;
+}
+
+double critical_ratio(const Ready& law, double theta) {
+    return law.parameters.M_tc - law.M_fall * std::cos(1.5 * theta + std::numbers::pi / 4.0);
+}
+
+double plane_critical_angle(const Ready& law) {
+    switch (law.parameters.flow) {
+        case FlowRule::js:
+            // z_3 = -1 between -1/2 and -2: cos(3 theta / 2 + 45 deg) = 1/3.
+            return (std::acos(1.0 / 3.0) - std::numbers::pi / 4.0) / 1.5;
+        case FlowRule::radial:
+            return 0.0;
+        case FlowRule::normal:
+            break;
+    }
+    // tan theta = M' / M, which falls from a positive to a negative difference.
+    double low = 0.0, high = std::numbers::pi / 6.0;
+    for (int round = 0; round < 60; ++round) {
+        const double theta = 0.5 * (low + high);
+        const double slope = 1.5 * law.M_fall * std::sin(1.5 * theta + std::numbers::pi / 4.0);
+        (slope > std::tan(theta) * critical_ratio(law, theta) ? low : high) = theta;
+    }
+    return low;
 }
 
 Counts& Counts::operator+=(const Counts& other) {
