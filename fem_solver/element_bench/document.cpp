@@ -11,6 +11,7 @@
 
 namespace breach::element_bench {
 
+namespace norsand = materials::norsand;
 namespace pm4sand = materials::pm4sand;
 using fault::Fault;
 using nlohmann::json;
@@ -31,6 +32,8 @@ void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& fa
 TestLaw law_of(const json& law) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_of(law);
+    if (type == "norsand")
+        return NorSandLaw{scene::norsand_parameters(law), scene::norsand_options(law)};
     const mechanics::Elasticity elasticity{1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
     if (type == "linear_elastic") return PlainLaw{materials::LinearElastic{elasticity}};
     const double c = 1e3 * law.at("c_kPa").get<double>();
@@ -52,13 +55,16 @@ std::vector<double> scaled(const json& numbers, double unit) {
 
 Pace pace_of(const json& test) { return {.step = test.at("step"), .every = test.at("every")}; }
 
-TestPlan plan_of(const std::string& name, const json& test) {
+TestPlan plan_of(const std::string& name, const json& test, const json& law) {
     TestPlan plan{name,
                   {.boundary = words::word_at<Boundary>(test, "boundary"),
                    .sigma_v = scaled(test.at("sigma_v_kPa"), 1e3),
                    .K0 = test.at("K0"),
-                   .static_shear = test.value("static_shear", 0.0)},
+                   .static_shear = test.value("static_shear", 0.0),
+                   .norsand = {}},
                   {}};
+    if (law.at("type") == "norsand")
+        plan.consolidation.norsand = {scene::norsand_start(test, law), test.at("S")};
     const std::string type = test.at("type");
     if (type == "monotonic") {
         plan.kind = MonotonicTest{test.at("strain"), pace_of(test)};
@@ -75,6 +81,159 @@ TestPlan plan_of(const std::string& name, const json& test) {
                                          test.at("steps")};
     }
     return plan;
+}
+
+/// Stress at the end of consolidation; the static shear acts before the test. zz as elastic.
+Voigt initial_stress(const Consolidation& at, double sigma_v) {
+    const double sigma_h = at.K0 * sigma_v;
+    return {-sigma_h, -sigma_v, -sigma_h, at.static_shear * sigma_v};
+}
+
+norsand::Ready ready_for(const NorSandLaw& law, const Consolidation& consolidation) {
+    norsand::Parameters parameters = law.parameters;
+    parameters.S = consolidation.norsand->S;
+    return norsand::ready(parameters);
+}
+
+double mean_stress(const Consolidation& at, double sigma_v) {
+    return (1.0 + 2.0 * at.K0) / 3.0 * sigma_v;
+}
+
+norsand::Beginning begin(const norsand::Ready& law, const Consolidation& at, double sigma_v) {
+    const scene::NorSandStart& start = at.norsand->start;
+    const double p = mean_stress(at, sigma_v);
+    const double e_0 = start.e_0 ? *start.e_0
+                                 : *start.psi_0 + norsand::critical_void_ratio(law, p);
+    return norsand::initialise(law, initial_stress(at, sigma_v), e_0, start.R);
+}
+
+void add_name(std::string& names, const std::string& name) {
+    if (names.ends_with(name)) return;
+    names += (names.empty() ? "" : ", ") + name;
+}
+
+std::string three_digits(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+/// A test's confinement that the law of a point cannot begin with.
+void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sigma_v,
+                     const std::string& stress_pointer, std::vector<Fault>& faults) {
+    const Consolidation& at = plan.consolidation;
+    const norsand::Parameters& par = law.parameters;
+    const std::string pointer = "/tests/" + plan.name;
+    const double p = mean_stress(at, sigma_v);
+    if (p < par.p_min) {
+        faults.push_back({stress_pointer,
+                          "is a mean stress of " + three_digits(p / 1e3) + " kPa, below p_min of " +
+                              three_digits(par.p_min / 1e3) + " kPa",
+                          "raise it or lower /law/p_min_kPa"});
+        return;
+    }
+    const double slope = norsand::critical_slope(law, p);
+    if (slope * par.chi_tc >= norsand::most_chi_lambda * par.M_tc) {
+        faults.push_back({stress_pointer,
+                          "lies where the critical state line is so steep that lambda chi_tc / M_tc is " +
+                              three_digits(slope * par.chi_tc / par.M_tc),
+                          "keep it below " + three_digits(norsand::most_chi_lambda)});
+        return;
+    }
+    const norsand::Beginning begun = begin(law, at, sigma_v);
+    if (!(begun.state.e > 0.0)) {
+        faults.push_back({pointer + "/psi_0",
+                          "makes the void ratio " + three_digits(begun.state.e) + " at " +
+                              three_digits(p / 1e3) + " kPa",
+                          "raise psi_0 (or e_0)"});
+        return;
+    }
+    if (begun.eta_limit <= 0.0) {
+        const double most = par.M_tc / (begun.state.chi_i * (1.0 + par.N)) + slope;
+        faults.push_back({pointer + "/psi_0",
+                          "is " +
+                              three_digits(begun.state.e - norsand::critical_void_ratio(law, p)) +
+                              " at " + three_digits(p / 1e3) +
+                              " kPa: so loose that the law has no stress ratio that stands",
+                          "give a state parameter below " + three_digits(most) +
+                              ", or check chi_tc and the critical state line"});
+        return;
+    }
+    if (!begun.shrunk) return;
+    const double limit = begun.eta_limit;
+    const double K0 = at.K0 < 1.0 ? (3.0 - limit) / (3.0 + 2.0 * limit)
+                                  : (3.0 + limit) / (3.0 - 2.0 * limit);
+    const bool sheared = at.static_shear > 0.0;
+    faults.push_back({pointer + (sheared ? "/static_shear" : "/K0"),
+                      "makes q/p " + three_digits(begun.eta) + ", outside the yield surface: at most " +
+                          three_digits(limit) + " stands there",
+                      sheared ? "lower the static shear or the difference of stresses"
+                              : (at.K0 < 1.0 ? "give K0 above " : "give K0 below ") +
+                                    three_digits(K0)});
+}
+
+/// What the tests of NorSand say against the law and themselves.
+void check_norsand_tests(json& document, std::vector<Fault>& faults) {
+    json& law = document.at("law");
+    for (Fault& each : scene::check_norsand(law, "/law")) faults.push_back(each);
+    if (law.contains("psi_0") && law.contains("e_0")) {
+        faults.push_back({"/law/e_0", "stands beside psi_0", "give one of the two"});
+    }
+    if (!document.contains("tests") || !faults.empty()) return;
+    for (auto& [name, test] : document.at("tests").items()) {
+        const std::string pointer = "/tests/" + name;
+        if (test.at("type") != "monotonic") {
+            faults.push_back({pointer + "/type", "is cyclic, and NorSand is for monotonic loading",
+                              "use \"monotonic\", or PM4Sand"});
+            continue;
+        }
+        if (test.contains("psi_0") && test.contains("e_0")) {
+            faults.push_back({pointer + "/e_0", "stands beside psi_0", "give one of the two"});
+        }
+        const bool begins = test.contains("psi_0") || test.contains("e_0") ||
+                            law.contains("psi_0") || law.contains("e_0");
+        if (!begins) {
+            faults.push_back({pointer + "/psi_0", "is missing: NorSand must know how loose it is",
+                              "give psi_0 or e_0 here or in /law"});
+        }
+        if (!test.contains("S")) {
+            const bool drained = is_drained(words::word_at<Boundary>(test, "boundary"));
+            test["S"] = drained ? json(0.0) : law.at("S");
+        }
+    }
+    if (!faults.empty()) return;
+    const NorSandLaw read{scene::norsand_parameters(law), scene::norsand_options(law)};
+    for (const auto& [name, test] : document.at("tests").items()) {
+        const TestPlan plan = plan_of(name, test, law);
+        const norsand::Ready ready = ready_for(read, plan.consolidation);
+        for (std::size_t i = 0; i < plan.consolidation.sigma_v.size(); ++i) {
+            check_beginning(ready, plan, plan.consolidation.sigma_v[i],
+                            "/tests/" + name + "/sigma_v_kPa/" + std::to_string(i), faults);
+        }
+    }
+}
+
+/// What a test asks of a law that does not have it.
+void check_tests(const json& document, std::vector<Fault>& faults) {
+    if (!document.contains("tests")) return;
+    const std::string law = document.at("law").at("type");
+    for (const auto& [name, test] : document.at("tests").items()) {
+        const std::string pointer = "/tests/" + name;
+        for (const char* key : {"psi_0", "e_0", "R", "S"}) {
+            if (law == "norsand" || !test.contains(key)) continue;
+            faults.push_back({pointer + "/" + key, "is an entry of NorSand alone",
+                              "leave it out, or set /law/type to \"norsand\""});
+        }
+        if (!is_triaxial(words::word_at<Boundary>(test, "boundary"))) continue;
+        if (law == "pm4sand") {
+            faults.push_back({pointer + "/boundary", "is triaxial, and PM4Sand knows plane strain alone",
+                              "use a shear or biaxial boundary, or another law"});
+        }
+        if (test.value("static_shear", 0.0) != 0.0) {
+            faults.push_back({pointer + "/static_shear", "has no place in a triaxial test",
+                              "leave it out, or use a shear boundary"});
+        }
+    }
 }
 
 CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
@@ -146,6 +305,8 @@ scene::Scene read_document(const std::filesystem::path& file,
         complete_sand(document.at("calibration").at("reference"), "/calibration/reference", faults);
     }
     check_calibration(document, faults);
+    check_tests(document, faults);
+    if (document.at("law").at("type") == "norsand") check_norsand_tests(document, faults);
     if (!faults.empty()) throw fault::BadInput(file.string(), faults);
     scene::Scene scene{};
     scene.name = document.at("name");
@@ -159,7 +320,7 @@ Bench bench_of(const scene::Scene& scene) {
     Bench bench{law_of(document.at("law")), {}, std::nullopt};
     if (document.contains("tests")) {
         for (const auto& [name, test] : document.at("tests").items()) {
-            bench.tests.push_back(plan_of(name, test));
+            bench.tests.push_back(plan_of(name, test, document.at("law")));
         }
     }
     if (document.contains("calibration")) {
@@ -168,13 +329,60 @@ Bench bench_of(const scene::Scene& scene) {
     return bench;
 }
 
-Specimen consolidated(const TestLaw& law, const Voigt& sigma) {
+Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, double sigma_v) {
+    const Voigt sigma = initial_stress(consolidation, sigma_v);
     if (const auto* plain = std::get_if<PlainLaw>(&law)) {
         return {PlainPoint{*plain, {sigma, 0.0}}};
+    }
+    if (const auto* loose = std::get_if<NorSandLaw>(&law)) {
+        const norsand::Ready ready = ready_for(*loose, consolidation);
+        return {NorSandPoint{ready, loose->options, begin(ready, consolidation, sigma_v).state}};
     }
     const auto& sand = std::get<SandLaw>(law);
     const pm4sand::Ready ready = pm4sand::ready(sand.parameters);
     return {SandPoint{ready, sand.options, pm4sand::initialise(ready, sigma)}};
+}
+
+std::vector<fault::Flag> doubts_of(const Bench& bench) {
+    std::vector<fault::Flag> flags;
+    const auto* law = std::get_if<NorSandLaw>(&bench.law);
+    if (!law) return flags;
+    std::string drained, held, clipped;
+    for (const TestPlan& plan : bench.tests) {
+        const Consolidation& at = plan.consolidation;
+        const norsand::Ready ready = ready_for(*law, at);
+        if (is_drained(at.boundary) && at.norsand->S > 0.0) add_name(drained, plan.name);
+        for (const double sigma_v : at.sigma_v) {
+            const norsand::Beginning begun = begin(ready, at, sigma_v);
+            if (begun.clipped) add_name(clipped, plan.name);
+            const double p_c = norsand::critical_pressure(ready, begun.state.e);
+            if (!is_drained(at.boundary) && p_c < 2.0 * ready.parameters.p_min)
+                add_name(held, plan.name);
+        }
+    }
+    using fault::Severity;
+    if (!drained.empty()) {
+        flags.push_back({"drained_softening", Severity::questionable,
+                         "S > 0 in the drained tests " + drained +
+                             ": it softens loose and hardens dense soil without reason there; set "
+                             "their S to 0",
+                         "/tests"});
+    }
+    if (!held.empty()) {
+        flags.push_back({"strength_of_floor", Severity::warning,
+                         "in " + held +
+                             " the critical state lies below twice p_min: the residual strength is "
+                             "that of /law/p_min_kPa, not the soil's",
+                         "/law/p_min_kPa"});
+    }
+    if (!clipped.empty()) {
+        flags.push_back({"clipped_overconsolidation", Severity::warning,
+                         "in " + clipped +
+                             " R asks for a surface beyond the limiting hardness; it was taken as "
+                             "large as that",
+                         "/tests"});
+    }
+    return flags;
 }
 
 }  // namespace breach::element_bench

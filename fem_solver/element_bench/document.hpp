@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/fault/flag.hpp"
+#include "core/scene/norsand.hpp"
 #include "core/scene/scene.hpp"
 #include "fem_solver/element_bench/calibration.hpp"
 
@@ -19,7 +21,17 @@ struct SandLaw {
     SandParameters parameters;
     materials::pm4sand::Options options;
 };
-using TestLaw = std::variant<PlainLaw, SandLaw>;
+struct NorSandLaw {
+    materials::norsand::Parameters parameters;
+    materials::norsand::Options options;
+};
+using TestLaw = std::variant<PlainLaw, SandLaw, NorSandLaw>;
+
+/// What NorSand needs to know of a test.
+struct NorSandTest {
+    scene::NorSandStart start;
+    double S;  ///< additional softening
+};
 
 /// Consolidation before a test.
 struct Consolidation {
@@ -27,6 +39,7 @@ struct Consolidation {
     std::vector<double> sigma_v;  ///< [Pa]
     double K0;
     double static_shear = 0.0;  ///< tau over sigma_v
+    std::optional<NorSandTest> norsand;
 };
 
 struct MonotonicTest {
@@ -69,7 +82,10 @@ scene::Scene read_document(const std::filesystem::path& file,
 /// The structs of a completed document. Throws BadInput where entries contradict each other.
 Bench bench_of(const scene::Scene& scene);
 
-/// A specimen of the law at an effective stress sigma [Pa, tension positive].
-Specimen consolidated(const TestLaw& law, const Voigt& sigma);
+/// A specimen of the law consolidated to sigma_v [Pa].
+Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, double sigma_v);
+
+/// What is possible and doubtful in the tests: flags of the result.
+std::vector<fault::Flag> doubts_of(const Bench& bench);
 
 }  // namespace breach::element_bench

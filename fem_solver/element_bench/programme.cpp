@@ -8,14 +8,6 @@ namespace breach::element_bench {
 
 namespace {
 
-bool shears(Boundary boundary) {
-    return boundary == Boundary::undrained_shear || boundary == Boundary::drained_shear;
-}
-
-double driven_strain(const Specimen& specimen, Boundary boundary) {
-    return shears(boundary) ? specimen.gamma : specimen.epsilon_yy;
-}
-
 /// A running test: the specimen, its boundary and its record.
 class Test {
   public:
@@ -25,6 +17,7 @@ class Test {
           held_(held_stress(start, boundary)),
           sigma_yy_0_(-stress(start)[1]) {
         record_.last = start;
+        record_.peak = answer();
         read(0.0);
     }
 
@@ -49,6 +42,10 @@ class Test {
         }
         record_.last = trial.specimen;
         ++accepted_;
+        if (answer() > record_.peak) {
+            record_.peak = answer();
+            record_.peak_strain = strain();
+        }
         return true;
     }
     bool advance(double d) { return accept(attempt(d)); }
@@ -60,10 +57,15 @@ class Test {
                                     .response = answer(),
                                     .sigma_xx = -sigma[0],
                                     .sigma_yy = -sigma[1],
+                                    .sigma_zz = -sigma[2],
                                     .tau = sigma[3],
                                     .epsilon_v = record_.last.epsilon_v,
                                     .r_u = r_u(),
-                                    .cycles = cycles});
+                                    .cycles = cycles,
+                                    .norsand = {}});
+        if (const NorSandPoint* point = norsand_in(record_.last)) {
+            record_.readings.back().norsand = point->state;
+        }
     }
     Record finish(double cycles) {
         if (!due()) read(cycles);

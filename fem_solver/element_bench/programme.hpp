@@ -2,6 +2,7 @@
 // strength (CRR curves), modulus reduction and damping. Pure functions from a specimen to a record.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,18 +14,21 @@ namespace breach::element_bench {
 struct Reading {
     double strain;    ///< the driven strain: gamma, or epsilon_yy
     double response;  ///< tau, or half the stress difference
-    double sigma_xx, sigma_yy, tau;
+    double sigma_xx, sigma_yy, sigma_zz, tau;
     double epsilon_v;  ///< compression positive
     double r_u;        ///< 1 - sigma_yy / sigma_yy at the start; excess pore pressure ratio
     double cycles;     ///< cycle count, 0 in monotonic tests
+    std::optional<materials::norsand::State> norsand;  ///< what a point of NorSand remembers
 };
 
 struct Record {
     std::vector<Reading> readings;
+    double peak = 0.0;         ///< largest response of all calls [Pa]
+    double peak_strain = 0.0;  ///< the driven strain there
     Specimen last;
     Ending outcome = Ending::done;
     long calls = 0;
-    materials::pm4sand::Counts counts;
+    Counts counts;
 };
 
 /// How strain goes on and how much of it is written down.

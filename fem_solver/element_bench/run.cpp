@@ -11,6 +11,7 @@
 
 namespace breach::element_bench {
 
+namespace norsand = materials::norsand;
 using nlohmann::json;
 using process::Outcome;
 using process::PlanLine;
@@ -21,10 +22,13 @@ namespace {
 
 constexpr int archive_version = 1;
 
-/// Stress at the end of consolidation; the static shear acts before the test. zz as elastic.
-Voigt initial_stress(const Consolidation& at, double sigma_v) {
-    const double sigma_h = at.K0 * sigma_v;
-    return {-sigma_h, -sigma_v, -sigma_h, at.static_shear * sigma_v};
+json numbers_of(const materials::norsand::Counts& counts, long calls) {
+    return {{"calls", calls},
+            {"evaluations", counts.evaluations},
+            {"sub_steps", counts.sub_steps},
+            {"rejected", counts.rejected},
+            {"guarded", counts.guarded},
+            {"floored", counts.floored}};
 }
 
 json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
@@ -36,6 +40,11 @@ json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
             {"projected", counts.projected},
             {"softened", counts.softened},
             {"stalled", counts.stalled}};
+}
+
+json cost_of(const Record& record) {
+    if (norsand_in(record.last)) return numbers_of(record.counts.norsand, record.calls);
+    return numbers_of(record.counts.sand, record.calls);
 }
 
 exchange::Archive empty_archive() {
@@ -62,6 +71,60 @@ std::string label(const std::string& test, double sigma_v, const char* what = ""
     return test + text;
 }
 
+/// What a point of NorSand was like at each reading.
+void store_memory(Results& results, const std::string& curve, const Record& record) {
+    const NorSandPoint* point = norsand_in(record.last);
+    if (!point) return;
+    const auto add = [&](const char* column, const char* unit, auto of) {
+        std::vector<double> values;
+        for (const Reading& each : record.readings) {
+            values.push_back(of(*each.norsand, norsand::read(point->law, *each.norsand)));
+        }
+        const std::string name = curve + "." + column;
+        results.curves.reals[name] = std::move(values);
+        results.curves.units[name] = unit;
+    };
+    using norsand::State;
+    using Seen = norsand::Reading;
+    add("p", "Pa", [](const State&, const Seen& seen) { return seen.p; });
+    add("q", "Pa", [](const State&, const Seen& seen) { return seen.q; });
+    add("theta", "rad", [](const State&, const Seen& seen) { return seen.theta; });
+    add("e", "1", [](const State& state, const Seen&) { return state.e; });
+    add("psi", "1", [](const State&, const Seen& seen) { return seen.psi; });
+    add("psi_i", "1", [](const State&, const Seen& seen) { return seen.psi_i; });
+    add("p_i", "Pa", [](const State& state, const Seen&) { return state.p_i; });
+    add("p_mx", "Pa", [](const State&, const Seen& seen) { return seen.p_mx; });
+    add("M_i", "1", [](const State&, const Seen& seen) { return seen.M_i; });
+    add("eta_L", "1", [](const State&, const Seen& seen) { return seen.eta_L; });
+    add("D", "1", [](const State&, const Seen& seen) { return seen.D; });
+    add("epsilon_q", "1", [](const State& state, const Seen&) { return state.epsilon_q; });
+}
+
+/// Response at the critical state that constant volume leads to, in closed form [Pa].
+double critical_response(const NorSandPoint& point, Boundary boundary) {
+    const norsand::Ready& law = point.law;
+    const double p_c = norsand::critical_pressure(law, point.state.e);
+    if (boundary == Boundary::undrained_compression) return 0.5 * law.parameters.M_tc * p_c;
+    if (boundary == Boundary::undrained_extension) return 0.5 * law.M_te * p_c;
+    const double theta = norsand::plane_critical_angle(law);
+    return norsand::critical_ratio(law, theta) * std::cos(theta) / std::sqrt(3.0) * p_c;
+}
+
+/// Numbers of a monotonic test that only NorSand has.
+void add_memory(const Record& record, Boundary boundary, json& row) {
+    const NorSandPoint* point = norsand_in(record.last);
+    if (!point) return;
+    const norsand::Reading last = norsand::read(point->law, point->state);
+    row["p_kPa"] = last.p / 1e3;
+    row["q_kPa"] = last.q / 1e3;
+    row["e"] = point->state.e;
+    row["psi"] = last.psi;
+    row["S"] = point->law.parameters.S;
+    if (!is_drained(boundary)) {
+        row["critical_response_kPa"] = critical_response(*point, boundary) / 1e3;
+    }
+}
+
 void store(Results& results, const std::string& curve, const Record& record) {
     const struct {
         const char* name;
@@ -71,6 +134,7 @@ void store(Results& results, const std::string& curve, const Record& record) {
                    {"response", &Reading::response, "Pa"},
                    {"sigma_xx", &Reading::sigma_xx, "Pa"},
                    {"sigma_yy", &Reading::sigma_yy, "Pa"},
+                   {"sigma_zz", &Reading::sigma_zz, "Pa"},
                    {"tau", &Reading::tau, "Pa"},
                    {"epsilon_v", &Reading::epsilon_v, "1"},
                    {"r_u", &Reading::r_u, "1"},
@@ -82,6 +146,7 @@ void store(Results& results, const std::string& curve, const Record& record) {
         results.curves.reals[name] = std::move(values);
         results.curves.units[name] = column.unit;
     }
+    store_memory(results, curve, record);
 }
 
 /// Number or null: a limit that was not reached has no number of cycles.
@@ -91,13 +156,17 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
               const MonotonicTest& test, Results& results) {
     const Record record = monotonic(specimen, plan.consolidation.boundary, test.strain, test.pace);
     const Reading& last = record.readings.back();
-    results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
-                                          {"strain", last.strain},
-                                          {"response_kPa", last.response / 1e3},
-                                          {"r_u", last.r_u},
-                                          {"epsilon_v", last.epsilon_v},
-                                          {"complete", record.outcome == Ending::done},
-                                          {"cost", numbers_of(record.counts, record.calls)}});
+    json row{{"sigma_v_kPa", sigma_v / 1e3},
+             {"strain", last.strain},
+             {"response_kPa", last.response / 1e3},
+             {"peak_kPa", record.peak / 1e3},
+             {"peak_strain", record.peak_strain},
+             {"r_u", last.r_u},
+             {"epsilon_v", last.epsilon_v},
+             {"complete", record.outcome == Ending::done},
+             {"cost", cost_of(record)}};
+    add_memory(record, plan.consolidation.boundary, row);
+    results.numbers[plan.name].push_back(std::move(row));
     store(results, label(plan.name, sigma_v), record);
 }
 
@@ -116,7 +185,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
              {"N_r_u_0.95", reached(result.N_r_u)},
              {"largest_r_u", result.largest_r_u},
              {"complete", result.record.outcome == Ending::done},
-             {"cost", numbers_of(result.record.counts, result.record.calls)}});
+             {"cost", cost_of(result.record)}});
         store(results, label(plan.name, sigma_v, "csr", CSR), result.record);
     }
 }
@@ -131,7 +200,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
                                           {"r_u", last.r_u},
                                           {"epsilon_v", last.epsilon_v},
                                           {"complete", record.outcome == Ending::done},
-                                          {"cost", numbers_of(record.counts, record.calls)}});
+                                          {"cost", cost_of(record)}});
     store(results, label(plan.name, sigma_v), record);
 }
 
@@ -158,6 +227,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
 
 Outcome run_tests(Session& session) {
     const Bench bench = bench_of(session.scene());
+    for (fault::Flag& each : doubts_of(bench)) session.flag(std::move(each));
     Results results;
     double done = 0.0;
     for (const TestPlan& plan : bench.tests) {
@@ -165,8 +235,7 @@ Outcome run_tests(Session& session) {
         results.numbers[plan.name] = json::array();
         for (const double sigma_v : plan.consolidation.sigma_v) {
             if (session.stop_requested()) return Outcome::stopped;
-            const Specimen specimen =
-                consolidated(bench.law, initial_stress(plan.consolidation, sigma_v));
+            const Specimen specimen = consolidated(bench.law, plan.consolidation, sigma_v);
             std::visit([&](const auto& test) { run_test(specimen, plan, sigma_v, test, results); },
                        plan.kind);
         }

@@ -6,25 +6,24 @@
 
 namespace breach::element_bench {
 
+namespace norsand = materials::norsand;
 namespace pm4sand = materials::pm4sand;
-
-Voigt stress(const Specimen& specimen) {
-    if (const auto* plain = std::get_if<PlainPoint>(&specimen.point)) return plain->state.sigma;
-    const auto& sand = std::get<SandPoint>(specimen.point);
-    return pm4sand::stress(sand.law, sand.state);
-}
-
-double shear_modulus(const Specimen& specimen) {
-    if (const auto* plain = std::get_if<PlainPoint>(&specimen.point)) {
-        return std::visit([](const auto& law) { return law.elasticity.shear_modulus(); },
-                          plain->law);
-    }
-    return std::get<SandPoint>(specimen.point).state.G;
-}
 
 namespace {
 
-Ending strain_point(PlainPoint& point, const Voigt& d, pm4sand::Counts&) {
+Voigt stress_of(const PlainPoint& point) { return point.state.sigma; }
+Voigt stress_of(const SandPoint& point) { return pm4sand::stress(point.law, point.state); }
+Voigt stress_of(const NorSandPoint& point) { return norsand::stress(point.state); }
+
+double shear_modulus_of(const PlainPoint& point) {
+    return std::visit([](const auto& law) { return law.elasticity.shear_modulus(); }, point.law);
+}
+double shear_modulus_of(const SandPoint& point) { return point.state.G; }
+double shear_modulus_of(const NorSandPoint& point) {
+    return norsand::read(point.law, point.state).G;
+}
+
+Ending strain_point(PlainPoint& point, const Voigt& d, Counts&) {
     if (!d.allFinite()) return Ending::failed;
     point.state =
         std::visit([&](const auto& law) { return materials::integrate(law, point.state, d).state; },
@@ -32,11 +31,32 @@ Ending strain_point(PlainPoint& point, const Voigt& d, pm4sand::Counts&) {
     return Ending::done;
 }
 
-Ending strain_point(SandPoint& point, const Voigt& d, pm4sand::Counts& counts) {
+Ending strain_point(SandPoint& point, const Voigt& d, Counts& counts) {
     const auto update = pm4sand::integrate(point.law, point.state, d, point.options);
-    counts = update.counts;
+    counts.sand = update.counts;
     point.state = update.state;
     return update.outcome == pm4sand::Outcome::done ? Ending::done : Ending::failed;
+}
+
+/// A step that the law asks to cut is cut in halves, and these again.
+Ending strain_in_parts(NorSandPoint& point, const Voigt& d, int cuts_left,
+                       norsand::Counts& counts) {
+    const auto update = norsand::integrate(point.law, point.state, d, point.options);
+    counts += update.counts;
+    point.state = update.state;
+    if (update.outcome == norsand::Outcome::done) return Ending::done;
+    if (cuts_left == 0 || !d.allFinite()) return Ending::failed;
+    for (int half = 0; half < 2; ++half) {
+        if (strain_in_parts(point, 0.5 * d, cuts_left - 1, counts) == Ending::failed) {
+            return Ending::failed;
+        }
+    }
+    return Ending::done;
+}
+
+Ending strain_point(NorSandPoint& point, const Voigt& d, Counts& counts) {
+    constexpr int most_cuts = 10;
+    return strain_in_parts(point, d, most_cuts, counts.norsand);
 }
 
 /// Strain increment of a boundary: the driven part and the strain that is free.
@@ -50,18 +70,73 @@ Voigt increment(Boundary boundary, double d, double free) {
             return {d, -d, 0.0, 0.0};
         case Boundary::drained_biaxial:
             return {free, -d, 0.0, 0.0};
+        case Boundary::undrained_compression:
+            return {0.5 * d, -d, 0.5 * d, 0.0};
+        case Boundary::drained_compression:
+            return {free, -d, free, 0.0};
+        case Boundary::undrained_extension:
+            return {-0.5 * d, d, -0.5 * d, 0.0};
+        case Boundary::drained_extension:
+            return {free, d, free, 0.0};
     }
     return Voigt::Zero();
 }
 
 /// Index of the stress that the boundary holds and whose strain is free, or -1.
 int held_component(Boundary boundary) {
-    if (boundary == Boundary::drained_shear) return 1;
-    if (boundary == Boundary::drained_biaxial) return 0;
-    return -1;
+    if (!is_drained(boundary)) return -1;
+    return drives(boundary) == Drives::shear ? 1 : 0;
 }
 
 }  // namespace
+
+Voigt stress(const Specimen& specimen) {
+    return std::visit([](const auto& point) { return stress_of(point); }, specimen.point);
+}
+
+double shear_modulus(const Specimen& specimen) {
+    return std::visit([](const auto& point) { return shear_modulus_of(point); }, specimen.point);
+}
+
+Drives drives(Boundary boundary) {
+    switch (boundary) {
+        case Boundary::undrained_shear:
+        case Boundary::drained_shear:
+            return Drives::shear;
+        case Boundary::undrained_biaxial:
+        case Boundary::drained_biaxial:
+        case Boundary::undrained_compression:
+        case Boundary::drained_compression:
+            return Drives::compression;
+        case Boundary::undrained_extension:
+        case Boundary::drained_extension:
+            return Drives::extension;
+    }
+    return Drives::shear;
+}
+
+bool is_triaxial(Boundary boundary) {
+    return boundary == Boundary::undrained_compression ||
+           boundary == Boundary::drained_compression ||
+           boundary == Boundary::undrained_extension || boundary == Boundary::drained_extension;
+}
+
+bool is_drained(Boundary boundary) {
+    return boundary == Boundary::drained_shear || boundary == Boundary::drained_biaxial ||
+           boundary == Boundary::drained_compression || boundary == Boundary::drained_extension;
+}
+
+double driven_strain(const Specimen& specimen, Boundary boundary) {
+    switch (drives(boundary)) {
+        case Drives::shear:
+            return specimen.gamma;
+        case Drives::compression:
+            return specimen.epsilon_yy;
+        case Drives::extension:
+            return -specimen.epsilon_yy;
+    }
+    return 0.0;
+}
 
 Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
     Trial trial{specimen, Ending::done, {}};
@@ -72,7 +147,7 @@ Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
         trial.specimen = specimen;
         return trial;
     }
-    trial.specimen.epsilon_v -= d_epsilon[0] + d_epsilon[1];
+    trial.specimen.epsilon_v -= d_epsilon[0] + d_epsilon[1] + d_epsilon[2];
     trial.specimen.epsilon_yy -= d_epsilon[1];
     trial.specimen.gamma += d_epsilon[3];
     return trial;
@@ -85,9 +160,15 @@ double held_stress(const Specimen& specimen, Boundary boundary) {
 
 double response(const Specimen& specimen, Boundary boundary) {
     const Voigt sigma = stress(specimen);
-    const bool shears =
-        boundary == Boundary::undrained_shear || boundary == Boundary::drained_shear;
-    return shears ? sigma[3] : 0.5 * (sigma[0] - sigma[1]);
+    switch (drives(boundary)) {
+        case Drives::shear:
+            return sigma[3];
+        case Drives::compression:
+            return 0.5 * (sigma[0] - sigma[1]);
+        case Drives::extension:
+            return 0.5 * (sigma[1] - sigma[0]);
+    }
+    return 0.0;
 }
 
 Trial driven(const Specimen& specimen, Boundary boundary, double d, double held) {
@@ -100,7 +181,7 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
     constexpr int most_passes = 30;
     const double scale = std::max(std::abs(held), 1.0);
     const double stiffness = 4.0 * shear_modulus(specimen);
-    pm4sand::Counts counts;
+    Counts counts;
     Trial best;
     double least = std::numeric_limits<double>::infinity();
     double x0 = 0.0, f0 = 0.0, x = 0.0;

@@ -1,10 +1,11 @@
 // One material point in the laboratory: any law behind one pure door, and the few kinds of boundary
-// that a plane-strain element test has. No test programme in here.
+// that element tests have. No test programme in here.
 #pragma once
 
 #include <variant>
 
 #include "core/materials/law.hpp"
+#include "core/materials/norsand/norsand.hpp"
 #include "core/materials/pm4sand/pm4sand.hpp"
 #include "core/words/words.hpp"
 
@@ -28,13 +29,37 @@ struct SandPoint {
     materials::pm4sand::State state;
 };
 
+/// A point of NorSand.
+struct NorSandPoint {
+    materials::norsand::Ready law;
+    materials::norsand::Options options;
+    materials::norsand::State state;
+};
+
 /// Laws with their state; copied for a trial, assigned on acceptance.
 struct Specimen {
-    std::variant<PlainPoint, SandPoint> point;
+    std::variant<PlainPoint, SandPoint, NorSandPoint> point;
     /// Volumetric strain since the start of the test, compression positive
     double epsilon_v = 0.0;
     double gamma = 0.0;       ///< engineering shear strain since the start
     double epsilon_yy = 0.0;  ///< vertical strain since the start, compression positive
+};
+
+/// The point where the specimen is of NorSand, or null.
+inline const NorSandPoint* norsand_in(const Specimen& specimen) {
+    return std::get_if<NorSandPoint>(&specimen.point);
+}
+
+/// What calls of a law with memory cost.
+struct Counts {
+    materials::pm4sand::Counts sand;
+    materials::norsand::Counts norsand;
+
+    Counts& operator+=(const Counts& other) {
+        sand += other.sand;
+        norsand += other.norsand;
+        return *this;
+    }
 };
 
 /// Effective stress [Pa, tension positive].
@@ -49,7 +74,7 @@ enum class Ending { done, failed };
 struct Trial {
     Specimen specimen;
     Ending outcome = Ending::done;
-    materials::pm4sand::Counts counts;
+    Counts counts;
 };
 
 /// Strains the specimen by d_epsilon [-, tension positive, engineering shear].
@@ -61,6 +86,10 @@ enum class Boundary {
     drained_shear,      ///< gamma driven, epsilon_xx = 0, sigma_yy held
     undrained_biaxial,  ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
     drained_biaxial,    ///< epsilon_yy driven, sigma_xx held, no shear
+    undrained_compression,  ///< triaxial: epsilon_yy driven, epsilon_xx = epsilon_zz = -epsilon_yy / 2
+    drained_compression,    ///< triaxial: epsilon_yy driven, sigma_xx = sigma_zz held
+    undrained_extension,    ///< the same with epsilon_yy pulled: driven is -epsilon_yy
+    drained_extension,
 };
 
 constexpr auto words_of(Boundary) {
@@ -68,8 +97,23 @@ constexpr auto words_of(Boundary) {
     return words::in_order<Boundary>({{undrained_shear, "undrained_shear"},
                                       {drained_shear, "drained_shear"},
                                       {undrained_biaxial, "undrained_biaxial"},
-                                      {drained_biaxial, "drained_biaxial"}});
+                                      {drained_biaxial, "drained_biaxial"},
+                                      {undrained_compression, "undrained_compression"},
+                                      {drained_compression, "drained_compression"},
+                                      {undrained_extension, "undrained_extension"},
+                                      {drained_extension, "drained_extension"}});
 }
+
+/// Which strain a boundary drives.
+enum class Drives { shear, compression, extension };
+Drives drives(Boundary boundary);
+/// Whether epsilon_zz goes with epsilon_xx instead of being none.
+bool is_triaxial(Boundary boundary);
+/// Whether volume is free to change.
+bool is_drained(Boundary boundary);
+
+/// The driven strain since the start of the test.
+double driven_strain(const Specimen& specimen, Boundary boundary);
 
 /// Advances the driven strain by `d`; `held` is the stress component that the boundary holds [Pa,
 /// tension positive], if it holds one. Fails when no strain meets it.
@@ -78,7 +122,7 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
 /// The stress component that the boundary holds, at the start of a test.
 double held_stress(const Specimen& specimen, Boundary boundary);
 
-/// The stress that answers the driven strain: tau, or half the stress difference yy - xx [Pa].
+/// The stress that answers the driven strain: tau, or half the stress difference of yy and xx [Pa].
 double response(const Specimen& specimen, Boundary boundary);
 
 }  // namespace breach::element_bench

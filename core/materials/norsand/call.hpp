@@ -1,0 +1,140 @@
+// A call around its walk (walk.hpp): the elastic part before the surface is met, unloading on the
+// way, and the closing at the floor (sections 5, 11, 12). One point and several side by side share
+// this text.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/materials/norsand/walk.hpp"
+
+namespace breach::materials::norsand {
+
+using Strain = Components<double>;
+
+/// Compression positive strain increment of a tension positive one.
+Strain inward(const Voigt& d_epsilon);
+bool may_be_tried(const Strain& d, const Options& options);
+
+/// The direction of a strain's deviator as a stress of unit measure; zero where it has none.
+Components<double> direction_of(const Strain& d);
+
+/// One call in the making: what a lane of a walk does not carry.
+struct Errand {
+    Update* update;  ///< the state being changed, and what is counted
+    Strain plastic;  ///< strain that is left after the elastic part
+};
+
+/// Elastic part. True if there is plastic strain to walk through.
+bool open_call(const Ready& law, const State& old, const Strain& d, const Options& options,
+               Errand& errand);
+
+/// Takes a state on the surface that unloads along the strain `rest`: how much of it is elastic. 1:
+/// all of it; 0: nothing, what looked like unloading was neutral. The state is moved.
+double unload(const Ready& law, const Options& options, const Strain& rest, State& state);
+
+/// Closes a call: void ratio, floor, and the old state if it failed.
+void finish_call(const Ready& law, const State& old, const Strain& d, Errand& errand);
+
+template <class R>
+[[gnu::always_inline]] inline void set_lane(Components<R>& a, int i,
+                                            const Components<double>& value) {
+    lanes::set_lane(a.xx, i, value.xx);
+    lanes::set_lane(a.yy, i, value.yy);
+    lanes::set_lane(a.zz, i, value.zz);
+    lanes::set_lane(a.xy, i, value.xy);
+}
+template <class R>
+[[gnu::always_inline]] inline Components<double> lane(const Components<R>& a, int i) {
+    return {lanes::lane(a.xx, i), lanes::lane(a.yy, i), lanes::lane(a.zz, i), lanes::lane(a.xy, i)};
+}
+inline Components<double> stress_of(const State& state) {
+    return {state.xx, state.yy, state.zz, state.xy};
+}
+inline void set_stress(State& state, const Components<double>& sigma) {
+    state.xx = sigma.xx;
+    state.yy = sigma.yy;
+    state.zz = sigma.zz;
+    state.xy = sigma.xy;
+}
+
+/// Puts an opened errand into lane i.
+template <class R>
+[[gnu::always_inline]] inline void load(const Errand& errand, int i, Walk<R>& walk) {
+    using lanes::set_lane;
+    const State& s = errand.update->state;
+    const Strain& d = errand.plastic;
+    const double size = std::max(norm(d), 1e-300);
+    norsand::set_lane(walk.sigma, i, stress_of(s));
+    set_lane(walk.p_i, i, s.p_i);
+    set_lane(walk.epsilon_q, i, s.epsilon_q);
+    set_lane(walk.e, i, s.e);
+    set_lane(walk.chi_i, i, s.chi_i);
+    set_lane(walk.time, i, 0.0);
+    set_lane(walk.step, i, std::min(1.0, s.sub_step / size));
+    set_lane(walk.proposed, i, s.sub_step / size);
+    norsand::set_lane(walk.d, i, d);
+    set_lane(walk.volume, i, trace(d));
+    norsand::set_lane(walk.direction, i, direction_of(d));
+    set_lane(walk.floored, i, 0.0);
+    for (R* count : walk.counts()) set_lane(*count, i, 0.0);
+}
+
+/// Writes lane i back into its errand.
+template <class R>
+[[gnu::always_inline]] inline void store(int i, Walk<R>& walk, Errand& errand) {
+    using lanes::lane;
+    State& s = errand.update->state;
+    set_stress(s, norsand::lane(walk.sigma, i));
+    s.p_i = lane(walk.p_i, i);
+    s.epsilon_q = lane(walk.epsilon_q, i);
+    s.sub_step = lane(walk.proposed, i) * std::max(norm(errand.plastic), 1e-300);
+    s.on_floor = lane(walk.floored, i) > 0.0;
+    const auto number = [i](const R& count) { return static_cast<int>(lane(count, i)); };
+    errand.update->counts += {.evaluations = number(walk.evaluations),
+                              .sub_steps = number(walk.sub_steps),
+                              .rejected = number(walk.rejected),
+                              .guarded = number(walk.guarded),
+                              .floored = 0};
+}
+
+/// One lane's progress after `begin`: leaves, unloads or walks on.
+enum class Next { walk, again, leave };
+
+/// What lane i does after `begin` found that it unloads.
+template <class R>
+[[gnu::always_inline]] inline Next after_unloading(const Ready& law, const Options& options, int i,
+                                                   Walk<R>& walk, Errand& errand) {
+    const double time = lanes::lane(walk.time, i);
+    const double left = 1.0 - time;
+    State at = errand.update->state;
+    set_stress(at, norsand::lane(walk.sigma, i));
+    at.p_i = lanes::lane(walk.p_i, i);
+    at.e = (1.0 + at.e) * std::exp(-time * lanes::lane(walk.volume, i)) - 1.0;
+    const double elastic = unload(law, options, left * errand.plastic, at);
+    if (elastic <= 0.0) return Next::walk;
+    norsand::set_lane(walk.sigma, i, stress_of(at));
+    lanes::set_lane(walk.p_i, i, at.p_i);
+    if (elastic >= 1.0) {
+        lanes::set_lane(walk.time, i, 1.0);
+        store(i, walk, errand);
+        return Next::leave;
+    }
+    const double there = 1.0 - left * (1.0 - elastic);
+    lanes::set_lane(walk.time, i, there);
+    lanes::set_lane(walk.step, i, std::min(lanes::lane(walk.step, i), 1.0 - there));
+    return Next::again;
+}
+
+/// Whether lane i has come to its end after `advance`, and how.
+template <class R>
+[[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
+                                        const Options& options, Errand& errand) {
+    const bool over = lanes::lane(walk.time, i) >= 1.0 || lanes::lane(walk.floored, i) > 0.0;
+    const bool stuck =
+        lost || (!over && lanes::lane(walk.evaluations, i) > options.most_evaluations);
+    if (stuck) errand.update->outcome = Outcome::unresolved;
+    return stuck || over;
+}
+
+}  // namespace breach::materials::norsand

@@ -1,0 +1,28 @@
+// The size of the surface that goes with a stress or with the limiting hardness (sections 5 and
+// 10), for one point.
+#pragma once
+
+#include "core/materials/norsand/functions.hpp"
+
+namespace breach::materials::norsand {
+
+/// M_i / M.
+double image_share(const Ready& law, double chi_i, double psi_i);
+
+/// chi_i psi_i / M_i,tc: how far the limiting hardness lies below p, in its logarithm.
+double limiting_share(const Ready& law, double chi_i, double psi_i);
+
+/// A stress in the p-q plane that a surface is to pass through.
+struct Bullet {
+    double p;    ///< [Pa]
+    double eta;  ///< q/p
+    double M;    ///< at its Lode angle
+    double e, chi_i;
+};
+/// p_i with F = 0 [Pa].
+double image_size(const Ready& law, const Bullet& at);
+
+/// The smaller of p_i and the limiting size p_mx, which depends on p_i itself [Pa].
+double capped_size(const Ready& law, double p, double e, double chi_i, double p_i);
+
+}  // namespace breach::materials::norsand

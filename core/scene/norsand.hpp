@@ -1,0 +1,32 @@
+// NorSand as documents write it: one place knows its keys, their units and what contradicts itself.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "core/materials/norsand/norsand.hpp"
+
+namespace breach::scene {
+
+/// Parameters of a law entry that its schema found sound and `check_norsand` has passed. S is left
+/// 0: it belongs to a stage.
+materials::norsand::Parameters norsand_parameters(const nlohmann::json& law);
+
+materials::norsand::Options norsand_options(const nlohmann::json& law);
+
+/// Where a point begins, from an entry or from the law that it falls back on.
+struct NorSandStart {
+    std::optional<double> psi_0;  ///< state parameter [-]; one of the two
+    std::optional<double> e_0;    ///< void ratio [-]
+    double R;                     ///< overconsolidation [-]
+};
+NorSandStart norsand_start(const nlohmann::json& entry, const nlohmann::json& law);
+
+/// What a law entry that its schema found sound says against itself, `pointer` before each place.
+/// With it the critical state line is asked whether it can be meant for 1 kPa.
+std::vector<fault::Fault> check_norsand(const nlohmann::json& law, const std::string& pointer);
+
+}  // namespace breach::scene
