@@ -306,6 +306,10 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
     const Eigen::VectorXd& d_u = prediction_.u = trial_.u - motion_.u;
     position_.external_work += model_.external_force.dot(d_u);
     position_.internal_work += 0.5 * (motion_.force + trial_.force).dot(d_u);
+    if (newton_->internal_force().is_viscous()) {
+        const Eigen::VectorXd& mean = prediction_.v = 0.5 * (motion_.v + trial_.v);
+        position_.viscous_dissipation += newton_->internal_force().viscous_work(mean, d_u);
+    }
     std::swap(motion_, trial_);
     const bool arrived = dt >= (stop - position_.time) * (1.0 - 1e-9);
     position_.time = arrived ? stop : position_.time + dt;

@@ -21,9 +21,10 @@ struct Position {
     std::int64_t step = 0;
     std::int64_t cut_steps = 0;
     std::int64_t next_snapshot = 0;
-    double next_telemetry = 0.0;  ///< [s]
-    double external_work = 0.0;   ///< [J]
-    double internal_work = 0.0;   ///< [J]
+    double next_telemetry = 0.0;       ///< [s]
+    double external_work = 0.0;        ///< [J]
+    double internal_work = 0.0;        ///< [J]
+    double viscous_dissipation = 0.0;  ///< [J]
     std::int64_t telemetry_lines = 0;
     bool stage_begun = false;  ///< the stage's laws are in force
     bool moving = false;       ///< a dynamic stage has begun
@@ -45,6 +46,6 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
                            const Model& model, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
-inline constexpr int checkpoint_version = 3;
+inline constexpr int checkpoint_version = 4;
 
 }  // namespace breach::fem

@@ -102,6 +102,21 @@ std::string plastic_regions(const scene::Scene& scene) {
     return text;
 }
 
+/// "1000 Pa s beside the law's stress in a; ...": every material with a viscosity and its regions.
+std::string viscous_regions(const scene::Scene& scene) {
+    std::string text;
+    for (const scene::Material& material : scene.materials) {
+        if (material.viscosity == 0.0) continue;
+        const std::string regions = regions_where(scene, [&](const scene::Region& region) {
+            return &scene.materials[region.material] == &material;
+        });
+        if (regions.empty()) continue;
+        text += (text.empty() ? "" : "; ") + words::text_of(material.viscosity) +
+                " Pa s beside the law's stress in " + regions;
+    }
+    return text;
+}
+
 }  // namespace
 
 process::Plan plan(const scene::Scene& scene) {
@@ -123,6 +138,7 @@ process::Plan plan(const scene::Scene& scene) {
                        rests_first(*begins, begins - fem.stages.begin());
     const bool large = fem.kinematics == scene::Kinematics::updated_lagrangian;
     const bool damped = fem.rayleigh_mass > 0.0 || fem.rayleigh_stiffness > 0.0;
+    const std::string viscous = viscous_regions(scene);
     const bool meshes = !fem.mesh.msh_file && !unstructured.empty();
     return {
         on_if(scene.gravity > 0.0, "gravity", "the load of every stage", "gravity is zero",
@@ -153,6 +169,8 @@ process::Plan plan(const scene::Scene& scene) {
               "2 x 2 Gauss points, mean dilatation", "/fem/element"),
         on_if(damped, "Rayleigh damping", "asked for", "both coefficients are zero",
               "/fem/rayleigh_mass"),
+        on_if(!viscous.empty() && moves, "viscosity", viscous,
+              viscous.empty() ? "no region's material has one" : "no stage moves", "/materials"),
         on_if(meshes, "gmsh", "meshes " + unstructured, "regions are mapped blocks or a .msh file",
               "/section/regions"),
         on_if(!fem.snapshot_times.empty(), "snapshots on the way",

@@ -17,7 +17,7 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh, std::siz
         if (opens) {
             const auto& region = scene.section.regions[mesh.region_of_element[e]];
             const auto& material = scene.materials[region.material];
-            zones.push_back({e, 0, material.density, material.law});
+            zones.push_back({e, 0, material.density, material.law, material.viscosity});
         }
         if (opens) zones.back().first_sand = sand;
         if (materials::sand_in(zones.back().law)) sand += points;

@@ -21,6 +21,7 @@ struct Zone {
     std::size_t count;
     double density;  ///< [kg/m3]
     materials::Law law;
+    double viscosity = 0.0;      ///< eta beside the law's stress while it moves [Pa s]
     std::size_t first_sand = 0;  ///< PM4Sand: its first point's place in Motion::sand
 };
 

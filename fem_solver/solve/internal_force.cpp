@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem_solver/solve/viscosity.hpp"
+
 namespace breach::fem {
 
 using mechanics::Matrix2;
@@ -350,6 +352,50 @@ void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const 
             A.add_element(e, factor * elastic_stiffness(model_, e, elasticity));
         }
     }
+}
+
+/// visit(element, its operators, eta) for each element whose material has a viscosity.
+template <typename Visit>
+void InternalForce::visit_viscous_elements(Visit visit) const {
+    for (const Zone& zone : model_.zones) {
+        if (zone.viscosity == 0.0) continue;
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            visit(e,
+                  ElementOperators{quadrature(e), points_, d_q_.empty() ? nullptr : &hourglass(e)},
+                  zone.viscosity);
+        }
+    }
+}
+
+bool InternalForce::is_viscous() const {
+    return std::ranges::any_of(model_.zones, [](const Zone& zone) { return zone.viscosity > 0.0; });
+}
+
+void InternalForce::add_viscous_force(double factor, const Eigen::VectorXd& v,
+                                      Eigen::VectorXd& f) const {
+    visit_viscous_elements([&](std::size_t e, const ElementOperators& element, double eta) {
+        const Quad& quad = model_.mesh.quads[e];
+        const Dofs8 local = viscous_forces(element, factor * eta, gather(quad, v));
+        for (int k = 0; k < 4; ++k) {
+            f.segment<2>(2 * static_cast<Eigen::Index>(quad[k])) += local.segment<2>(2 * k);
+        }
+    });
+}
+
+void InternalForce::add_viscous_damping(double factor, LinearSystem& A) const {
+    visit_viscous_elements([&](std::size_t e, const ElementOperators& element, double eta) {
+        A.add_element(e, viscous_damping(element, factor * eta));
+    });
+}
+
+double InternalForce::viscous_work(const Eigen::VectorXd& v, const Eigen::VectorXd& d_u) const {
+    double work = 0.0;
+    visit_viscous_elements([&](std::size_t e, const ElementOperators& element, double eta) {
+        if (e >= model_.body.elements) return;
+        const Quad& quad = model_.mesh.quads[e];
+        work += gather(quad, d_u).dot(viscous_forces(element, eta, gather(quad, v)));
+    });
+    return work;
 }
 
 }  // namespace breach::fem

@@ -33,6 +33,15 @@ class InternalForce {
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
+    /// A zone's material has a viscosity. What follows is on the mesh of the last evaluation.
+    bool is_viscous() const;
+    /// Adds `factor` times the forces that the zones' viscosity opposes to the velocity v to f [N].
+    void add_viscous_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f) const;
+    /// Adds `factor` [1/s] times their derivative with respect to v to A.
+    void add_viscous_damping(double factor, LinearSystem& A) const;
+    /// What they take from the body at the velocity v over the displacement d_u [J].
+    double viscous_work(const Eigen::VectorXd& v, const Eigen::VectorXd& d_u) const;
+
   private:
     using Tangent = Eigen::Matrix3d;  ///< rows and columns xx, yy, xy
 
@@ -57,6 +66,8 @@ class InternalForce {
                                   const Motion& trial) const;
     void force_pass(Motion& trial) const;
     void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
+    template <typename Visit>
+    void visit_viscous_elements(Visit visit) const;
     const Quadrature& quadrature(std::size_t element) const;
     const SspGeometry& hourglass(std::size_t element) const;
 

@@ -77,6 +77,7 @@ Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symme
         internal_force_.add_elastic_stiffness(1.0, *elastic_);
     }
     R_u_ = Eigen::VectorXd::Zero(model.dofs());
+    if (internal_force_.is_viscous()) viscous_ = R_u_;
     R_p_ = exchanged_ = Eigen::VectorXd::Zero(model.water.prescribed.size());
     share_ = shares_of_dofs(model, unknowns);
     if (model.body.elements < model.mesh.quads.size()) {
@@ -118,6 +119,7 @@ void Newton::add_inertia_and_water(const TimeRule& rule) {
     if (elastic_) {
         internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);
     }
+    if (viscous_.size() > 0) internal_force_.add_viscous_damping(rule.c_v, matrix_);
     matrix_.add_water(rule);
 }
 
@@ -162,7 +164,7 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
     return geometry;
 }
 
-/// R_u = f_ext - f_int - M a - C v + Q p;  R_p = flux - Q^T v - S p' - H p.
+/// R_u = f_ext - f_int - M a - C v - f_viscous + Q p;  R_p = flux - Q^T v - S p' - H p.
 void Newton::set_residual(const StepProblem& problem, Motion& trial) {
     const TimeRule& rule = problem.rule;
     trial.a = rule.c_a * (trial.u - problem.u_predicted);
@@ -173,6 +175,11 @@ void Newton::set_residual(const StepProblem& problem, Motion& trial) {
             model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());
         if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_u_);
         if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();
+        if (viscous_.size() > 0) {
+            viscous_.setZero();
+            internal_force_.add_viscous_force(1.0, trial.v, viscous_);
+            R_u_ -= viscous_;
+        }
     }
     if (unknowns().pressures() > 0) add_water(problem, trial);
     gather_residual(problem);
@@ -231,8 +238,8 @@ double Newton::norm_of(const Eigen::VectorXd& per_dof) const {
     return (share_of_dof_.array() * per_dof.array()).matrix().norm();
 }
 
-/// Out-of-balance force over the weight, or over the internal forces where they are larger (no
-/// gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
+/// Out-of-balance force over the weight, or over the internal or viscous forces where they are
+/// larger (no gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
 /// asks for less than round-off: M a is c_a M (u - u_predicted).
 double Newton::residual_measure(const StepProblem& problem, const Motion& trial) const {
     const std::int32_t n_u = unknowns().displacements, n_p = unknowns().pressures();
@@ -240,9 +247,10 @@ double Newton::residual_measure(const StepProblem& problem, const Motion& trial)
         problem.rule.c_a > 0.0
             ? problem.rule.c_a * (model_.mass.array() * trial.u.array()).matrix().norm()
             : 0.0;
+    const double viscous = viscous_.size() > 0 ? norm_of(viscous_) : 0.0;
     const double reference =
         std::max({norm_of(problem.external), norm_of(trial.force), norm_of(problem.old.force),
-                  round_off * inertia / settings_.tolerance});
+                  viscous, round_off * inertia / settings_.tolerance});
     const double force = residual_.head(n_u).cwiseProduct(share_.head(n_u)).norm();
     const double of_force = reference > 0.0 ? force / reference : force;
     if (n_p == 0) return of_force;

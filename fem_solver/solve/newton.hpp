@@ -1,5 +1,5 @@
 // Equilibrium and mass balance at the end of a step,
-//   M a + C v + f_int(u) - Q p = f_ext,   Q^T v + S p' + H p = flux,
+//   M a + C v + f_int(u) + f_viscous(v) - Q p = f_ext,   Q^T v + S p' + H p = flux,
 // by Newton's method with a factorisation that is kept as long as it serves, accelerated (Anderson
 // 1965) over the last few corrections. Without unknown pressures the second line is not there.
 #pragma once
@@ -71,6 +71,7 @@ class Newton {
     /// False: the matrix in memory is not one of this problem, and nothing was taken.
     bool restore(const NewtonMemory& memory);
     InternalForce& internal_force() { return internal_force_; }
+    const InternalForce& internal_force() const { return internal_force_; }
 
   private:
     static constexpr int depth = 5;  ///< corrections remembered by the acceleration
@@ -96,6 +97,7 @@ class Newton {
     std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping
     NewtonMemory memory_;                  ///< values stay in matrix_
     NewtonCounts counts_;
+    Eigen::VectorXd viscous_;       ///< only with a viscosity: its force, per dof [N]
     Eigen::VectorXd R_u_;           ///< out-of-balance force, per dof [N]
     Eigen::VectorXd R_p_;           ///< unbalanced volume, per node [m3/s]
     Eigen::VectorXd exchanged_;     ///< sum of the magnitudes in that balance [m3/s]
