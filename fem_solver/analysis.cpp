@@ -102,8 +102,10 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
     const Solved solved = stage.kind == StageKind::static_equilibrium ? Solved::displacement
                                                                       : Solved::motion_and_pressure;
     const Stopwatch watch(seconds_, &Seconds::factor);
-    newton_.emplace(model_, solved, NewtonSettings{fem_.force_tolerance, fem_.largest_iterations},
-                    symmetry_for(stage, laws_for(model_, stage.laws)), seconds_);
+    newton_.emplace(
+        model_, solved,
+        NewtonSettings{fem_.force_tolerance, fem_.largest_iterations, session_.settings().threads},
+        symmetry_for(stage, laws_for(model_, stage.laws)), seconds_);
     newton_->set_counts(counts);
 }
 
@@ -154,7 +156,8 @@ void Analysis::begin_motion() {
 void Analysis::begin_laws(const Stage& stage) {
     if (!motion_.sand.empty() || !has_sand(model_)) return;
     if (rests_first(stage, position_.stage)) {
-        Newton newton(model_, Solved::displacement, {fem_.force_tolerance, fem_.largest_iterations},
+        Newton newton(model_, Solved::displacement,
+                      {fem_.force_tolerance, fem_.largest_iterations, session_.settings().threads},
                       Symmetry::general, seconds_);
         const FrictionalRest rest =
             rest_with_friction(newton, model_, motion_, prediction_, trial_);

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "fem_solver/solve/ranges.hpp"
 #include "fem_solver/solve/viscosity.hpp"
 
 namespace breach::fem {
@@ -37,8 +39,12 @@ Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
 
 }  // namespace
 
-InternalForce::InternalForce(const Model& model, Seconds& seconds)
-    : model_(model), points_(model.points_per_element), seconds_(seconds), sand_(model) {
+InternalForce::InternalForce(const Model& model, Seconds& seconds, int threads)
+    : model_(model),
+      points_(model.points_per_element),
+      threads_(threads),
+      seconds_(seconds),
+      sand_(model, threads) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     if (model.kinematics == scene::Kinematics::updated_lagrangian) {
@@ -48,6 +54,7 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds)
         hourglass_ = model.hourglass;
     }
     d_q_.resize(model.hourglass.size());
+    nodal_.resize(model.mesh.quads.size());
     for (const Zone& zone : model.zones) {
         const double G = materials::elasticity(zone.law).shear_modulus();
         elastic_c_s_.insert(elastic_c_s_.end(), d_q_.empty() ? 0 : zone.count, 4.0 * G);
@@ -63,22 +70,28 @@ const SspGeometry& InternalForce::hourglass(std::size_t element) const {
 }
 
 Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
-    const std::size_t elements = model_.mesh.quads.size();
-    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
-        for (std::size_t e = 0; e < elements; ++e) {
-            if (moving_strains(e, old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
+    std::atomic<bool> folded = false;
+    for_ranges(model_.mesh.quads.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            if (!moves) {
+                small_strains(e, old, trial);
+            } else if (moving_strains(e, old, trial) == Geometry::degenerate) {
+                folded = true;
+                return;
+            }
         }
-        return Geometry::sound;
+    });
+    return folded ? Geometry::degenerate : Geometry::sound;
+}
+
+void InternalForce::small_strains(std::size_t element, const Motion& old, const Motion& trial) {
+    const Quad& quad = model_.mesh.quads[element];
+    const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
+    for (std::size_t g = 0; g < points_; ++g) {
+        d_epsilon_[element * points_ + g] = strain_of(model_.reference[element].B[g], d_u);
     }
-    for (std::size_t e = 0; e < elements; ++e) {
-        const Quad& quad = model_.mesh.quads[e];
-        const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
-        for (std::size_t g = 0; g < points_; ++g) {
-            d_epsilon_[e * points_ + g] = strain_of(model_.reference[e].B[g], d_u);
-        }
-        if (!d_q_.empty()) d_q_[e] = hourglass_amplitude(model_.hourglass[e], d_u);
-    }
-    return Geometry::sound;
+    if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
 }
 
 /// Strain increment and rotation from the mid-configuration: both are exact for a rigid rotation
@@ -124,36 +137,40 @@ Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) 
 template <typename Law>
 Geometry InternalForce::integrate_zone(const Law& law, const Zone& zone, const Motion& old,
                                        Motion& trial) {
-    const std::size_t end = (zone.first + zone.count) * points_;
+    const std::size_t first = zone.first * points_;
     const bool turns = !half_angle_.empty();
-    for (std::size_t p = zone.first * points_; p < end; ++p) {
-        if (!turns) {
-            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
-            continue;
+    for_ranges(zone.count * points_, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = first + begin; p < first + end; ++p) {
+            if (!turns) {
+                trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
+                continue;
+            }
+            State turned = old.points[p];
+            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+            turned = materials::integrate(law, turned, d_epsilon_[p]).state;
+            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+            trial.points[p] = turned;
         }
-        State turned = old.points[p];
-        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
-        turned = materials::integrate(law, turned, d_epsilon_[p]).state;
-        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
-        trial.points[p] = turned;
-    }
+    });
     return Geometry::sound;
 }
 
 template <typename Law>
 Geometry InternalForce::integrate_zone_with_tangent(const Law& law, const Zone& zone,
                                                     const Motion& old, Motion& trial) {
-    const std::size_t end = (zone.first + zone.count) * points_;
+    const std::size_t first = zone.first * points_;
     const bool turns = !half_angle_.empty();
-    Matrix4 D;
-    for (std::size_t p = zone.first * points_; p < end; ++p) {
-        State start = old.points[p];
-        if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
-        State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
-        if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
-        trial.points[p] = reached;
-        tangent_[p] = in_plane(D);
-    }
+    for_ranges(zone.count * points_, threads_, [&](std::size_t begin, std::size_t end) {
+        Matrix4 D;
+        for (std::size_t p = first + begin; p < first + end; ++p) {
+            State start = old.points[p];
+            if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
+            State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
+            if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
+            trial.points[p] = reached;
+            tangent_[p] = in_plane(D);
+        }
+    });
     return Geometry::sound;
 }
 
@@ -197,14 +214,12 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
     return Geometry::sound;
 }
 
-void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
-    if (half_angle_.empty()) {
-        for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
+void InternalForce::accumulate_strain(std::size_t element, const Motion& old, Motion& trial) const {
+    for (std::size_t p = element * points_; p < (element + 1) * points_; ++p) {
+        if (half_angle_.empty()) {
             trial.strain[p] = old.strain[p] + d_epsilon_[p];
+            continue;
         }
-        return;
-    }
-    for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
         const double half = half_angle_[p];
         const Voigt turned = rotated_strain(old.strain[p], half) + d_epsilon_[p];
         trial.strain[p] = rotated_strain(turned, half);
@@ -214,18 +229,16 @@ void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
 /// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
 /// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
 /// element. H of the end configuration stands for that of the middle, as in the tangent.
-void InternalForce::hourglass_pass(const Motion& old, Motion& trial) const {
-    for (std::size_t e = 0; e < d_q_.size(); ++e) {
-        const Hourglass& before = old.hourglass[e];
-        Hourglass& after = trial.hourglass[e];
-        Matrix2 half = Matrix2::Identity();
-        if (!half_angle_.empty()) half = Eigen::Rotation2Dd(half_angle_[e]).toRotationMatrix();
-        const Vec2 start = half * before.force;
-        const Vec2 end = start + before.c_s * (hourglass(e).H * d_q_[e]);
-        after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
-        after.force = half * end;
-        after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
-    }
+void InternalForce::advance_hourglass(std::size_t e, const Motion& old, Motion& trial) const {
+    const Hourglass& before = old.hourglass[e];
+    Hourglass& after = trial.hourglass[e];
+    Matrix2 half = Matrix2::Identity();
+    if (!half_angle_.empty()) half = Eigen::Rotation2Dd(half_angle_[e]).toRotationMatrix();
+    const Vec2 start = half * before.force;
+    const Vec2 end = start + before.c_s * (hourglass(e).H * d_q_[e]);
+    after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
+    after.force = half * end;
+    after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
 }
 
 /// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stresses s
@@ -247,22 +260,35 @@ double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Mo
     return std::clamp(2.0 * s.dot(d) / d.squaredNorm(), floor * elastic, elastic);
 }
 
-void InternalForce::force_pass(Motion& trial) const {
-    trial.force.setZero();
-    for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
-        const Quadrature& q = quadrature(e);
-        Dofs8 f = Dofs8::Zero();
-        for (std::size_t g = 0; g < points_; ++g) {
-            const Voigt& s = trial.points[e * points_ + g].sigma;
-            const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
-            f.noalias() += q.B[g].transpose() * sigma;
+/// What follows from the stresses: total strains, hourglass forces, nodal forces.
+void InternalForce::force_pass(const Motion& old, Motion& trial) {
+    const std::size_t elements = model_.mesh.quads.size();
+    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            accumulate_strain(e, old, trial);
+            if (!d_q_.empty()) advance_hourglass(e, old, trial);
+            nodal_[e] = nodal_forces(e, trial);
         }
-        if (!d_q_.empty()) f += hourglass_forces(hourglass(e), trial.hourglass[e].force);
+    });
+    trial.force.setZero();
+    for (std::size_t e = 0; e < elements; ++e) {
         for (int k = 0; k < 4; ++k) {
             const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
-            trial.force.segment<2>(d) += f.segment<2>(2 * k);
+            trial.force.segment<2>(d) += nodal_[e].segment<2>(2 * k);
         }
     }
+}
+
+Dofs8 InternalForce::nodal_forces(std::size_t e, const Motion& trial) const {
+    const Quadrature& q = quadrature(e);
+    Dofs8 f = Dofs8::Zero();
+    for (std::size_t g = 0; g < points_; ++g) {
+        const Voigt& s = trial.points[e * points_ + g].sigma;
+        const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
+        f.noalias() += q.B[g].transpose() * sigma;
+    }
+    if (!d_q_.empty()) f += hourglass_forces(hourglass(e), trial.hourglass[e].force);
+    return f;
 }
 
 void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
@@ -304,9 +330,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_, &Seconds::assembly);
-    accumulate_strain(old, trial);
-    hourglass_pass(old, trial);
-    force_pass(trial);
+    force_pass(old, trial);
     return Geometry::sound;
 }
 
@@ -320,9 +344,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_, &Seconds::assembly);
-    accumulate_strain(old, trial);
-    hourglass_pass(old, trial);
-    force_pass(trial);
+    force_pass(old, trial);
     stiffness_pass(old, trial, A);
     return Geometry::sound;
 }

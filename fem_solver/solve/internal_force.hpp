@@ -18,7 +18,8 @@ enum class Geometry {
 
 class InternalForce {
   public:
-    InternalForce(const Model& model, Seconds& seconds);
+    /// threads: change no number.
+    InternalForce(const Model& model, Seconds& seconds, int threads = 1);
 
     /// Stresses, strains and nodal forces of `trial` (points, strain, force) at displacement
     /// trial.u, coming from `old`.
@@ -46,6 +47,7 @@ class InternalForce {
     using Tangent = Eigen::Matrix3d;  ///< rows and columns xx, yy, xy
 
     Geometry strain_pass(const Motion& old, const Motion& trial);
+    void small_strains(std::size_t element, const Motion& old, const Motion& trial);
     Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
     Geometry evaluate_element(std::size_t element, const Corners& x);
     enum class Wanted { stress, stress_and_tangent };
@@ -60,11 +62,12 @@ class InternalForce {
                             Motion& trial);
     Geometry integrate_zone_with_tangent(const materials::PM4Sand& law, const Zone& zone,
                                          const Motion& old, Motion& trial);
-    void accumulate_strain(const Motion& old, Motion& trial) const;
-    void hourglass_pass(const Motion& old, Motion& trial) const;
+    void accumulate_strain(std::size_t element, const Motion& old, Motion& trial) const;
+    void advance_hourglass(std::size_t element, const Motion& old, Motion& trial) const;
     double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
                                   const Motion& trial) const;
-    void force_pass(Motion& trial) const;
+    void force_pass(const Motion& old, Motion& trial);
+    Dofs8 nodal_forces(std::size_t element, const Motion& trial) const;
     void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
     template <typename Visit>
     void visit_viscous_elements(Visit visit) const;
@@ -73,6 +76,7 @@ class InternalForce {
 
     const Model& model_;
     const std::size_t points_;  ///< per element
+    const int threads_;
     Seconds& seconds_;
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
@@ -84,6 +88,7 @@ class InternalForce {
     std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
     std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
     std::vector<Vec2> d_q_;               ///< single point: [elements] amplitude of the step [m]
+    std::vector<Dofs8> nodal_;            ///< [elements] forces, summed in order [N]
 };
 
 /// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].

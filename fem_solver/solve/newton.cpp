@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fem_solver/solve/ranges.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -68,7 +70,7 @@ Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symme
     : model_(model),
       settings_(settings),
       seconds_(seconds),
-      internal_force_(model, seconds),
+      internal_force_(model, seconds, settings.threads),
       matrix_(model, model.unknowns(solved), symmetry) {
     const Unknowns& unknowns = matrix_.unknowns();
     if (model.rayleigh.stiffness > 0.0) {
@@ -192,30 +194,47 @@ void Newton::add_water(const StepProblem& problem, Motion& trial) {
     R_p_.setZero();
     exchanged_.setZero();
     double rounding = 0.0;
-    for (const PorousElement& each : model_.water.elements) {
-        const Quad& quad = model_.mesh.quads[each.element];
-        Eigen::Vector4d p, p_rate;
-        for (int i = 0; i < 4; ++i) {
-            p[i] = trial.p[quad[i]];
-            p_rate[i] = trial.p_rate[quad[i]];
+    const auto& elements = model_.water.elements;
+    of_water_.resize(elements.size());
+    for_ranges(elements.size(), settings_.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            of_water_[e] = water_share(elements[e], problem, trial);
         }
-        const double share = model_.thickness / model_.thickness_of(each.element);
-        const Dofs8 v = gather(quad, trial.v), force = each.Q * p;
-        const Eigen::Vector4d expansion = each.Q.transpose() * v;
-        const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
-        const double of_u =
-            rule.c_v * each.Q.col(0).cwiseAbs().dot(gather(quad, trial.u).cwiseAbs());
-        const double of_p =
-            (each.S.row(0).cwiseAbs() / gamma_dt + each.H.row(0).cwiseAbs()).dot(p.cwiseAbs());
-        rounding += share * share * (of_u + of_p) * (of_u + of_p);
+    });
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        const Quad& quad = model_.mesh.quads[elements[e].element];
+        const WaterShare& share = of_water_[e];
+        rounding += share.rounding;
         for (int i = 0; i < 4; ++i) {
-            R_u_.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) += force.segment<2>(2 * i);
-            R_p_[quad[i]] += each.flux[i] - expansion[i] - stored[i] - conducted[i];
-            exchanged_[quad[i]] += share * (std::abs(each.flux[i]) + std::abs(expansion[i]) +
-                                            std::abs(stored[i]) + std::abs(conducted[i]));
+            R_u_.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) +=
+                share.force.segment<2>(2 * i);
+            R_p_[quad[i]] += share.balance[i];
+            exchanged_[quad[i]] += share.exchanged[i];
         }
     }
     water_rounding_ = round_off * std::sqrt(rounding);
+}
+
+Newton::WaterShare Newton::water_share(const PorousElement& each, const StepProblem& problem,
+                                       const Motion& trial) const {
+    const TimeRule& rule = problem.rule;
+    const Quad& quad = model_.mesh.quads[each.element];
+    Eigen::Vector4d p, p_rate;
+    for (int i = 0; i < 4; ++i) {
+        p[i] = trial.p[quad[i]];
+        p_rate[i] = trial.p_rate[quad[i]];
+    }
+    const double share = model_.thickness / model_.thickness_of(each.element);
+    const Eigen::Vector4d expansion = each.Q.transpose() * gather(quad, trial.v);
+    const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
+    const double of_u = rule.c_v * each.Q.col(0).cwiseAbs().dot(gather(quad, trial.u).cwiseAbs());
+    const double of_p =
+        (each.S.row(0).cwiseAbs() / rule.gamma_dt() + each.H.row(0).cwiseAbs()).dot(p.cwiseAbs());
+    return {.force = each.Q * p,
+            .balance = each.flux - expansion - stored - conducted,
+            .exchanged = share * (each.flux.cwiseAbs() + expansion.cwiseAbs() + stored.cwiseAbs() +
+                                  conducted.cwiseAbs()),
+            .rounding = share * share * (of_u + of_p) * (of_u + of_p)};
 }
 
 /// Sums over ties; held dofs drop out. The balance of mass is divided by -c_v, as its rows are.

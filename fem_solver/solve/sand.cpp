@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "fem_solver/solve/ranges.hpp"
+
 namespace breach::fem {
 
 namespace pm4sand = materials::pm4sand;
@@ -43,7 +45,8 @@ StressBias begin_sand(const Model& model, Motion& motion) {
     return stress_bias(motion);
 }
 
-SandPass::SandPass(const Model& model) : points_(model.points_per_element) {
+SandPass::SandPass(const Model& model, int threads)
+    : points_(model.points_per_element), threads_(threads) {
     std::size_t largest = 0;
     for (const Zone& zone : model.zones) {
         if (!materials::sand_in(zone.law)) continue;
@@ -81,7 +84,11 @@ SandPass::Answer SandPass::integrate(const materials::PM4Sand& law, const Zone& 
     trial.sand.resize(old.sand.size());
     const std::span from = std::span(old.sand).subspan(zone.first_sand, d_epsilon.size());
     const std::span to = std::span(updates_).first(d_epsilon.size());
-    pm4sand::integrate(law.ready, from, d_epsilon, law.options, to);
+    for_ranges(to.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        const std::size_t count = end - begin;
+        pm4sand::integrate(law.ready, from.subspan(begin, count), d_epsilon.subspan(begin, count),
+                           law.options, to.subspan(begin, count));
+    });
     State* point = &trial.points[zone.first * points_];
     pm4sand::State* sand = &trial.sand[zone.first_sand];
     for (std::size_t i = 0; i < to.size(); ++i) {

@@ -29,7 +29,7 @@ StressBias stress_bias(const Motion& motion);
 /// Runs the law over zones; its buffer is as large as the largest of them.
 class SandPass {
   public:
-    explicit SandPass(const Model& model);
+    explicit SandPass(const Model& model, int threads = 1);
 
     enum class Answer {
         done,
@@ -62,6 +62,7 @@ class SandPass {
     Answer refuse(Refusal::Why why, const Zone& zone, std::size_t point, const Voigt& d_epsilon);
 
     std::size_t points_;  ///< per element
+    int threads_;
     Refusal refusal_;
     std::vector<materials::pm4sand::Update> updates_;
     materials::pm4sand::Counts counts_;
