@@ -107,8 +107,10 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
     const Solved solved = stage.kind == StageKind::static_equilibrium ? Solved::displacement
                                                                       : Solved::motion_and_pressure;
     const Stopwatch watch(seconds_, &Seconds::factor);
-    newton_.emplace(model_, solved, NewtonSettings{fem_.force_tolerance, fem_.largest_iterations},
-                    symmetry_for(stage, laws_for(model_, stage.laws)), seconds_);
+    newton_.emplace(
+        model_, solved,
+        NewtonSettings{fem_.force_tolerance, fem_.largest_iterations, session_.settings().threads},
+        symmetry_for(stage, laws_for(model_, stage.laws)), seconds_);
     newton_->set_counts(counts);
 }
 
@@ -192,7 +194,8 @@ void Analysis::note_free_ground() {
 void Analysis::begin_laws(const Stage& stage) {
     if (position_.stage != decided_.memory.value) return;
     if (decided_.memory_start.value == MemoryStart::at_rest_with_friction) {
-        Newton newton(model_, Solved::displacement, {fem_.force_tolerance, fem_.largest_iterations},
+        Newton newton(model_, Solved::displacement,
+                      {fem_.force_tolerance, fem_.largest_iterations, session_.settings().threads},
                       Symmetry::general, seconds_);
         const FrictionalRest rest =
             rest_with_friction(newton, model_, motion_, prediction_, trial_);
@@ -345,6 +348,10 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
     const Eigen::VectorXd& d_u = prediction_.u = trial_.u - motion_.u;
     position_.external_work += model_.external_force.dot(d_u);
     position_.internal_work += 0.5 * (motion_.force + trial_.force).dot(d_u);
+    if (newton_->internal_force().is_viscous()) {
+        const Eigen::VectorXd& mean = prediction_.v = 0.5 * (motion_.v + trial_.v);
+        position_.viscous_dissipation += newton_->internal_force().viscous_work(mean, d_u);
+    }
     std::swap(motion_, trial_);
     const bool arrived = dt >= (stop - position_.time) * (1.0 - 1e-9);
     position_.time = arrived ? stop : position_.time + dt;

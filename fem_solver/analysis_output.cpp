@@ -50,6 +50,7 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
         reading.residual = outcome.residual;
         reading.external_work = position_.external_work;
         reading.internal_work = position_.internal_work;
+        reading.viscous_dissipation = position_.viscous_dissipation;
         reading.kinetic_energy_over_peak = over_peak(reading.kinetic_energy, history_);
         history_.push_back(reading);
         session_.telemetry(telemetry_line(reading));
@@ -316,6 +317,9 @@ void Analysis::report_facts() {
                      {"least_jacobian", quality.least_jacobian}};
     if (!motion_.hourglass.empty()) {
         facts["hourglass"] = hourglass_facts(model_, motion_, position_.internal_work);
+    }
+    if (std::ranges::any_of(model_.zones, [](const Zone& zone) { return zone.viscosity > 0.0; })) {
+        facts["viscous_dissipation"] = position_.viscous_dissipation;
     }
     spdlog::info("seconds: assembly {:.2f}, law {:.2f}, factor {:.2f}, solve {:.2f}, output {:.2f}",
                  seconds_.assembly, seconds_.law, seconds_.factor, seconds_.solve, seconds_.output);

@@ -16,8 +16,9 @@ Eigen::VectorXd vector_from(const Reals& v) {
 constexpr const char* history_prefix = "history.";
 
 void put(exchange::Archive& archive, const Position& p) {
-    archive.reals["position"] = {p.load,           p.load_step,     p.time,         p.dt,
-                                 p.next_telemetry, p.external_work, p.internal_work};
+    archive.reals["position"] = {
+        p.load,           p.load_step,     p.time,          p.dt,
+        p.next_telemetry, p.external_work, p.internal_work, p.viscous_dissipation};
     archive.integers["position"] = {p.stage,         p.easy_steps,      p.step,        p.cut_steps,
                                     p.next_snapshot, p.telemetry_lines, p.stage_begun, p.moving};
 }
@@ -37,6 +38,7 @@ Position position_from(const exchange::Archive& archive) {
             .next_telemetry = r.at(4),
             .external_work = r.at(5),
             .internal_work = r.at(6),
+            .viscous_dissipation = r.at(7),
             .telemetry_lines = i.at(5),
             .stage_begun = i.at(6) != 0,
             .moving = i.at(7) != 0};

@@ -21,9 +21,10 @@ struct Position {
     std::int64_t step = 0;
     std::int64_t cut_steps = 0;
     std::int64_t next_snapshot = 0;
-    double next_telemetry = 0.0;  ///< [s]
-    double external_work = 0.0;   ///< [J]
-    double internal_work = 0.0;   ///< [J]
+    double next_telemetry = 0.0;       ///< [s]
+    double external_work = 0.0;        ///< [J]
+    double internal_work = 0.0;        ///< [J]
+    double viscous_dissipation = 0.0;  ///< [J]
     std::int64_t telemetry_lines = 0;
     bool stage_begun = false;  ///< the stage's laws are in force
     bool moving = false;       ///< a dynamic stage has begun

@@ -46,6 +46,24 @@ std::string regions_that_soften(const scene::Scene& scene) {
     return names;
 }
 
+/// "1000 Pa s beside the law's stress in a; ...": every material with a viscosity and its regions.
+std::string viscous_regions(const scene::Scene& scene) {
+    std::string text;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const double viscosity = scene.materials[m].viscosity;
+        if (viscosity == 0.0) continue;
+        std::string names;
+        for (const scene::Region& region : scene.section.regions) {
+            if (region.material != m) continue;
+            names += (names.empty() ? "" : ", ") + region.name;
+        }
+        if (names.empty()) continue;
+        text += (text.empty() ? "" : "; ") + words::text_of(viscosity) +
+                " Pa s beside the law's stress in " + names;
+    }
+    return text;
+}
+
 /// Those that remember have a line of their own.
 bool flows_without_memory(const materials::Law& law) {
     return materials::traits(law).yields && !materials::remembers(law);
@@ -130,6 +148,7 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
     const RunDecisions& run = decided.run;
     const std::string plastic = laws_that(scene, flows_without_memory);
     const std::string softening = regions_that_soften(scene);
+    const std::string viscous = viscous_regions(scene);
     const bool moves = std::ranges::any_of(scene::fem_of(scene).stages, [](const auto& stage) {
         return stage.kind == scene::StageKind::dynamic;
     });
@@ -148,6 +167,9 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
         model.kinematics.line,
         model.element.line,
         model.damping.line,
+        line_of("viscosity", use_if(!viscous.empty() && moves),
+                {viscous, viscous.empty() ? "no region's material has one" : "no stage moves"},
+                "/materials"),
         decided.mesher.line,
         run.snapshot_times.line,
         run.snapshot_interval.line,

@@ -31,7 +31,7 @@ struct Material {
     std::string name;
     double density;  ///< [kg/m3]
     materials::Law law;
-    double viscosity = 0.0;  ///< mpm: Newtonian stress beside the law's, 2 eta dev D [Pa s]
+    double viscosity = 0.0;  ///< Newtonian stress beside the law's, 2 eta dev D [Pa s]
     /// mpm: its softening strains are averaged over this length [m]
     std::optional<double> nonlocal_length{};
     std::optional<double> void_ratio{};                   ///< fem with water [-]

@@ -23,6 +23,8 @@ constexpr std::array fem_table{
            "kinetic energy over its largest value so far: below 1 the peak is past"},
     Column{"external_work", "J", "of gravity and other constant loads"},
     Column{"internal_work", "J", "of the stresses"},
+    Column{"viscous_dissipation", "J",
+           "taken by the materials' viscosity, in the body without free-field columns"},
     Column{"jacobian_ratio_avg", "1", "the same as jacobian_centre_avg"},
     Column{"jacobian_ratio_min", "1", "the same as jacobian_least_min"},
     Column{"jacobian_centre_avg", "1", "area ratio of the strained elements"},

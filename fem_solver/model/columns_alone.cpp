@@ -119,7 +119,8 @@ Model columns_alone(const Model& whole) {
     alone.body = {alone.mesh.nodes.size(), alone.mesh.quads.size()};
     for (const ZonePart& part : parts) {
         const Zone& zone = whole.zones[part.zone];
-        alone.zones.push_back({part.first - elements, part.count, zone.density, zone.law});
+        alone.zones.push_back(
+            {part.first - elements, part.count, zone.density, zone.law, zone.viscosity});
     }
     alone.thickness = whole.thickness * whole.column_thickness;
     alone.constraints = {.held = held_of(whole.constraints, 2 * nodes),

@@ -21,6 +21,7 @@ struct Zone {
     std::size_t count;
     double density;  ///< [kg/m3]
     materials::Law law;
+    double viscosity = 0.0;  ///< eta beside the law's stress while it moves [Pa s]
 };
 
 /// Damping matrix C = mass M + stiffness K_elastic.

@@ -28,6 +28,7 @@ const std::vector<Column>& columns() {
         Named{"kinetic_energy_over_peak", &R::kinetic_energy_over_peak},
         Named{"external_work", &R::external_work},
         Named{"internal_work", &R::internal_work},
+        Named{"viscous_dissipation", &R::viscous_dissipation},
         Named{"jacobian_ratio_avg", &R::jacobian_ratio_avg},
         Named{"jacobian_ratio_min", &R::jacobian_ratio_min},
         Named{"jacobian_centre_avg", &R::jacobian_centre_avg},

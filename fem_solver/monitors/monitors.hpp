@@ -35,6 +35,7 @@ struct Reading {
     double kinetic_energy_over_peak = 1.0;  ///< over its largest value so far [-]
     double external_work = 0.0;             ///< of gravity since the first dynamic stage [J]
     double internal_work = 0.0;             ///< of the stresses since the first dynamic stage [J]
+    double viscous_dissipation = 0.0;       ///< by the materials' viscosity, in the body [J]
     double jacobian_ratio_avg = 1.0;        ///< = jacobian_centre_avg
     double jacobian_ratio_min = 1.0;        ///< = jacobian_least_min
     double jacobian_centre_avg = 1.0;

@@ -3,7 +3,11 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "fem_solver/solve/ranges.hpp"
+#include "fem_solver/solve/viscosity.hpp"
 
 namespace breach::fem {
 
@@ -35,8 +39,12 @@ Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
 
 }  // namespace
 
-InternalForce::InternalForce(const Model& model, Seconds& seconds)
-    : model_(model), points_(model.points_per_element), seconds_(seconds), memory_(model) {
+InternalForce::InternalForce(const Model& model, Seconds& seconds, int threads)
+    : model_(model),
+      points_(model.points_per_element),
+      threads_(threads),
+      seconds_(seconds),
+      memory_(model, threads) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     if (model.kinematics == scene::Kinematics::updated_lagrangian) {
@@ -46,6 +54,7 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds)
         hourglass_ = model.hourglass;
     }
     d_q_.resize(model.hourglass.size());
+    nodal_.resize(model.mesh.quads.size());
     for (const Zone& zone : model.zones) {
         const double G = materials::elasticity(zone.law).shear_modulus();
         elastic_c_s_.insert(elastic_c_s_.end(), d_q_.empty() ? 0 : zone.count, 4.0 * G);
@@ -61,22 +70,28 @@ const std::vector<SspGeometry>& InternalForce::hourglasses() const {
 }
 
 Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
-    const std::size_t elements = model_.mesh.quads.size();
-    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
-        for (std::size_t e = 0; e < elements; ++e) {
-            if (moving_strains(e, old, trial) == Geometry::degenerate) return Geometry::degenerate;
+    const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
+    std::atomic<bool> folded = false;
+    for_ranges(model_.mesh.quads.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            if (!moves) {
+                small_strains(e, old, trial);
+            } else if (moving_strains(e, old, trial) == Geometry::degenerate) {
+                folded = true;
+                return;
+            }
         }
-        return Geometry::sound;
+    });
+    return folded ? Geometry::degenerate : Geometry::sound;
+}
+
+void InternalForce::small_strains(std::size_t element, const Motion& old, const Motion& trial) {
+    const Quad& quad = model_.mesh.quads[element];
+    const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
+    for (std::size_t g = 0; g < points_; ++g) {
+        d_epsilon_[element * points_ + g] = strain_of(model_.reference[element].B[g], d_u);
     }
-    for (std::size_t e = 0; e < elements; ++e) {
-        const Quad& quad = model_.mesh.quads[e];
-        const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
-        for (std::size_t g = 0; g < points_; ++g) {
-            d_epsilon_[e * points_ + g] = strain_of(model_.reference[e].B[g], d_u);
-        }
-        if (!d_q_.empty()) d_q_[e] = hourglass_amplitude(model_.hourglass[e], d_u);
-    }
-    return Geometry::sound;
+    if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
 }
 
 /// Strain increment and rotation from the mid-configuration: both are exact for a rigid rotation
@@ -123,19 +138,24 @@ template <class Law>
 Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Motion& old,
                                        Motion& trial) {
     const Zone& zone = model_.zones[z];
-    const std::size_t end = (zone.first + zone.count) * points_;
-    if (half_angle_.empty()) {
-        for (std::size_t p = zone.first * points_; p < end; ++p)
+    const std::size_t first = zone.first * points_;
+    const auto still = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = first + begin; p < first + end; ++p)
             trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
-        return Geometry::sound;
-    }
-    for (std::size_t p = zone.first * points_; p < end; ++p) {
-        State turned = old.points[p];
-        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
-        turned = materials::integrate(law, turned, d_epsilon_[p]).state;
-        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
-        trial.points[p] = turned;
-    }
+    };
+    const auto turning = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = first + begin; p < first + end; ++p) {
+            State turned = old.points[p];
+            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+            turned = materials::integrate(law, turned, d_epsilon_[p]).state;
+            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
+            trial.points[p] = turned;
+        }
+    };
+    if (half_angle_.empty())
+        for_ranges(zone.count * points_, threads_, still);
+    else
+        for_ranges(zone.count * points_, threads_, turning);
     return Geometry::sound;
 }
 
@@ -143,17 +163,19 @@ template <class Law>
 Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t z,
                                                     const Motion& old, Motion& trial) {
     const Zone& zone = model_.zones[z];
-    const std::size_t end = (zone.first + zone.count) * points_;
+    const std::size_t first = zone.first * points_;
     const bool turns = !half_angle_.empty();
-    Matrix4 D;
-    for (std::size_t p = zone.first * points_; p < end; ++p) {
-        State start = old.points[p];
-        if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
-        State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
-        if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
-        trial.points[p] = reached;
-        tangent_[p] = in_plane(D);
-    }
+    for_ranges(zone.count * points_, threads_, [&](std::size_t begin, std::size_t end) {
+        Matrix4 D;
+        for (std::size_t p = first + begin; p < first + end; ++p) {
+            State start = old.points[p];
+            if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
+            State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
+            if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
+            trial.points[p] = reached;
+            tangent_[p] = in_plane(D);
+        }
+    });
     return Geometry::sound;
 }
 
@@ -199,14 +221,12 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
     return Geometry::sound;
 }
 
-void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
-    if (half_angle_.empty()) {
-        for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
+void InternalForce::accumulate_strain(std::size_t element, const Motion& old, Motion& trial) const {
+    for (std::size_t p = element * points_; p < (element + 1) * points_; ++p) {
+        if (half_angle_.empty()) {
             trial.strain[p] = old.strain[p] + d_epsilon_[p];
+            continue;
         }
-        return;
-    }
-    for (std::size_t p = 0; p < d_epsilon_.size(); ++p) {
         const double half = half_angle_[p];
         const Voigt turned = rotated_strain(old.strain[p], half) + d_epsilon_[p];
         trial.strain[p] = rotated_strain(turned, half);
@@ -216,26 +236,17 @@ void InternalForce::accumulate_strain(const Motion& old, Motion& trial) const {
 /// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
 /// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
 /// element. H of the end configuration stands for that of the middle, as in the tangent.
-void InternalForce::hourglass_pass(const Motion& old, Motion& trial) const {
-    const std::vector<SspGeometry>& geometries = hourglasses();
-    const auto pass = [&](const auto& turned) {
-        for (std::size_t e = 0; e < d_q_.size(); ++e) {
-            const Hourglass& before = old.hourglass[e];
-            Hourglass& after = trial.hourglass[e];
-            const Vec2 start = turned(e, before.force);
-            const Vec2 end = start + before.c_s * (geometries[e].H * d_q_[e]);
-            after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
-            after.force = turned(e, end);
-            after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
-        }
+void InternalForce::advance_hourglass(std::size_t e, const Motion& old, Motion& trial) const {
+    const Hourglass& before = old.hourglass[e];
+    Hourglass& after = trial.hourglass[e];
+    const auto turned = [&](const Vec2& force) -> Vec2 {
+        return half_angle_.empty() ? force : Vec2(Eigen::Rotation2Dd(half_angle_[e]) * force);
     };
-    if (half_angle_.empty()) {
-        pass([](std::size_t, const Vec2& force) { return force; });
-    } else {
-        pass([&](std::size_t e, const Vec2& force) -> Vec2 {
-            return Eigen::Rotation2Dd(half_angle_[e]) * force;
-        });
-    }
+    const Vec2 start = turned(before.force);
+    const Vec2 end = start + before.c_s * (hourglasses()[e].H * d_q_[e]);
+    after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
+    after.force = turned(end);
+    after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
 }
 
 /// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stresses s
@@ -257,32 +268,41 @@ double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Mo
     return std::clamp(2.0 * s.dot(d) / d.squaredNorm(), floor * elastic, elastic);
 }
 
-void InternalForce::force_pass(Motion& trial) const {
-    trial.force.setZero();
-    const std::vector<Quadrature>& current = quadratures();
-    const std::vector<SspGeometry>& geometries = hourglasses();
-    for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
-        const Quadrature& q = current[e];
-        Dofs8 f = Dofs8::Zero();
-        for (std::size_t g = 0; g < points_; ++g) {
-            const Voigt& s = trial.points[e * points_ + g].sigma;
-            const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
-            f.noalias() += q.B[g].transpose() * sigma;
+/// What follows from the stresses: total strains, hourglass forces, nodal forces.
+void InternalForce::force_pass(const Motion& old, Motion& trial) {
+    const std::size_t elements = model_.mesh.quads.size();
+    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            accumulate_strain(e, old, trial);
+            if (!d_q_.empty()) advance_hourglass(e, old, trial);
+            nodal_[e] = nodal_forces(e, trial);
         }
-        if (!d_q_.empty()) f += hourglass_forces(geometries[e], trial.hourglass[e].force);
+    });
+    trial.force.setZero();
+    for (std::size_t e = 0; e < elements; ++e) {
         for (int k = 0; k < 4; ++k) {
             const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
-            trial.force.segment<2>(d) += f.segment<2>(2 * k);
+            trial.force.segment<2>(d) += nodal_[e].segment<2>(2 * k);
         }
     }
 }
 
+Dofs8 InternalForce::nodal_forces(std::size_t e, const Motion& trial) const {
+    const Quadrature& q = quadratures()[e];
+    Dofs8 f = Dofs8::Zero();
+    for (std::size_t g = 0; g < points_; ++g) {
+        const Voigt& s = trial.points[e * points_ + g].sigma;
+        const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
+        f.noalias() += q.B[g].transpose() * sigma;
+    }
+    if (!d_q_.empty()) f += hourglass_forces(hourglasses()[e], trial.hourglass[e].force);
+    return f;
+}
+
 void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
     const bool symmetric = A.symmetry() == Symmetry::symmetric;
-    const std::vector<Quadrature>& current = quadratures();
-    const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
-        const Quadrature& q = current[e];
+        const Quadrature& q = quadratures()[e];
         Stiffness K = Stiffness::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
             const std::size_t p = e * points_ + g;
@@ -303,7 +323,7 @@ void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, Linea
                 }
             }
         }
-        if (!d_q_.empty()) K += hourglass_stiffness(geometries[e], old.hourglass[e].c_s);
+        if (!d_q_.empty()) K += hourglass_stiffness(hourglasses()[e], old.hourglass[e].c_s);
         A.add_element(e, K);
     }
 }
@@ -318,9 +338,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_, &Seconds::assembly);
-    accumulate_strain(old, trial);
-    hourglass_pass(old, trial);
-    force_pass(trial);
+    force_pass(old, trial);
     return Geometry::sound;
 }
 
@@ -334,9 +352,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_, &Seconds::assembly);
-    accumulate_strain(old, trial);
-    hourglass_pass(old, trial);
-    force_pass(trial);
+    force_pass(old, trial);
     stiffness_pass(old, trial, A);
     return Geometry::sound;
 }
@@ -366,6 +382,51 @@ void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const 
             A.add_element(e, factor * elastic_stiffness(model_, e, elasticity));
         }
     }
+}
+
+/// visit(element, its operators, eta) for each element whose material has a viscosity.
+template <typename Visit>
+void InternalForce::visit_viscous_elements(Visit visit) const {
+    for (const Zone& zone : model_.zones) {
+        if (zone.viscosity == 0.0) continue;
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            visit(e,
+                  ElementOperators{quadratures()[e], points_,
+                                   d_q_.empty() ? nullptr : &hourglasses()[e]},
+                  zone.viscosity);
+        }
+    }
+}
+
+bool InternalForce::is_viscous() const {
+    return std::ranges::any_of(model_.zones, [](const Zone& zone) { return zone.viscosity > 0.0; });
+}
+
+void InternalForce::add_viscous_force(double factor, const Eigen::VectorXd& v,
+                                      Eigen::VectorXd& f) const {
+    visit_viscous_elements([&](std::size_t e, const ElementOperators& element, double eta) {
+        const Quad& quad = model_.mesh.quads[e];
+        const Dofs8 local = viscous_forces(element, factor * eta, gather(quad, v));
+        for (int k = 0; k < 4; ++k) {
+            f.segment<2>(2 * static_cast<Eigen::Index>(quad[k])) += local.segment<2>(2 * k);
+        }
+    });
+}
+
+void InternalForce::add_viscous_damping(double factor, LinearSystem& A) const {
+    visit_viscous_elements([&](std::size_t e, const ElementOperators& element, double eta) {
+        A.add_element(e, viscous_damping(element, factor * eta));
+    });
+}
+
+double InternalForce::viscous_work(const Eigen::VectorXd& v, const Eigen::VectorXd& d_u) const {
+    double work = 0.0;
+    visit_viscous_elements([&](std::size_t e, const ElementOperators& element, double eta) {
+        if (e >= model_.body.elements) return;
+        const Quad& quad = model_.mesh.quads[e];
+        work += gather(quad, d_u).dot(viscous_forces(element, eta, gather(quad, v)));
+    });
+    return work;
 }
 
 }  // namespace breach::fem

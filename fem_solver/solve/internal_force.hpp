@@ -18,7 +18,8 @@ enum class Geometry {
 
 class InternalForce {
   public:
-    InternalForce(const Model& model, Seconds& seconds);
+    /// threads: change no number.
+    InternalForce(const Model& model, Seconds& seconds, int threads = 1);
 
     /// Stresses, strains and nodal forces of `trial` (points, strain, force) at displacement
     /// trial.u, coming from `old`.
@@ -31,10 +32,20 @@ class InternalForce {
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
+    /// A zone's material has a viscosity. What follows is on the mesh of the last evaluation.
+    bool is_viscous() const;
+    /// Adds `factor` times the forces that the zones' viscosity opposes to the velocity v to f [N].
+    void add_viscous_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f) const;
+    /// Adds `factor` [1/s] times their derivative with respect to v to A.
+    void add_viscous_damping(double factor, LinearSystem& A) const;
+    /// What they take from the body at the velocity v over the displacement d_u [J].
+    double viscous_work(const Eigen::VectorXd& v, const Eigen::VectorXd& d_u) const;
+
   private:
     using Tangent = Eigen::Matrix3d;  ///< rows and columns xx, yy, xy
 
     Geometry strain_pass(const Motion& old, const Motion& trial);
+    void small_strains(std::size_t element, const Motion& old, const Motion& trial);
     Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
     Geometry evaluate_element(std::size_t element, const Corners& x);
     enum class Wanted { stress, stress_and_tangent };
@@ -50,18 +61,22 @@ class InternalForce {
     template <materials::Remembers Law>
     Geometry integrate_zone_with_tangent(const Law& law, std::size_t z, const Motion& old,
                                          Motion& trial);
-    void accumulate_strain(const Motion& old, Motion& trial) const;
-    void hourglass_pass(const Motion& old, Motion& trial) const;
+    void accumulate_strain(std::size_t element, const Motion& old, Motion& trial) const;
+    void advance_hourglass(std::size_t element, const Motion& old, Motion& trial) const;
     double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
                                   const Motion& trial) const;
-    void force_pass(Motion& trial) const;
+    void force_pass(const Motion& old, Motion& trial);
+    Dofs8 nodal_forces(std::size_t element, const Motion& trial) const;
     void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
+    template <typename Visit>
+    void visit_viscous_elements(Visit visit) const;
     /// Of all elements, as the mesh is now.
     const std::vector<Quadrature>& quadratures() const;
     const std::vector<SspGeometry>& hourglasses() const;
 
     const Model& model_;
     const std::size_t points_;  ///< per element
+    const int threads_;
     Seconds& seconds_;
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
@@ -73,6 +88,7 @@ class InternalForce {
     std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
     std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
     std::vector<Vec2> d_q_;               ///< single point: [elements] amplitude of the step [m]
+    std::vector<Dofs8> nodal_;            ///< [elements] forces, summed in order [N]
 };
 
 /// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].

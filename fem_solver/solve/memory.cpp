@@ -63,7 +63,8 @@ StressBias begin_memory(const Model& model, Motion& motion) {
     return stress_bias(model, motion);
 }
 
-MemoryPass::MemoryPass(const Model& model) : model_(model), points_(model.points_per_element) {
+MemoryPass::MemoryPass(const Model& model, int threads)
+    : model_(model), points_(model.points_per_element), threads_(threads) {
     for (const Zone& zone : model.zones) {
         materials::if_remembers(zone.law, [&]<class Law>(const Law&) {
             auto& updates = std::get<Buffer<Law>>(buffers_).updates;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fem_solver/model/model.hpp"
+#include "fem_solver/solve/ranges.hpp"
 
 namespace breach::fem {
 
@@ -38,7 +39,8 @@ std::size_t points_with_memory(const Model& model, const Motion& motion);
 /// Runs laws over zones; its buffers are as large as the largest zone of each.
 class MemoryPass {
   public:
-    explicit MemoryPass(const Model& model);
+    /// threads: change no number.
+    explicit MemoryPass(const Model& model, int threads = 1);
 
     enum class Answer {
         done,
@@ -87,6 +89,7 @@ class MemoryPass {
 
     const Model& model_;
     std::size_t points_;  ///< per element
+    int threads_;
     Refusal refusal_;
     decltype(buffers_of(static_cast<const materials::Law*>(nullptr))) buffers_;
     std::int64_t evaluations_ = 0;
@@ -105,7 +108,11 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
     const std::span to(std::get<materials::ZoneMemory<Law>>(trial.memory[z]).points);
     const std::span updates =
         std::span(std::get<Buffer<Law>>(buffers_).updates).first(d_epsilon.size());
-    materials::integrate(law, from, d_epsilon, updates);
+    for_ranges(updates.size(), threads_, [&](std::size_t begin, std::size_t end) {
+        const std::size_t count = end - begin;
+        materials::integrate(law, from.subspan(begin, count), d_epsilon.subspan(begin, count),
+                             updates.subspan(begin, count));
+    });
     State* point = &trial.points[zone.first * points_];
     for (std::size_t i = 0; i < updates.size(); ++i) {
         const auto& each = updates[i];

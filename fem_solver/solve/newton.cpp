@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fem_solver/solve/ranges.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -68,7 +70,7 @@ Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symme
     : model_(model),
       settings_(settings),
       seconds_(seconds),
-      internal_force_(model, seconds),
+      internal_force_(model, seconds, settings.threads),
       matrix_(model, model.unknowns(solved), symmetry) {
     const Unknowns& unknowns = matrix_.unknowns();
     if (model.rayleigh.stiffness > 0.0) {
@@ -77,6 +79,7 @@ Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symme
         internal_force_.add_elastic_stiffness(1.0, *elastic_);
     }
     R_u_ = Eigen::VectorXd::Zero(model.dofs());
+    if (internal_force_.is_viscous()) viscous_ = R_u_;
     R_p_ = exchanged_ = Eigen::VectorXd::Zero(model.water.prescribed.size());
     share_ = shares_of_dofs(model, unknowns);
     if (model.body.elements < model.mesh.quads.size()) {
@@ -118,6 +121,7 @@ void Newton::add_inertia_and_water(const TimeRule& rule) {
     if (elastic_) {
         internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);
     }
+    if (viscous_.size() > 0) internal_force_.add_viscous_damping(rule.c_v, matrix_);
     matrix_.add_water(rule);
 }
 
@@ -162,7 +166,7 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
     return geometry;
 }
 
-/// R_u = f_ext - f_int - M a - C v + Q p;  R_p = flux - Q^T v - S p' - H p.
+/// R_u = f_ext - f_int - M a - C v - f_viscous + Q p;  R_p = flux - Q^T v - S p' - H p.
 void Newton::set_residual(const StepProblem& problem, Motion& trial) {
     const TimeRule& rule = problem.rule;
     trial.a = rule.c_a * (trial.u - problem.u_predicted);
@@ -177,6 +181,11 @@ void Newton::set_residual(const StepProblem& problem, Motion& trial) {
         }
         if (elastic_) elastic_->add_product(-model_.rayleigh.stiffness, trial.v, R_u_);
         if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();
+        if (viscous_.size() > 0) {
+            viscous_.setZero();
+            internal_force_.add_viscous_force(1.0, trial.v, viscous_);
+            R_u_ -= viscous_;
+        }
     }
     if (unknowns().pressures() > 0) add_water(problem, trial);
     gather_residual(problem);
@@ -189,30 +198,47 @@ void Newton::add_water(const StepProblem& problem, Motion& trial) {
     R_p_.setZero();
     exchanged_.setZero();
     double rounding = 0.0;
-    for (const PorousElement& each : model_.water.elements) {
-        const Quad& quad = model_.mesh.quads[each.element];
-        Eigen::Vector4d p, p_rate;
-        for (int i = 0; i < 4; ++i) {
-            p[i] = trial.p[quad[i]];
-            p_rate[i] = trial.p_rate[quad[i]];
+    const auto& elements = model_.water.elements;
+    of_water_.resize(elements.size());
+    for_ranges(elements.size(), settings_.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            of_water_[e] = water_share(elements[e], problem, trial);
         }
-        const double share = model_.thickness / model_.thickness_of(each.element);
-        const Dofs8 v = gather(quad, trial.v), force = each.Q * p;
-        const Eigen::Vector4d expansion = each.Q.transpose() * v;
-        const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
-        const double of_u =
-            rule.c_v * each.Q.col(0).cwiseAbs().dot(gather(quad, trial.u).cwiseAbs());
-        const double of_p =
-            (each.S.row(0).cwiseAbs() / gamma_dt + each.H.row(0).cwiseAbs()).dot(p.cwiseAbs());
-        rounding += share * share * (of_u + of_p) * (of_u + of_p);
+    });
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        const Quad& quad = model_.mesh.quads[elements[e].element];
+        const WaterShare& share = of_water_[e];
+        rounding += share.rounding;
         for (int i = 0; i < 4; ++i) {
-            R_u_.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) += force.segment<2>(2 * i);
-            R_p_[quad[i]] += each.flux[i] - expansion[i] - stored[i] - conducted[i];
-            exchanged_[quad[i]] += share * (std::abs(each.flux[i]) + std::abs(expansion[i]) +
-                                            std::abs(stored[i]) + std::abs(conducted[i]));
+            R_u_.segment<2>(2 * static_cast<Eigen::Index>(quad[i])) +=
+                share.force.segment<2>(2 * i);
+            R_p_[quad[i]] += share.balance[i];
+            exchanged_[quad[i]] += share.exchanged[i];
         }
     }
     water_rounding_ = round_off * std::sqrt(rounding);
+}
+
+Newton::WaterShare Newton::water_share(const PorousElement& each, const StepProblem& problem,
+                                       const Motion& trial) const {
+    const TimeRule& rule = problem.rule;
+    const Quad& quad = model_.mesh.quads[each.element];
+    Eigen::Vector4d p, p_rate;
+    for (int i = 0; i < 4; ++i) {
+        p[i] = trial.p[quad[i]];
+        p_rate[i] = trial.p_rate[quad[i]];
+    }
+    const double share = model_.thickness / model_.thickness_of(each.element);
+    const Eigen::Vector4d expansion = each.Q.transpose() * gather(quad, trial.v);
+    const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
+    const double of_u = rule.c_v * each.Q.col(0).cwiseAbs().dot(gather(quad, trial.u).cwiseAbs());
+    const double of_p =
+        (each.S.row(0).cwiseAbs() / rule.gamma_dt() + each.H.row(0).cwiseAbs()).dot(p.cwiseAbs());
+    return {.force = each.Q * p,
+            .balance = each.flux - expansion - stored - conducted,
+            .exchanged = share * (each.flux.cwiseAbs() + expansion.cwiseAbs() + stored.cwiseAbs() +
+                                  conducted.cwiseAbs()),
+            .rounding = share * share * (of_u + of_p) * (of_u + of_p)};
 }
 
 /// Sums over ties; held dofs drop out. The balance of mass is divided by -c_v, as its rows are.
@@ -235,8 +261,8 @@ double Newton::norm_of(const Eigen::VectorXd& per_dof) const {
     return (share_of_dof_.array() * per_dof.array()).matrix().norm();
 }
 
-/// Out-of-balance force over the weight, or over the internal forces where they are larger (no
-/// gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
+/// Out-of-balance force over the weight, or over the internal or viscous forces where they are
+/// larger (no gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
 /// asks for less than round-off: M a is c_a M (u - u_predicted).
 double Newton::residual_measure(const StepProblem& problem, const Motion& trial) const {
     const std::int32_t n_u = unknowns().displacements, n_p = unknowns().pressures();
@@ -244,9 +270,10 @@ double Newton::residual_measure(const StepProblem& problem, const Motion& trial)
         problem.rule.c_a > 0.0
             ? problem.rule.c_a * (model_.mass.array() * trial.u.array()).matrix().norm()
             : 0.0;
+    const double viscous = viscous_.size() > 0 ? norm_of(viscous_) : 0.0;
     const double reference =
         std::max({norm_of(problem.external), norm_of(trial.force), norm_of(problem.old.force),
-                  round_off * inertia / settings_.tolerance});
+                  viscous, round_off * inertia / settings_.tolerance});
     const double force = residual_.head(n_u).cwiseProduct(share_.head(n_u)).norm();
     const double of_force = reference > 0.0 ? force / reference : force;
     if (n_p == 0) return of_force;

@@ -1,5 +1,5 @@
 // Equilibrium and mass balance at the end of a step,
-//   M a + C v + f_int(u) - Q p = f_ext,   Q^T v + S p' + H p = flux,
+//   M a + C v + f_int(u) + f_viscous(v) - Q p = f_ext,   Q^T v + S p' + H p = flux,
 // by Newton's method with a factorisation that is kept as long as it serves, accelerated (Anderson
 // 1965) over the last few corrections. Without unknown pressures the second line is not there.
 #pragma once
@@ -16,6 +16,7 @@ namespace breach::fem {
 struct NewtonSettings {
     double tolerance;  ///< out-of-balance over reference [-]
     int largest_iterations;
+    int threads = 1;  ///< change no number
 };
 
 struct NewtonOutcome {
@@ -71,6 +72,7 @@ class Newton {
     /// False: the matrix in memory is not one of this problem, and nothing was taken.
     bool restore(const NewtonMemory& memory);
     InternalForce& internal_force() { return internal_force_; }
+    const InternalForce& internal_force() const { return internal_force_; }
 
   private:
     static constexpr int depth = 5;  ///< corrections remembered by the acceleration
@@ -96,9 +98,20 @@ class Newton {
     std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping
     NewtonMemory memory_;                  ///< values stay in matrix_
     NewtonCounts counts_;
-    Eigen::VectorXd R_u_;           ///< out-of-balance force, per dof [N]
-    Eigen::VectorXd R_p_;           ///< unbalanced volume, per node [m3/s]
-    Eigen::VectorXd exchanged_;     ///< sum of the magnitudes in that balance [m3/s]
+    Eigen::VectorXd viscous_;    ///< only with a viscosity: its force, per dof [N]
+    Eigen::VectorXd R_u_;        ///< out-of-balance force, per dof [N]
+    Eigen::VectorXd R_p_;        ///< unbalanced volume, per node [m3/s]
+    Eigen::VectorXd exchanged_;  ///< sum of the magnitudes in that balance [m3/s]
+    /// What a saturated element adds to the two balances.
+    struct WaterShare {
+        Dofs8 force;                ///< [N]
+        Eigen::Vector4d balance;    ///< [m3/s]
+        Eigen::Vector4d exchanged;  ///< [m3/s]
+        double rounding;            ///< squared [m6/s2]
+    };
+    WaterShare water_share(const PorousElement& each, const StepProblem& problem,
+                           const Motion& trial) const;
+    std::vector<WaterShare> of_water_;  ///< scratch, per saturated element
     double water_rounding_ = 0.0;   ///< what its terms lose in differences of large numbers [m3/s]
     Eigen::VectorXd share_of_dof_;  ///< only with thick columns: 1 / thickness, per dof [-]
     Eigen::VectorXd share_;         ///< the same per unknown; ones without columns

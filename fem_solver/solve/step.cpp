@@ -66,6 +66,7 @@ void set_acceleration(const Newton& newton, const Model& model, const Beginning&
     R -= motion.force;
     R.array() -= model.rayleigh.mass * model.mass.array() * motion.v.array();
     if (model.base.any()) R.array() -= model.base.dashpot.array() * motion.v.array();
+    newton.internal_force().add_viscous_force(-1.0, motion.v, R);
     const Unknowns& n = newton.unknowns();
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n.displacements), mass = force;
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {

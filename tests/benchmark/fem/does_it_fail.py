@@ -36,7 +36,7 @@ FAST, AT_REST = 0.1, 0.01  # m/s
 
 
 def run_row(program, folder, row, motion, limit):
-    settings = {"fem__motion__file": str(motion), "fem__stages__1__duration": END, "fem__snapshot_interval": 0.1} | ROWS[row]
+    settings = {"fem__motion__file": str(motion), "fem__stages__2__duration": END, "fem__snapshot_interval": 0.1} | ROWS[row]
     return dam_runs.run_dam(program, folder, settings, limit)
 
 

@@ -28,7 +28,7 @@ TIGHTEST = "tightest"
 def settings(size=SIZE, step=STEP, tolerance=TOLERANCE, gamma=GAMMA, step_error=0.0):
     """beta = (gamma + 1/2)^2 / 4 damps the highest frequencies most for its gamma."""
     stage = {"type": "dynamic", "name": "shaking", "duration": TIME, "time_step": step}
-    return {"section__element_size": size, "fem__stages__1": stage, "fem__force_tolerance": tolerance,
+    return {"section__element_size": size, "fem__stages__2": stage, "fem__force_tolerance": tolerance,
             "fem__newmark_gamma": gamma, "fem__newmark_beta": (gamma + 0.5) ** 2 / 4, "fem__largest_step_error": step_error,
             "fem__snapshot_interval": 0}
 

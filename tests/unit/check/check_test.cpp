@@ -50,10 +50,10 @@ TEST(Check, SandAsksForSmallStrainsAndForElasticStagesFirst) {
     const Checked checked = changed(
         "mochikoshi",
         {"/fem/kinematics=updated_lagrangian",
-         R"(/fem/stages/2={"type":"dynamic","name":"after","laws":"elastic","duration":1,"time_step":0.002})"});
+         R"(/fem/stages/3={"type":"dynamic","name":"after","laws":"elastic","duration":1,"time_step":0.002})"});
     ASSERT_EQ(checked.faults.size(), 2u) << told(checked.faults);
     EXPECT_TRUE(has_fault(checked, "/fem/kinematics", "PM4Sand"));
-    EXPECT_TRUE(has_fault(checked, "/fem/stages/2/laws", "after PM4Sand has begun"));
+    EXPECT_TRUE(has_fault(checked, "/fem/stages/3/laws", "after PM4Sand has begun"));
 }
 
 TEST(Check, WindowsAreReadAndAskForWhatIsRecorded) {

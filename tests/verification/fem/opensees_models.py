@@ -86,14 +86,15 @@ def write_msh(file, nodes, quads, region_of_quad, names):
         print("$EndElements", file=out)
 
 
-def mochikoshi(folder, reference, **fem):
-    """mochi.tcl on mesh24.json: its free-field columns are ours, the rest is its mesh."""
-    mesh = json.loads((reference / "mesh24.json").read_text())
+def mochikoshi(folder, reference, mesh="mesh24", size=2.4, **fem):
+    """mochi.tcl on one of its meshes, with elements of about `size` [m]: its free-field columns are ours, the rest is its mesh."""
+    file = f"{mesh}.msh"
+    mesh = json.loads((reference / f"{mesh}.json").read_text())
     kept = [k for k, t in enumerate(mesh["thickness"]) if t == 1.0]
     used = sorted({n for k in kept for n in mesh["elements"][k]})
     new = {n: i for i, n in enumerate(used)}
     kept.sort(key=lambda k: mesh["material"][k])
-    write_msh(folder / "mesh24.msh", [mesh["nodes"][n] for n in used],
+    write_msh(folder / file, [mesh["nodes"][n] for n in used],
               [[new[n] for n in mesh["elements"][k]] for k in kept], [mesh["material"][k] - 1 for k in kept],
               ["tailings", "embankment", "foundation"])
     with open(reference / "input_velocity.csv") as rows:
@@ -101,12 +102,12 @@ def mochikoshi(folder, reference, **fem):
     write_motion(folder / "motion.csv", 0.01, velocity)
     dam = [[133, 0], [220, 0], [175.9, 12.4], [168.9, 12.4], [115, 30], [110, 30], [109, 29.4], [124.3, 21], [151.9, 12.4]]
     regions = [block("foundation", "foundation", [[-55, -5], [275, -5], [275, 0], [-55, 0]], [1, 1])]
-    regions += [{"name": name, "material": name, "polygon": ring + ring[:1], "mesh": {"type": "unstructured", "element_size": 2.4}}
+    regions += [{"name": name, "material": name, "polygon": ring + ring[:1], "mesh": {"type": "unstructured", "element_size": size}}
                 for name, ring in (("tailings", [[-55, 0], [133, 0], [151.9, 12.4], [124.3, 21], [109, 29.4], [-55, 29.4]]),
                                    ("embankment", dam))]
     supports = [{"name": "base", "from": [-55, -5], "to": [275, -5], "fixes": "xy"}]
     result = scene("mochikoshi24", {"tailings": TAILINGS, "embankment": EMBANKMENT, "foundation": FOUNDATION}, regions,
                    supports, mesh["phreatic_line"], "motion.csv", [115, 30], fem.pop("duration", 5.0),
-                   msh_file="mesh24.msh", free_field={"width": 5, "thickness_factor": 1e6}, **fem)
+                   msh_file=file, free_field={"width": 5, "thickness_factor": 1e6}, **fem)
     (folder / "scene.json").write_text(json.dumps(result, indent=1))
     return result
