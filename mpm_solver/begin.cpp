@@ -59,15 +59,17 @@ void say(const GroundMotion& ground, const scene::Mpm& mpm) {
 
 void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state) {
     const double v_ground = ground.velocity(0.0);
+    const double u_ground = ground.displacement(0.0);
     for (Vec2& v : state.velocity) v.x() -= v_ground;
+    for (Vec2& x : state.position) x.x() -= u_ground;
     const double mass = std::accumulate(state.mass.begin(), state.mass.end(), 0.0);
     double momentum = 0.0;
     for (std::size_t p = 0; p < state.size(); ++p)
         momentum += state.mass[p] * state.velocity[p].x();
     spdlog::info(
         "horizontal momentum {:.6g} N s against far rock is {:.6g} N s on the ground, which moves "
-        "with {:.4g} m/s",
-        momentum + mass * v_ground, momentum, v_ground);
+        "with {:.4g} m/s and has moved {:.4g} m",
+        momentum + mass * v_ground, momentum, v_ground, u_ground);
 }
 
 Computing computing_of(const process::Session& session) {

@@ -23,14 +23,16 @@ double GroundMotion::acceleration(double t, double dt) const {
 }
 
 double GroundMotion::displacement(double t) const {
+    const double until = transfer_time_ + t;
+    const auto at = [&](double time) { return velocity(time - transfer_time_); };
     double sum = 0.0, from = 0.0;
-    for (std::size_t k = first_sample(); k < base_.velocity.size(); ++k) {
-        const double to = static_cast<double>(k) * base_.time_step - transfer_time_;
-        if (to >= t) break;
-        sum += 0.5 * (to - from) * (velocity(from) + velocity(to));
+    for (std::size_t k = 1; k < base_.velocity.size(); ++k) {
+        const double to = static_cast<double>(k) * base_.time_step;
+        if (to >= until) break;
+        sum += 0.5 * (to - from) * (at(from) + at(to));
         from = to;
     }
-    return sum + 0.5 * (t - from) * (velocity(from) + velocity(t));
+    return sum + 0.5 * (until - from) * (at(from) + at(until));
 }
 
 double GroundMotion::end() const {

@@ -19,7 +19,7 @@ class GroundMotion {
     double velocity(double t) const;
     /// Mean acceleration from t to t + dt, the change of velocity over dt [m/s2].
     double acceleration(double t, double dt) const;
-    /// From time 0 to t of the runout [m].
+    /// Since the shaking began, until time t of the runout [m].
     double displacement(double t) const;
     /// The runout's time at which the last sample lies [s]; not after 0: nothing shakes the runout.
     double end() const;

@@ -12,19 +12,20 @@ import numpy
 
 from phases import check, result, run
 
-transfer_time, end = 1.25, 5.0
-f, peak, cycles = 2.0, 0.3 * 9.81, 6  # of the ground
+transfer_time, end = 0.75, 3.0
+start, period, rise, forwards, cycles = 0.2, 0.5, 0.1, 1.2 * 9.81, 3
 
 
 def motion(file):
-    """Velocity of outcropping rock: sine cycles that grow and fall, none left at their end."""
+    """Velocity of outcropping rock: a saw, forwards at 1.2 g, back at 0.3 g, so that what slides does so one way."""
     dt = 0.005
-    length = cycles / f
+    peak = forwards * rise
     lines = ["time_s,velocity_m_s"]
-    for k in range(int(round((length + 0.5) / dt)) + 1):
-        t = k * dt
-        window = math.sin(math.pi * t / length) ** 2 if t < length else 0.0
-        lines.append(f"{t:.6f},{peak / (2 * math.pi * f) * window * math.sin(2 * math.pi * f * t):.10g}")
+    for k in range(int(round((start + cycles * period + 0.3) / dt)) + 1):
+        t = k * dt - start
+        within = t % period if 0 < t < cycles * period else 0.0
+        v = peak * within / rise if within < rise else peak * (period - within) / (period - rise)
+        lines.append(f"{k * dt:.6f},{v:.10g}")
     file.write_text("\n".join(lines) + "\n")
 
 
@@ -33,15 +34,21 @@ def box(name, material, x0, y0, x1, y1, divisions):
             "mesh": {"type": "block", "divisions": divisions}}
 
 
+def cohesive(E, nu, c):
+    return {"type": "mohr_coulomb", "E_MPa": E, "nu": nu, "c_kPa": c, "phi_deg": 0}
+
+
 def scene_of(folder):
     motion(folder / "motion.csv")
     scene = {
-        "format": "breachline-scene/1", "name": "block on a weak layer",
+        "format": "breachline-scene/1", "name": "block_on_weak_layer",
         "materials": {
-            "rock": {"density": 2200, "law": {"type": "linear_elastic", "E_MPa": 1000, "nu": 0.25}},
-            "block": {"density": 2000, "law": {"type": "linear_elastic", "E_MPa": 100, "nu": 0.25}},
-            "layer": {"density": 2000, "law": {"type": "mohr_coulomb", "E_MPa": 30, "nu": 0.3, "c_kPa": 1, "phi_deg": 8}}},
-        "section": {"regions": [box("rock", "rock", -20, 0, 20, 2, [40, 2]), box("layer", "layer", -10, 2, 10, 3, [20, 2]),
+            # Soil that shears beside elastic soil drags points of it along, within a quarter of a cell: all of it yields here,
+            # the neighbours a little later than the layer.
+            "ground": {"density": 2200, "law": cohesive(1000, 0.25, 35)}, "block": {"density": 2000, "law": cohesive(100, 0.25, 35)},
+            # light, so that all of it yields at once and no band hangs on elements or cells; stiff enough at its free ends
+            "layer": {"density": 400, "law": cohesive(30, 0.3, 28)}},
+        "section": {"regions": [box("ground", "ground", -20, 0, 20, 2, [40, 2]), box("layer", "layer", -10, 2, 10, 3, [20, 2]),
                                 box("block", "block", -10, 3, 10, 5, [20, 2])]},
         "fem": {"element": "bbar", "supports": [{"name": "base", "from": [-20, 0], "to": [20, 0], "fixes": "xy"}],
                 "base": {"density": 2500, "V_s": 3000}, "motion": {"file": "motion.csv"}, "free_field": {"width": 1},
@@ -49,7 +56,7 @@ def scene_of(folder):
                            {"type": "dynamic", "name": "shaking", "duration": end, "time_step": 0.005}],
                 "crest": [0, 5], "snapshot_times": [transfer_time], "telemetry_interval": 0.05},
         "transfer": {"points_per_direction": 4},
-        "mpm": {"cell_size": 0.5, "domain_x": [-20, 20], "domain_y": [0, 8], "right": "roller", "floor": {"level": 0},
+        "mpm": {"cell_size": 0.5, "domain_x": [-20.5, 20.5], "domain_y": [0, 8], "right": "roller", "floor": {"level": 0},
                 "duration": end - transfer_time, "runout": {"toe": [10, 2], "regions": ["block"]}, "shaking": "on",
                 "telemetry_interval": 0.05, "snapshot_interval": 10}}
     file = folder / "scene.json"
@@ -58,18 +65,21 @@ def scene_of(folder):
 
 
 def on_the_ground(snapshot):
-    """Mean displacement of the block's nodes less that of the base's [m]."""
+    """Mean displacement of the block less that of the base [m]."""
     with h5py.File(snapshot) as file:
         place, u = file["breachline/position_0"][()], file["VTKHDF/PointData/displacement"][()]
-    return u[place[:, 1] > 2.99, 0].mean() - u[place[:, 1] < 0.01, 0].mean()
+    rows = [u[abs(place[:, 1] - y) < 0.01, 0].mean() for y in (3.0, 4.0, 5.0)]
+    return rows @ numpy.array([0.25, 0.5, 0.25]) - u[place[:, 1] < 0.01, 0].mean()
 
 
-def block_of(frame):
-    with h5py.File(frame) as file:
-        names = [name.decode() for name in file["breachline/regions"][()].ravel()]
-        mine = file["VTKHDF/PointData/region"][()] == names.index("block")
-        x, m = file["VTKHDF/Points"][()][mine, 0], file["VTKHDF/PointData/mass"][()][mine]
-    return (x * m).sum() / m.sum()
+def slide(folder):
+    """Mean way of the block's points [m]; files keep the points' order."""
+    frames = []
+    for name in ("particles_0.000000.vtkhdf", "final.vtkhdf"):
+        with h5py.File(folder / name) as file:
+            frames.append(file["VTKHDF/Points"][()])
+    block = frames[0][:, 1] > 3.0
+    return (frames[1] - frames[0])[block, 0].mean()
 
 
 def compare(folder, scene):
@@ -86,7 +96,7 @@ def compare(folder, scene):
     for shaking in ("on", "off"):
         done = run("mpm_solver", scene, folder / shaking, "--input", folder / "points/particles.vtkhdf", "--set", f"/mpm/shaking={shaking}")
         check(f"mpm_solver ends well with shaking {shaking}", done.returncode == 0, done.stderr[-2000:])
-        slid[shaking] = block_of(folder / shaking / "final.vtkhdf") - block_of(folder / shaking / "particles_0.000000.vtkhdf")
+        slid[shaking] = slide(folder / shaking)
     print(f"from {transfer_time} s to {end} s the block slides {slid_in_fem:.4f} m in the FEM, {slid['on']:.4f} m in the MPM on shaken "
           f"ground, {slid['off']:.4f} m on ground at rest")
     check("the block slides, and the MPM's slide is the FEM's within 5 %",
@@ -96,7 +106,7 @@ def compare(folder, scene):
     check("the shaking's work is in the ledger", energy["shaking"]["J"] != 0.0 and "shaking" not in result(folder / "off"), energy)
     check(f"and closes it to {energy['numerical']['J'] / abs(energy['shaking']['J']):+.1e} of that work",
           abs(energy["numerical"]["J"]) < 0.2 * abs(energy["shaking"]["J"]), energy)
-    check("it says until when", abs(facts["until"] - (end - transfer_time)) < 1e-9 and facts["peak_acceleration"] > 1.0, facts)
+    check("it says until when", abs(facts["until"] - (end - transfer_time)) < 1e-9 and facts["peak_acceleration"] > 5.0, facts)
 
 
 def refuse(folder, scene):
@@ -123,8 +133,8 @@ def refuse(folder, scene):
         motion.attrs["time_step"] = 0.005
         motion["velocity"] = numpy.zeros(100)
     done = run("mpm_solver", scene, folder / "over", "--input", bare, "--set", "/mpm/duration=0.01")
-    check("an earthquake that is over before the transfer is told", done.returncode == 0 and "over 0.75 s before" in done.stderr or
-          "over 0.76 s before" in done.stderr, done.stderr)
+    check("an earthquake that is over before the transfer is told", done.returncode == 0 and "over 0.25 s before" in done.stderr or
+          "over 0.26 s before" in done.stderr, done.stderr)
 
 
 if __name__ == "__main__":

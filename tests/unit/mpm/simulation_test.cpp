@@ -165,7 +165,10 @@ TEST(ShakenRun, StandsOnTheGroundWithTheMomentumThatItHad) {
     const mechanics::Vec2 before = momentum();
     const double v_ground = shaking_ground().velocity(0.0);
     ASSERT_GT(std::abs(v_ground), 0.1);
+    const std::vector<mechanics::Vec2> places = state.position;
     stand_on_ground(shaking_ground(), state);
+    EXPECT_EQ(state.position[7].x(), places[7].x() - shaking_ground().displacement(0.0));
+    EXPECT_EQ(state.position[7].y(), places[7].y());
     const mechanics::Vec2 after = momentum();
     EXPECT_NEAR(after.x() + mass * v_ground, before.x(), 1e-12 * before.norm());
     EXPECT_EQ(after.y(), before.y());

@@ -220,15 +220,17 @@ TEST(Ground, IsReadBetweenItsSamplesAndRestsAfterThem) {
     EXPECT_DOUBLE_EQ(ground.acceleration(0.0, 0.5), 1.0);
     EXPECT_DOUBLE_EQ(ground.acceleration(1.25, 1.0), 0.0);
     EXPECT_DOUBLE_EQ(ground.end(), 1.25);
-    EXPECT_DOUBLE_EQ(ground.displacement(1.25), 0.25 * 0.75 + 0.5 + 0.25);
-    EXPECT_DOUBLE_EQ(ground.displacement(0.125), 0.125 * 0.625);
+    EXPECT_DOUBLE_EQ(ground.displacement(0.0), 0.0625);
+    EXPECT_DOUBLE_EQ(ground.displacement(0.125), 0.375 * 0.375);
+    EXPECT_DOUBLE_EQ(ground.displacement(1.25), 0.25 + 0.5 + 0.25);
+    EXPECT_DOUBLE_EQ(ground.displacement(2.25), 1.0);
     EXPECT_DOUBLE_EQ(ground.peak_acceleration(), 2.0);
     EXPECT_DOUBLE_EQ(ground.largest_swing(), 0.5);
     const GroundMotion over({.time_step = 0.5, .velocity = {0.0, 1.0, 0.0}}, 3.0);
     EXPECT_LT(over.end(), 0.0);
     EXPECT_DOUBLE_EQ(over.acceleration(0.0, 1.0), 0.0);
     EXPECT_DOUBLE_EQ(over.largest_swing(), 0.0);
-    EXPECT_DOUBLE_EQ(over.displacement(2.0), 0.0);
+    EXPECT_DOUBLE_EQ(over.displacement(2.0), 0.5);
 }
 
 }  // namespace
