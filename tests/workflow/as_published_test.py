@@ -45,7 +45,7 @@ def main(folder):
         check("four variants", sorted(times) == sorted(variants), times)
         (picked, late) = sorted(t for t in times[variants[0]] if t != ASKED)
         service.breach("export", run, folder / "run")
-        (fem,) = (folder / "run/tasks").glob("fem_*")
+        fem = folder / "run/tasks/fem"
         facts = result(fem)
         check("the FEM was followed to its end", facts["ended"] == "complete" and facts["end_time"] == END, facts["ended"])
         lines = [json.loads(line) for line in (fem / "telemetry.jsonl").read_text().splitlines()]

@@ -113,11 +113,11 @@ TEST_F(Motion, ADisplacementAndAScaledVelocityCannotBeApplied) {
 
 TEST_F(Motion, StagesThatEndBeforeTheShakingOrStepOverItAreTold) {
     EXPECT_TRUE(has_warning(with("cut.csv", header + rows(0.01, 0.3),
-                                 {"/fem/stages/1/duration=3", "/fem/snapshot_times=[]"}),
+                                 {"/fem/stages/2/duration=3", "/fem/snapshot_times=[]"}),
                             "motion_cut", "/fem/stages"));
     EXPECT_TRUE(
-        has_warning(with("coarse.csv", header + rows(0.01, 0.3), {"/fem/stages/1/time_step=0.1"}),
-                    "coarse_step", "/fem/stages/1/time_step"));
+        has_warning(with("coarse.csv", header + rows(0.01, 0.3), {"/fem/stages/2/time_step=0.1"}),
+                    "coarse_step", "/fem/stages/2/time_step"));
 }
 
 TEST_F(Motion, AVelocityThatIsLeftAtTheEndIsTold) {
