@@ -81,20 +81,21 @@ std::string as_accuracy_table(const json& answer) {
                         cell(row, "peak_memory_MB"), of_mean(row, "draws"),
                         of_mean(row, "cpu_seconds"), note_of(row, answer)});
     }
-    std::string text = as_table({{"ladder", Align::left},
-                                 {"setting", Align::left},
-                                 {title_of(answer), Align::right},
-                                 {"+-", Align::right},
-                                 {"draws", Align::right},
-                                 {"error", Align::right},
-                                 {"of a run", Align::right},
-                                 {"CPU [s]", Align::right},
-                                 {"wall [s]", Align::right},
-                                 {"memory [MB]", Align::right},
-                                 {"draws for " + percent(answer.at("asked_error")), Align::right},
-                                 {"their CPU [s]", Align::right},
-                                 {"", Align::left}},
-                                rows);
+    std::string text =
+        as_table({{"ladder", Align::left},
+                  {"setting", Align::left},
+                  {title_of(answer), Align::right},
+                  {"+-", Align::right},
+                  {"draws", Align::right},
+                  {"error", Align::right},
+                  {"of a run", Align::right},
+                  {"CPU [s]", Align::right},
+                  {"wall [s]", Align::right},
+                  {"memory [MB]", Align::right},
+                  {"draws for " + percent_of(answer.at("asked_error")), Align::right},
+                  {"their CPU [s]", Align::right},
+                  {"", Align::left}},
+                 rows);
     text +=
         "errors relative to " + cell(answer, "reference") +
         "; \"of a run\": with what the reference is off, the other ladders' error at the "
@@ -114,7 +115,7 @@ std::string as_check_table(const json& answer) {
             draws += (draws.empty() ? "" : " ") + cell(each);
         std::string note = cell(mean, "reason");
         if (mean.at("questionable").get<bool>()) note += note.empty() ? "?" : " ?";
-        rows.push_back({draws, cell(mean, "value"), percent(mean.at("error")),
+        rows.push_back({draws, cell(mean, "value"), percent_of(mean.at("error")),
                         mean.at("kept").get<bool>() ? "yes" : "no", note});
     }
     std::string quantity = cell(answer, "quantity");
@@ -122,7 +123,7 @@ std::string as_check_table(const json& answer) {
     return as_table({{"draws", Align::left},
                      {quantity, Align::right},
                      {"error", Align::right},
-                     {"within " + percent(answer.at("asked_error")), Align::left},
+                     {"within " + percent_of(answer.at("asked_error")), Align::left},
                      {"", Align::left}},
                     rows) +
            "\n" + cell(answer, "verdict") + "\n";

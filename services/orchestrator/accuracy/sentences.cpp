@@ -75,7 +75,7 @@ std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     for (std::size_t i = 0; i < table.ladders.size(); ++i)
         if (i != row.setting.ladder)
             tell(table.plan.ladders[i].name, table.ladders[i].error_of_base.value_or(0.0));
-    return words.empty() ? "" : words + ": finer rungs of the largest would tell more.";
+    return words.empty() ? "" : words + ".";
 }
 
 /// The row whose means come nearest to what is asked; nothing: no row has an error.
