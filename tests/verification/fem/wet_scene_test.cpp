@@ -2,6 +2,7 @@
 // columns, rest, and what is refused.
 #include <fstream>
 
+#include "core/exchange/mesh_snapshot.hpp"
 #include "core/phases/files.hpp"
 #include "tests/verification/fem/wet.hpp"
 
