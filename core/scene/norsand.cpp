@@ -76,9 +76,10 @@ std::vector<Fault> check_void_ratios(const norsand::Ready& law, double e_max,
     }
     const auto& line = *law.parameters.semi_log;
     const double for_1_kPa = line.Gamma - line.lambda * std::log(1000.0);
-    return {{pointer + "/Gamma", what,
-             "Gamma belongs to 1 kPa and lambda to the natural logarithm: a Gamma for 1 Pa becomes " +
-                 three_digits(for_1_kPa) + "; raise e_max if the soil is so loose"}};
+    return {
+        {pointer + "/Gamma", what,
+         "Gamma belongs to 1 kPa and lambda to the natural logarithm: a Gamma for 1 Pa becomes " +
+             three_digits(for_1_kPa) + "; raise e_max if the soil is so loose"}};
 }
 
 }  // namespace

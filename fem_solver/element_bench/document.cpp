@@ -102,8 +102,7 @@ double mean_stress(const Consolidation& at, double sigma_v) {
 norsand::Beginning begin(const norsand::Ready& law, const Consolidation& at, double sigma_v) {
     const scene::NorSandStart& start = at.norsand->start;
     const double p = mean_stress(at, sigma_v);
-    const double e_0 = start.e_0 ? *start.e_0
-                                 : *start.psi_0 + norsand::critical_void_ratio(law, p);
+    const double e_0 = start.e_0 ? *start.e_0 : *start.psi_0 + norsand::critical_void_ratio(law, p);
     return norsand::initialise(law, initial_stress(at, sigma_v), e_0, start.R);
 }
 
@@ -134,10 +133,11 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
     }
     const double slope = norsand::critical_slope(law, p);
     if (slope * par.chi_tc >= norsand::most_chi_lambda * par.M_tc) {
-        faults.push_back({stress_pointer,
-                          "lies where the critical state line is so steep that lambda chi_tc / M_tc is " +
-                              three_digits(slope * par.chi_tc / par.M_tc),
-                          "keep it below " + three_digits(norsand::most_chi_lambda)});
+        faults.push_back(
+            {stress_pointer,
+             "lies where the critical state line is so steep that lambda chi_tc / M_tc is " +
+                 three_digits(slope * par.chi_tc / par.M_tc),
+             "keep it below " + three_digits(norsand::most_chi_lambda)});
         return;
     }
     const norsand::Beginning begun = begin(law, at, sigma_v);
@@ -161,15 +161,15 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
     }
     if (!begun.shrunk) return;
     const double limit = begun.eta_limit;
-    const double K0 = at.K0 < 1.0 ? (3.0 - limit) / (3.0 + 2.0 * limit)
-                                  : (3.0 + limit) / (3.0 - 2.0 * limit);
+    const double K0 =
+        at.K0 < 1.0 ? (3.0 - limit) / (3.0 + 2.0 * limit) : (3.0 + limit) / (3.0 - 2.0 * limit);
     const bool sheared = at.static_shear > 0.0;
-    faults.push_back({pointer + (sheared ? "/static_shear" : "/K0"),
-                      "makes q/p " + three_digits(begun.eta) + ", outside the yield surface: at most " +
-                          three_digits(limit) + " stands there",
-                      sheared ? "lower the static shear or the difference of stresses"
-                              : (at.K0 < 1.0 ? "give K0 above " : "give K0 below ") +
-                                    three_digits(K0)});
+    faults.push_back(
+        {pointer + (sheared ? "/static_shear" : "/K0"),
+         "makes q/p " + three_digits(begun.eta) + ", outside the yield surface: at most " +
+             three_digits(limit) + " stands there",
+         sheared ? "lower the static shear or the difference of stresses"
+                 : (at.K0 < 1.0 ? "give K0 above " : "give K0 below ") + three_digits(K0)});
 }
 
 /// What the tests of NorSand say against the law and themselves.
@@ -226,7 +226,8 @@ void check_tests(const json& document, std::vector<Fault>& faults) {
         }
         if (!is_triaxial(words::word_at<Boundary>(test, "boundary"))) continue;
         if (law == "pm4sand") {
-            faults.push_back({pointer + "/boundary", "is triaxial, and PM4Sand knows plane strain alone",
+            faults.push_back({pointer + "/boundary",
+                              "is triaxial, and PM4Sand knows plane strain alone",
                               "use a shear or biaxial boundary, or another law"});
         }
         if (test.value("static_shear", 0.0) != 0.0) {

@@ -28,7 +28,8 @@ json numbers_of(const materials::norsand::Counts& counts, long calls) {
             {"sub_steps", counts.sub_steps},
             {"rejected", counts.rejected},
             {"guarded", counts.guarded},
-            {"floored", counts.floored}};
+            {"floored", counts.floored},
+            {"cut_off", counts.cut_off}};
 }
 
 json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
@@ -130,14 +131,10 @@ void store(Results& results, const std::string& curve, const Record& record) {
         const char* name;
         double Reading::*member;
         const char* unit;
-    } columns[] = {{"strain", &Reading::strain, "1"},
-                   {"response", &Reading::response, "Pa"},
-                   {"sigma_xx", &Reading::sigma_xx, "Pa"},
-                   {"sigma_yy", &Reading::sigma_yy, "Pa"},
-                   {"sigma_zz", &Reading::sigma_zz, "Pa"},
-                   {"tau", &Reading::tau, "Pa"},
-                   {"epsilon_v", &Reading::epsilon_v, "1"},
-                   {"r_u", &Reading::r_u, "1"},
+    } columns[] = {{"strain", &Reading::strain, "1"},       {"response", &Reading::response, "Pa"},
+                   {"sigma_xx", &Reading::sigma_xx, "Pa"},  {"sigma_yy", &Reading::sigma_yy, "Pa"},
+                   {"sigma_zz", &Reading::sigma_zz, "Pa"},  {"tau", &Reading::tau, "Pa"},
+                   {"epsilon_v", &Reading::epsilon_v, "1"}, {"r_u", &Reading::r_u, "1"},
                    {"cycles", &Reading::cycles, "1"}};
     for (const auto& column : columns) {
         std::vector<double> values;
@@ -177,15 +174,14 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
             specimen, plan.consolidation.boundary,
             {.amplitude = CSR * sigma_v, .mean = plan.consolidation.static_shear * sigma_v},
             test.limit, test.pace);
-        results.numbers[plan.name].push_back(
-            {{"sigma_v_kPa", sigma_v / 1e3},
-             {"CSR", CSR},
-             {"N_strain_limit", reached(result.N_strain)},
-             {"N_1_percent", reached(result.N_1_percent)},
-             {"N_r_u_0.95", reached(result.N_r_u)},
-             {"largest_r_u", result.largest_r_u},
-             {"complete", result.record.outcome == Ending::done},
-             {"cost", cost_of(result.record)}});
+        results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
+                                              {"CSR", CSR},
+                                              {"N_strain_limit", reached(result.N_strain)},
+                                              {"N_1_percent", reached(result.N_1_percent)},
+                                              {"N_r_u_0.95", reached(result.N_r_u)},
+                                              {"largest_r_u", result.largest_r_u},
+                                              {"complete", result.record.outcome == Ending::done},
+                                              {"cost", cost_of(result.record)}});
         store(results, label(plan.name, sigma_v, "csr", CSR), result.record);
     }
 }

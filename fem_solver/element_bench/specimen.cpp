@@ -117,8 +117,8 @@ Drives drives(Boundary boundary) {
 
 bool is_triaxial(Boundary boundary) {
     return boundary == Boundary::undrained_compression ||
-           boundary == Boundary::drained_compression ||
-           boundary == Boundary::undrained_extension || boundary == Boundary::drained_extension;
+           boundary == Boundary::drained_compression || boundary == Boundary::undrained_extension ||
+           boundary == Boundary::drained_extension;
 }
 
 bool is_drained(Boundary boundary) {

@@ -82,13 +82,13 @@ Trial strained(const Specimen& specimen, const Voigt& d_epsilon);
 
 /// What is held while the driven strain goes on.
 enum class Boundary {
-    undrained_shear,    ///< gamma driven, epsilon_xx = epsilon_yy = 0
-    drained_shear,      ///< gamma driven, epsilon_xx = 0, sigma_yy held
-    undrained_biaxial,  ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
-    drained_biaxial,    ///< epsilon_yy driven, sigma_xx held, no shear
+    undrained_shear,        ///< gamma driven, epsilon_xx = epsilon_yy = 0
+    drained_shear,          ///< gamma driven, epsilon_xx = 0, sigma_yy held
+    undrained_biaxial,      ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
+    drained_biaxial,        ///< epsilon_yy driven, sigma_xx held, no shear
     undrained_compression,  ///< triaxial: epsilon_yy driven, epsilon_xx = epsilon_zz = -epsilon_yy / 2
-    drained_compression,    ///< triaxial: epsilon_yy driven, sigma_xx = sigma_zz held
-    undrained_extension,    ///< the same with epsilon_yy pulled: driven is -epsilon_yy
+    drained_compression,  ///< triaxial: epsilon_yy driven, sigma_xx = sigma_zz held
+    undrained_extension,  ///< the same with epsilon_yy pulled: driven is -epsilon_yy
     drained_extension,
 };
 

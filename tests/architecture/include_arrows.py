@@ -50,7 +50,7 @@ floors = {
     "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # units that are one thing in several files: a door that its own parts include
-one_thing = [re.compile(r"core/materials/pm4sand/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution|words)$"),
+one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {

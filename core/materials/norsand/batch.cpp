@@ -78,8 +78,7 @@ template <int N>
         if (lanes::any(unloads)) {
             for (int i = 0; i < N; ++i) {
                 if (!lanes::lane(unloads, i)) continue;
-                const Next next =
-                    after_unloading(job.law, job.options, i, walk, seats[i].errand);
+                const Next next = after_unloading(job.law, job.options, i, walk, seats[i].errand);
                 moving[i] = next == Next::walk;
                 if (next == Next::leave) refill(i);
             }

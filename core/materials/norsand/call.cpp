@@ -27,14 +27,32 @@ Components<double> direction_of(const Strain& d) {
 
 namespace {
 
-constexpr double near_surface = 1e-7;    ///< |F| / p that counts as on the surface
-constexpr double found_surface = 1e-9;   ///< section 12.3
+constexpr double near_surface = 1e-7;   ///< |F| / p that counts as on the surface
+constexpr double found_surface = 1e-9;  ///< section 10
 
-/// Elastic strain from a state, section 12.2.
+/// The size of the surface through a stress [Pa].
+double size_through(const Ready& law, const State& state) {
+    const Components<double> sigma = stress_of(state);
+    const double p = trace(sigma) / 3.0;
+    const Components<double> s = deviator(sigma, p);
+    const double M = law.parameters.M_tc - law.M_fall * axes_of(s).half_cosine;
+    return image_size(law, {p, shear_measure(s) / p, M, state.e, state.chi_i});
+}
+
+/// What `Unloading::capped` does on an elastic path: the surface shrinks to the limiting size, and
+/// the stress may come to lie on it; or it shrinks no farther than to the stress.
+enum class Cap { shrinks, follows };
+
+/// Elastic strain from a state, section 10.
 class ElasticPath {
   public:
-    ElasticPath(const Ready& law, const State& from, const Strain& d)
-        : law_(law), from_(from), d_(d), volume_(trace(d)), p_0_(trace(stress_of(from)) / 3.0) {
+    ElasticPath(const Ready& law, const State& from, const Strain& d, Cap cap)
+        : law_(law),
+          from_(from),
+          d_(d),
+          cap_(cap),
+          volume_(trace(d)),
+          p_0_(trace(stress_of(from)) / 3.0) {
         const Parameters& par = law.parameters;
         const double p = std::max(p_0_, par.p_min);
         const double ln_p = std::log(p / kPa);
@@ -58,7 +76,10 @@ class ElasticPath {
         out.xy = s_0.xy + G * dev.xy;
         out.e = (1.0 + from_.e) * std::exp(-volume) - 1.0;
         if (law_.parameters.unloading == Unloading::capped && p > 0.0) {
-            out.p_i = capped_size(law_, p, out.e, out.chi_i, out.p_i);
+            out.p_i = capped_size(law_, p, out.e, out.chi_i, from_.p_i);
+            if (cap_ == Cap::follows && out.p_i < from_.p_i) {
+                out.p_i = std::min(std::max(out.p_i, size_through(law_, out)), from_.p_i);
+            }
         }
         return out;
     }
@@ -101,6 +122,7 @@ class ElasticPath {
     const Ready& law_;
     const State& from_;
     const Strain& d_;
+    Cap cap_;
     double volume_, p_0_;
     double G_0_, K_floor_;
 };
@@ -125,7 +147,7 @@ double crossing(const ElasticPath& path, double a, double F_a, double b, double 
     return at;
 }
 
-/// Section 11.
+/// Section 8.
 void hold_at_floor(const Ready& law, State& state) {
     const double p_min = law.parameters.p_min;
     const Components<double> sigma = stress_of(state);
@@ -137,6 +159,21 @@ void hold_at_floor(const Ready& law, State& state) {
     set_stress(state, {p_min + s.xx, p_min + s.yy, p_min + s.zz, s.xy});
     state.p_i = image_size(law, {p_min, std::min(q / p_min, M), M, state.e, state.chi_i});
     state.on_floor = true;
+}
+
+/// Section 8: no principal stress is tension. The deviator shrinks until the least one is 0; the
+/// size of the surface stays, and the point lies inside it. True if there was tension.
+bool cut_off_tension(State& state) {
+    const Components<double> sigma = stress_of(state);
+    const double p = trace(sigma) / 3.0;
+    const double half = 0.5 * (sigma.xx - sigma.yy);
+    const double in_plane =
+        0.5 * (sigma.xx + sigma.yy) - std::sqrt(half * half + sigma.xy * sigma.xy);
+    const double least = std::min(in_plane, sigma.zz);
+    if (least >= 0.0) return false;
+    const Components<double> s = (p / (p - least)) * deviator(sigma, p);
+    set_stress(state, {p + s.xx, p + s.yy, p + s.zz, s.xy});
+    return true;
 }
 
 bool is_finite(const State& s) {
@@ -156,10 +193,18 @@ bool open_call(const Ready& law, const State& old, const Strain& d, const Option
     // An opened point waits until it is closed again.
     if (old.on_floor && trace(d) < 0.0) return false;
     state.on_floor = false;
-    const ElasticPath path(law, old, d);
+    const ElasticPath path(law, old, d, Cap::shrinks);
     ++errand.update->counts.evaluations;
-    const double F = path.excess(old);
+    double F = path.excess(old);
     if (F >= -near_surface) return true;
+    if (law.parameters.unloading == Unloading::capped) {
+        const State capped = path.at(0.0);
+        F = path.excess(capped);
+        if (F >= -near_surface) {
+            state.p_i = std::max(capped.p_i, size_through(law, old));
+            return true;
+        }
+    }
     const State end = path.at(1.0);
     const double F_end = path.excess(end);
     if (F_end <= found_surface) {
@@ -176,7 +221,7 @@ bool open_call(const Ready& law, const State& old, const Strain& d, const Option
 
 double unload(const Ready& law, const Options&, const Strain& rest, State& state) {
     const State from = state;
-    const ElasticPath path(law, from, rest);
+    const ElasticPath path(law, from, rest, Cap::follows);
     const double F_end = path.excess(1.0);
     if (F_end <= found_surface) {
         state = path.at(1.0);
@@ -201,6 +246,7 @@ void finish_call(const Ready& law, const State& old, const Strain& d, Errand& er
             hold_at_floor(law, state);
             ++update.counts.floored;
         }
+        if (cut_off_tension(state)) ++update.counts.cut_off;
         if (is_finite(state)) return;
         update.outcome = Outcome::unresolved;
     }

@@ -1,5 +1,5 @@
 // A call around its walk (walk.hpp): the elastic part before the surface is met, unloading on the
-// way, and the closing at the floor (sections 5, 11, 12). One point and several side by side share
+// way, and the closing at the floor (sections 4, 8, 10). One point and several side by side share
 // this text.
 #pragma once
 
@@ -33,7 +33,7 @@ bool open_call(const Ready& law, const State& old, const Strain& d, const Option
 /// all of it; 0: nothing, what looked like unloading was neutral. The state is moved.
 double unload(const Ready& law, const Options& options, const Strain& rest, State& state);
 
-/// Closes a call: void ratio, floor, and the old state if it failed.
+/// Closes a call: void ratio, floor, tension, and the old state if it failed.
 void finish_call(const Ready& law, const State& old, const Strain& d, Errand& errand);
 
 template <class R>
@@ -95,7 +95,8 @@ template <class R>
                               .sub_steps = number(walk.sub_steps),
                               .rejected = number(walk.rejected),
                               .guarded = number(walk.guarded),
-                              .floored = 0};
+                              .floored = 0,
+                              .cut_off = 0};
 }
 
 /// One lane's progress after `begin`: leaves, unloads or walks on.

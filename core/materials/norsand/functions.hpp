@@ -1,4 +1,4 @@
-// The state functions of NorSand, sections 1 to 8 of docs/design/norsand.md, for one point or for
+// The state functions of NorSand, sections 1 to 7 of docs/design/norsand.md, for one point or for
 // several side by side. Pure formulas: no integration in here. Compression positive.
 #pragma once
 
@@ -11,12 +11,12 @@
 namespace breach::materials::norsand {
 
 inline constexpr double kPa = 1000.0;
-inline constexpr double least_f = 0.2;         ///< guard of section 4
-inline constexpr double least_eta_L = 0.05;    ///< guard of section 7, as a share of M_i
-inline constexpr double least_H = 10.0;        ///< section 7
-inline constexpr double no_deviator = 1e-7;    ///< q/p below which section 6.4 holds
-inline constexpr double on_axis = 3e-9;        ///< cos 3 theta within 1e-9 of the triaxial lines
-inline constexpr double least_dilation = -1.2; ///< of the triaxial lines in js; guard of section 6
+inline constexpr double least_f = 0.2;          ///< guard of section 3
+inline constexpr double least_eta_L = 0.05;     ///< guard of section 6, as a share of M_i
+inline constexpr double least_H = 10.0;         ///< section 6
+inline constexpr double no_deviator = 1e-7;     ///< q/p below which a stress has no direction
+inline constexpr double on_axis = 3e-9;         ///< cos 3 theta within 1e-9 of the triaxial lines
+inline constexpr double least_dilation = -1.2;  ///< of the triaxial lines in js; guard of section 5
 
 /// A symmetric tensor in plane strain: a stress, or a strain with engineering shear.
 template <class R>
@@ -62,11 +62,10 @@ template <class R>
 /// sqrt(3/2 s:s) of a deviatoric stress.
 template <class R>
 [[gnu::always_inline]] inline R shear_measure(const Components<R>& s) {
-    return lanes::root(R(1.5) * (s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) +
-                       R(3.0) * s.xy * s.xy);
+    return lanes::root(R(1.5) * (s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) + R(3.0) * s.xy * s.xy);
 }
 
-/// The principal axes and the Lode angle of a deviator, sections 1 and 4.
+/// The principal axes and the Lode angle of a deviator, sections 1 and 3.
 template <class R>
 struct Axes {
     R m_1, m_2, m_3;               ///< principal deviators over q, falling
@@ -128,7 +127,7 @@ template <class R>
     return {centre + turned, centre - turned, third, apart * a.sin_2a};
 }
 
-/// Section 3.2 at ln(p / 1 kPa).
+/// Section 2 at ln(p / 1 kPa).
 template <class R>
 struct OnLine {
     R e_c;
@@ -145,7 +144,7 @@ template <class R>
     return {R(line.C_a) - fall, R(line.C_c) * fall};
 }
 
-/// Section 3.1 at ln(p / 1 kPa).
+/// Section 2 at ln(p / 1 kPa).
 template <class R>
 [[gnu::always_inline]] inline R shear_modulus(const Ready& law, const R& p, const R& ln_p) {
     const Parameters& par = law.parameters;
@@ -161,23 +160,23 @@ struct Place {
     R p_i, e, chi_i;
 };
 
-/// Sections 4 and 5.
+/// Sections 3 and 4.
 template <class R>
 struct Surface {
     R p, q;
-    R p_hat;      ///< max(p, p_min)
-    R ln_p_hat;   ///< of p_hat / 1 kPa
-    R ln_ratio;   ///< ln(p_i / p)
+    R p_hat;     ///< max(p, p_min)
+    R ln_p_hat;  ///< of p_hat / 1 kPa
+    R ln_ratio;  ///< ln(p_i / p)
     R psi_i;
     R lambda_i;
-    R f;          ///< M_i / M
+    R f;  ///< M_i / M
     R M, M_i;
     R F;
     Components<R> s;
     Axes<R> axes;
 };
 
-/// direction: taken for the deviatoric stress where that vanishes (section 6.4).
+/// direction: taken for the deviatoric stress where that vanishes (section 5).
 template <class R>
 [[gnu::always_inline]] inline Surface<R> surface_at(const Ready& law, const Place<R>& at,
                                                     const Components<R>& direction) {
@@ -206,7 +205,7 @@ template <class R>
     return out;
 }
 
-/// Plastic flow, gradient and hardening of sections 6 to 8 on the surface.
+/// Plastic flow, gradient and hardening of sections 5 to 7 on the surface.
 template <class R>
 struct Flow {
     R G, K;
@@ -214,12 +213,12 @@ struct Flow {
     Components<R> r;  ///< deviator of the plastic strain per unit of epsilon_q, engineering shear
     Components<R> n;  ///< deviator of the gradient of F, the same
     R F_e;
-    R h;              ///< d p_i per unit of epsilon_q [Pa]
-    R A;              ///< [Pa]
+    R h;  ///< d p_i per unit of epsilon_q [Pa]
+    R A;  ///< [Pa]
     MaskOf<R> guarded;
 };
 
-/// Section 6.1: principal strain rates over their work-conjugate measure.
+/// Section 5, js: principal strain rates over their work-conjugate measure.
 template <class R>
 [[gnu::always_inline]] inline Components<R> ratios_of_js(const Ready& law, const Surface<R>& at,
                                                          const R& D) {
@@ -243,7 +242,7 @@ template <class R>
     return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz;
 }
 
-/// Section 7, d p_i per unit of epsilon_q.
+/// Section 6, d p_i per unit of epsilon_q.
 template <class R>
 [[gnu::always_inline]] inline R hardening(const Ready& law, const Place<R>& at,
                                           const Surface<R>& surface, const R& K, const R& D,
@@ -289,7 +288,7 @@ template <class R>
     // On the surface F_theta / q = -(dM / d theta) / M; on the triaxial lines nothing turns.
     const R slope = R(1.5 * law.M_fall) * a.half_sine;
     const R pull = select(magnitude(a.cosine_3) < R(on_axis), none, -slope / surface.M);
-    // t_k q of section 8: cos(60 + theta), -cos theta, cos(60 - theta) from the deviators.
+    // t_k of section 7: cos(60 + theta), -cos theta, cos(60 - theta) from the deviators.
     constexpr double third = 1.0 / std::numbers::sqrt3;
     const R t_1 = R(third) * (a.m_2 - a.m_3) * R(1.5);
     const R t_2 = R(third) * (a.m_3 - a.m_1) * R(1.5);
@@ -305,9 +304,10 @@ template <class R>
 
     out.h = hardening(law, at, surface, out.K, out.D, out.guarded);
     // sign(0) = 0, and none while the guard holds f.
-    const R side = select(surface.psi_i > none, R(1.0), select(surface.psi_i < none, R(-1.0), none));
-    const R M_psi = select(surface.f <= R(least_f), none,
-                           surface.M * R(-par.N / par.M_tc) * at.chi_i * side);
+    const R side =
+        select(surface.psi_i > none, R(1.0), select(surface.psi_i < none, R(-1.0), none));
+    const R M_psi =
+        select(surface.f <= R(least_f), none, surface.M * R(-par.N / par.M_tc) * at.chi_i * side);
     const R F_M = -surface.p * (R(1.0) + surface.ln_ratio);
     out.F_e = F_M * M_psi;
     const R F_pi = (out.F_e * surface.lambda_i - surface.M_i * surface.p) / at.p_i;
@@ -317,7 +317,7 @@ template <class R>
     return out;
 }
 
-/// g . d of section 8: how much a strain increment d loads the surface.
+/// g . d of section 7: how much a strain increment d loads the surface.
 template <class R>
 [[gnu::always_inline]] inline R loading(const Flow<R>& flow, const R& e, const Components<R>& d) {
     const R volume = trace(d);

@@ -1,5 +1,5 @@
-// The size of the surface that goes with a stress or with the limiting hardness (sections 5 and
-// 10), for one point.
+// The size of the surface that goes with a stress or with the limiting hardness (sections 4 and
+// 9), for one point.
 #pragma once
 
 #include "core/materials/norsand/functions.hpp"

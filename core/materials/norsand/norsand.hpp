@@ -14,7 +14,7 @@ namespace breach::materials::norsand {
 using mechanics::Matrix4;
 using mechanics::Voigt;
 
-/// Section 3: e_c = Gamma - lambda ln(p / 1 kPa), or e_c = C_a - C_b (p / p_ref)^C_c.
+/// Section 2: e_c = Gamma - lambda ln(p / 1 kPa), or e_c = C_a - C_b (p / p_ref)^C_c.
 struct SemiLogLine {
     double Gamma;   ///< void ratio at 1 kPa [-]
     double lambda;  ///< per unit of the natural logarithm [-]
@@ -24,14 +24,14 @@ struct CurvedLine {
     double p_ref = 100e3;  ///< [Pa]
 };
 
-/// Section 6: how the plastic strain is shared among the principal directions.
+/// Section 5: how the plastic strain is shared among the principal directions.
 enum class FlowRule {
     js,      ///< strain-rate ratios of Jefferies & Shuttle 2002
     radial,  ///< along the deviatoric stress
     normal,  ///< along the yield surface's gradient; has a vertex in triaxial compression
 };
 
-/// Section 5: what unloading inside the bullet does.
+/// Section 4: what unloading inside the bullet does.
 enum class Unloading {
     elastic,  ///< nothing but elasticity
     capped,   ///< the surface shrinks with the limiting hardness
@@ -85,7 +85,7 @@ double critical_slope(const Ready& law, double p);
 double critical_pressure(const Ready& law, double e);
 /// Largest lambda chi_tc / M_tc that is believed; at 1 the image state is singular.
 inline constexpr double most_chi_lambda = 0.9;
-/// Lode angle [rad] of the critical state in plane strain and simple shear (section 6).
+/// Lode angle [rad] of the critical state in plane strain and simple shear.
 double plane_critical_angle(const Ready& law);
 /// M at a Lode angle [rad].
 double critical_ratio(const Ready& law, double theta);
@@ -94,13 +94,13 @@ double critical_ratio(const Ready& law, double theta);
 struct Beginning {
     State state;
     double eta;        ///< q/p as given
-    double eta_limit;  ///< section 10: the largest q/p that can be held, 0.98 min(eta_L, M_i)
+    double eta_limit;  ///< section 9: the largest q/p that can be held, 0.98 min(eta_L, M_i)
     bool shrunk;       ///< the deviator was cut down to that limit
     bool raised;       ///< p was below p_min
     bool clipped;      ///< R was more than the limiting hardness allows
 };
 
-/// Section 10: the state that holds the effective stress sigma [Pa, tension positive] at the void
+/// Section 9: the state that holds the effective stress sigma [Pa, tension positive] at the void
 /// ratio e_0, overconsolidated by R >= 1. eta_limit <= 0: too loose for the law to stand at all,
 /// and the state is not usable.
 Beginning initialise(const Ready& law, const Voigt& sigma, double e_0, double R = 1.0);
@@ -108,19 +108,19 @@ Beginning initialise(const Ready& law, const Voigt& sigma, double e_0, double R 
 /// Effective stress [Pa, tension positive].
 Voigt stress(const State& state);
 
-/// What a state means. Stress measures of section 1, surface of sections 4 and 5.
+/// What a state means, sections 1 to 4.
 struct Reading {
-    double p, q;     ///< [Pa]
-    double theta;    ///< Lode angle [rad], +30 deg in triaxial compression
-    double psi;      ///< state parameter
-    double psi_i;    ///< of the image state
-    double M;        ///< critical stress ratio at this Lode angle
-    double M_i;      ///< of the image state
-    double p_mx;     ///< limiting size of the surface [Pa]
-    double eta_L;    ///< limiting stress ratio: beyond it the state is past its instability line
-    double D;        ///< dilatancy that goes with the surface, > 0 contracts
-    double F;        ///< yield function [Pa]
-    double G;        ///< [Pa]
+    double p, q;   ///< [Pa]
+    double theta;  ///< Lode angle [rad], +30 deg in triaxial compression
+    double psi;    ///< state parameter
+    double psi_i;  ///< of the image state
+    double M;      ///< critical stress ratio at this Lode angle
+    double M_i;    ///< of the image state
+    double p_mx;   ///< limiting size of the surface [Pa]
+    double eta_L;  ///< limiting stress ratio: beyond it the state is past its instability line
+    double D;      ///< dilatancy that goes with the surface, > 0 contracts
+    double F;      ///< yield function [Pa]
+    double G;      ///< [Pa]
 };
 Reading read(const Ready& law, const State& state);
 
@@ -142,8 +142,9 @@ struct Counts {
     int evaluations = 0;
     int sub_steps = 0;
     int rejected = 0;
-    int guarded = 0;  ///< sub-steps with a guard of section 4 or 7 at work
+    int guarded = 0;  ///< sub-steps with a guard of section 3 or 6 at work
     int floored = 0;  ///< calls that ended at p_min
+    int cut_off = 0;  ///< calls whose least principal stress was tension
 
     Counts& operator+=(const Counts& other);
 };

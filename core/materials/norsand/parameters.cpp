@@ -63,6 +63,7 @@ Counts& Counts::operator+=(const Counts& other) {
     rejected += other.rejected;
     guarded += other.guarded;
     floored += other.floored;
+    cut_off += other.cut_off;
     return *this;
 }
 
@@ -118,7 +119,7 @@ double capped_size(const Ready& law, double p, double e, double chi_i, double p_
 
 namespace {
 
-/// Section 10.4: the largest stress ratio that the image state of this one lets stand.
+/// Section 9: the largest stress ratio that the image state of this one lets stand.
 double largest_ratio(const Ready& law, const Bullet& at) {
     const double psi_i = at.e - critical_void_ratio(law, image_size(law, at));
     const double M_i = at.M * image_share(law, at.chi_i, psi_i);
@@ -148,7 +149,7 @@ Beginning initialise(const Ready& law, const Voigt& sigma, double e_0, double R)
     if (out.eta > out.eta_limit) {
         out.shrunk = true;
         for (int round = 0; round < 100; ++round) {
-            at.eta = std::max(std::min(at.eta, largest_ratio(law, at)), 0.0);
+            at.eta = std::max(std::min(out.eta, largest_ratio(law, at)), 0.0);
         }
         out.eta_limit = largest_ratio(law, at);
     }
@@ -170,10 +171,8 @@ Beginning initialise(const Ready& law, const Voigt& sigma, double e_0, double R)
 }
 
 Reading read(const Ready& law, const State& state) {
-    const Place<double> place{{state.xx, state.yy, state.zz, state.xy},
-                              state.p_i,
-                              state.e,
-                              state.chi_i};
+    const Place<double> place{
+        {state.xx, state.yy, state.zz, state.xy}, state.p_i, state.e, state.chi_i};
     const Surface<double> at = surface_at(law, place, {0.0, 0.0, 0.0, 0.0});
     const double share = limiting_share(law, state.chi_i, at.psi_i);
     const double theta = std::atan2(-std::numbers::sqrt3 * at.axes.m_2, at.axes.m_1 - at.axes.m_3);

@@ -1,4 +1,4 @@
-// The plastic part of a call, section 12, for one point (double) or several side by side (Lanes):
+// The plastic part of a call, section 11, for one point (double) or several side by side (Lanes):
 // modified Euler with error control (Sloan, Abbo & Sheng 2001) and a return to the surface after
 // each sub-step.
 #pragma once
@@ -17,10 +17,10 @@ class Walk {
     // Where the points are.
     Components<R> sigma;
     R p_i, epsilon_q;
-    R e;           ///< at time 0
+    R e;  ///< at time 0
     R chi_i;
-    R time, step;  ///< time: done part of the call's plastic strain; step: next part
-    R proposed;    ///< step that the error control would take next
+    R time, step;             ///< time: done part of the call's plastic strain; step: next part
+    R proposed;               ///< step that the error control would take next
     Components<R> d;          ///< the call's plastic strain
     R volume;                 ///< of d
     Components<R> direction;  ///< of its deviator, as a stress of unit measure
@@ -47,7 +47,7 @@ class Walk {
     }
     [[gnu::always_inline]] Rates rates_at(const Components<R>& stress, const R& size,
                                           const R& at) const;
-    /// Section 12.5 from a trial place, along the flow of its last stage.
+    /// Back to the surface from a trial place, along the flow of its last stage.
     [[gnu::always_inline]] MaskOf<R> correct(Place<R>& place, const Flow<R>& flow,
                                              const MaskOf<R>& busy);
 
@@ -70,8 +70,8 @@ inline typename Walk<R>::Rates Walk<R>::rates_at(const Components<R>& stress, co
     // A <= 0 is refused by `advance`; the rates only have to exist.
     out.epsilon_q = positive(drive) / select(flow.A > R(0.0), flow.A, flow.G);
     const Components<R> dev = deviator(d, volume * R(1.0 / 3.0));
-    out.sigma = elastic(flow.G, flow.K, dev - out.epsilon_q * flow.r,
-                        volume - out.epsilon_q * flow.D);
+    out.sigma =
+        elastic(flow.G, flow.K, dev - out.epsilon_q * flow.r, volume - out.epsilon_q * flow.D);
     out.p_i = flow.h * out.epsilon_q;
     return out;
 }
@@ -112,8 +112,8 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const R size = p_i + step * first_.p_i;
     evaluations = evaluations + select(moving, one, none);
     const MaskOf<R> first_stands = (trace(there) > none) & (size > none) & (first_.flow.A > none);
-    const Rates second = rates_at(choose(first_stands, there, sigma),
-                                  select(first_stands, size, p_i), next);
+    const Rates second =
+        rates_at(choose(first_stands, there, sigma), select(first_stands, size, p_i), next);
     const R half = R(0.5) * step;
     const R way = half * (first_.epsilon_q + second.epsilon_q);
     Place<R> place{sigma + half * (first_.sigma + second.sigma),
@@ -122,8 +122,8 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const R size_gap = half * magnitude((second.p_i - first_.p_i) / place.p_i);
     const R tolerance(options_.tolerance);
     const R error = larger(gap, size_gap);
-    MaskOf<R> stands = first_stands & (trace(place.sigma) > none) & (place.p_i > none) &
-                       (second.flow.A > none);
+    MaskOf<R> stands =
+        first_stands & (trace(place.sigma) > none) & (place.p_i > none) & (second.flow.A > none);
     // What failed shrinks as far as it may; what is exact grows as far as it may.
     const R room = select(stands, error, R(1e6) * tolerance);
     const R growth = R(0.9) * root(tolerance / larger(room, R(1e-6) * tolerance));

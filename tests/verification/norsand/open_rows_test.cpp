@@ -52,7 +52,8 @@ struct Run {
 
 Run run_of(const std::string& name, double tolerance) {
     const std::regex pattern(
-        "[a-z]+_([A-Za-z0-9]+)_(txc_dr|txc_un|txe_dr|txe_un|dss|psc_dr|psc_un)_([0-9.]+)_psi([-+0-9.]+)"
+        "[a-z]+_([A-Za-z0-9]+)_(txc_dr|txc_un|txe_dr|txe_un|dss|psc_dr|psc_un)_([0-9.]+)_psi([-+0-"
+        "9.]+)"
         "(_OCR[0-9.]+)?(_K0([0-9.]+))?(_S([0-9.]+))?(_(radial|normal))?");
     std::smatch part;
     if (!std::regex_match(name, part, pattern)) throw std::runtime_error("no test: " + name);
@@ -93,7 +94,7 @@ Deviation deviation_of(const Table& table, const Run& run) {
         const double way = strain - element_bench::driven_strain(now, run.boundary);
         const long steps = std::max(1L, std::lround(std::ceil(way / longest_step)));
         for (long i = 0; row > 0 && i < steps; ++i) {
-            const auto trial = 
+            const auto trial =
                 element_bench::driven(now, run.boundary, way / static_cast<double>(steps), held);
             EXPECT_EQ(trial.outcome, element_bench::Ending::done) << "strain " << strain;
             if (trial.outcome != element_bench::Ending::done) return {1.0};

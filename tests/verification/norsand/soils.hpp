@@ -51,8 +51,8 @@ inline element_bench::Specimen specimen(const norsand::Parameters& parameters, d
     const double p = (1.0 + 2.0 * K0) / 3.0 * sigma_v;
     const mechanics::Voigt sigma(-K0 * sigma_v, -sigma_v, -K0 * sigma_v, 0.0);
     const double e_0 = psi_0 + norsand::critical_void_ratio(law, p);
-    return {element_bench::NorSandPoint{law, options,
-                                        norsand::initialise(law, sigma, e_0, R).state}};
+    return {
+        element_bench::NorSandPoint{law, options, norsand::initialise(law, sigma, e_0, R).state}};
 }
 
 inline norsand::Reading reading(const element_bench::Specimen& specimen) {
