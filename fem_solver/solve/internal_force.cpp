@@ -70,19 +70,19 @@ const std::vector<SspGeometry>& InternalForce::hourglasses() const {
 }
 
 Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
-    const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
-    std::atomic<bool> folded = false;
-    for_ranges(model_.mesh.quads.size(), threads_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t e = begin; e < end; ++e) {
-            if (!moves) {
-                small_strains(e, old, trial);
-            } else if (moving_strains(e, old, trial) == Geometry::degenerate) {
-                folded = true;
-                return;
-            }
-        }
+    const std::size_t elements = model_.mesh.quads.size();
+    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
+        std::atomic<bool> folded = false;
+        for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t e = begin; e < end && !folded; ++e)
+                if (moving_strains(e, old, trial) == Geometry::degenerate) folded = true;
+        });
+        return folded ? Geometry::degenerate : Geometry::sound;
+    }
+    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) small_strains(e, old, trial);
     });
-    return folded ? Geometry::degenerate : Geometry::sound;
+    return Geometry::sound;
 }
 
 void InternalForce::small_strains(std::size_t element, const Motion& old, const Motion& trial) {

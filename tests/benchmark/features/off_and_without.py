@@ -80,22 +80,26 @@ EDITS = {
         ("free field", NEWTON, "    if (share_of_dof_.size() == 0) return per_dof.norm();\n"
          "    return (share_of_dof_.array() * per_dof.array()).matrix().norm();\n", "    return per_dof.norm();\n"),
         ("free field", NEWTON, "    if (model_.row_weight.size() > 0) R_u_.array() *= model_.row_weight.array();\n", ""),
-        ("sand", NEWTON, "    const bool sand = !problem.old.sand.empty();\n", "    constexpr bool sand = false;\n"),
-        ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n"
-         "        for (std::size_t e = 0; e < elements; ++e) {\n"
-         "            if (moving_strains(e, old, trial) == Geometry::degenerate) return Geometry::degenerate;\n"
-         "        }\n        return Geometry::sound;\n    }\n", ""),
-        ("moving mesh", FORCE, "    if (half_angle_.empty()) {\n        for (std::size_t p = zone.first * points_; p < end; ++p)\n"
-         "            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;\n"
-         "        return Geometry::sound;\n    }\n    for (std::size_t p = zone.first * points_; p < end; ++p) {\n"
-         "        State turned = old.points[p];\n        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n"
-         "        turned = materials::integrate(law, turned, d_epsilon_[p]).state;\n"
-         "        turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n        trial.points[p] = turned;\n    }\n",
-         "    for (std::size_t p = zone.first * points_; p < end; ++p)\n"
-         "        trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;\n"),
-        ("moving mesh", FORCE, "    const bool turns = !half_angle_.empty();\n    Matrix4 D;\n", "    Matrix4 D;\n"),
-        ("moving mesh", FORCE, "        if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);\n", ""),
-        ("moving mesh", FORCE, "        if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);\n", ""),
+        ("viscosity", NEWTON, "    if (viscous_.size() > 0) internal_force_.add_viscous_damping(rule.c_v, matrix_);\n", ""),
+        ("viscosity", NEWTON, "        if (viscous_.size() > 0) {\n            viscous_.setZero();\n"
+         "            internal_force_.add_viscous_force(1.0, trial.v, viscous_);\n            R_u_ -= viscous_;\n        }\n", ""),
+        ("laws with memory", NEWTON, "    const bool of_ends = !problem.old.memory.empty();\n", "    constexpr bool of_ends = false;\n"),
+        ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n        std::atomic<bool> folded = false;\n"
+         "        for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {\n"
+         "            for (std::size_t e = begin; e < end && !folded; ++e)\n"
+         "                if (moving_strains(e, old, trial) == Geometry::degenerate) folded = true;\n        });\n"
+         "        return folded ? Geometry::degenerate : Geometry::sound;\n    }\n", ""),
+        ("moving mesh", FORCE, "    const auto turning = [&](std::size_t begin, std::size_t end) {\n"
+         "        for (std::size_t p = first + begin; p < first + end; ++p) {\n"
+         "            State turned = old.points[p];\n            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n"
+         "            turned = materials::integrate(law, turned, d_epsilon_[p]).state;\n"
+         "            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n            trial.points[p] = turned;\n        }\n    };\n"
+         "    if (half_angle_.empty())\n        for_ranges(zone.count * points_, threads_, still);\n    else\n"
+         "        for_ranges(zone.count * points_, threads_, turning);\n",
+         "    for_ranges(zone.count * points_, threads_, still);\n"),
+        ("moving mesh", FORCE, "    const bool turns = !half_angle_.empty();\n    for_ranges(", "    for_ranges("),
+        ("moving mesh", FORCE, "            if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);\n", ""),
+        ("moving mesh", FORCE, "            if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);\n", ""),
         ("moving mesh", FORCE, "    return current_.empty() ? model_.reference : current_;\n", "    return model_.reference;\n"),
         ("moving mesh", FORCE, "    return hourglass_.empty() ? model_.hourglass : hourglass_;\n", "    return model_.hourglass;\n"),
         ("moving mesh", FORCE, "            if (current_.empty()) continue;\n            const Voigt& s = trial.points[p].sigma;\n            Matrix2 sigma;\n"
@@ -106,9 +110,9 @@ EDITS = {
          "                }\n            }\n", ""),
         ("moving mesh", FORCE, "void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A)",
          "void InternalForce::stiffness_pass(const Motion& old, const Motion&, LinearSystem& A)"),
-        ("moving mesh", FORCE, "    if (half_angle_.empty()) {\n        pass([](std::size_t, const Vec2& force) { return force; });\n    } else {\n"
-         "        pass([&](std::size_t e, const Vec2& force) -> Vec2 {\n            return Eigen::Rotation2Dd(half_angle_[e]) * force;\n"
-         "        });\n    }\n", "    pass([](std::size_t, const Vec2& force) { return force; });\n"),
+        ("moving mesh", FORCE, "    const auto turned = [&](const Vec2& force) -> Vec2 {\n"
+         "        return half_angle_.empty() ? force : Vec2(Eigen::Rotation2Dd(half_angle_[e]) * force);\n    };\n",
+         "    const auto turned = [](const Vec2& force) { return force; };\n"),
         ("moving mesh", FORCE, "    if (!half_angle_.empty()) {\n        d_sigma = mechanics::rotated_stress(trial.points[e].sigma, -half_angle_[e]) -\n"
          "                  mechanics::rotated_stress(old.points[e].sigma, half_angle_[e]);\n    }\n", ""),
     ],
