@@ -1,5 +1,7 @@
 #include "fem_solver/checkpoint.hpp"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace breach::fem {
@@ -150,9 +152,13 @@ bool empty_or(const Values& values, std::size_t size) {
 }
 
 bool fits(const Position& position, const scene::Fem& fem) {
+    constexpr std::int64_t most = std::int64_t{1}
+                                  << 53;  // far from where adding one would overflow
     const auto stages = static_cast<std::int64_t>(fem.stages.size());
-    return position.stage >= 0 && position.stage < stages && position.next_snapshot >= 0 &&
-           position.telemetry_lines >= 0;
+    return position.stage >= 0 && position.stage < stages &&
+           std::ranges::all_of(std::array{position.easy_steps, position.step, position.cut_steps,
+                                          position.next_snapshot, position.telemetry_lines},
+                               [](std::int64_t count) { return count >= 0 && count <= most; });
 }
 
 bool fits(const Motion& motion, const Model& model) {

@@ -1,5 +1,7 @@
 #include "mpm_solver/checkpoint.hpp"
 
+#include <cstdlib>
+
 #include "core/exchange/archive.hpp"
 
 namespace breach::mpm {
@@ -103,15 +105,34 @@ void refuse_if_ragged(const Points& points, std::size_t soils, const std::string
         refuse(file, "/stress_of_soils", "has another length");
 }
 
-/// Homes are cells inside the row of ghost nodes.
-void refuse_if_homeless(const Points& points, const Grid& grid, const std::string& file) {
-    for (const std::int32_t home : points.home) {
+/// Points are on the grid, and their homes are the cells where they are or next to them, unless they are sorted before
+/// homes are next asked for.
+void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
+                        const std::string& file) {
+    if (strayed < 0.0) refuse(file, "/run.strayed", "is less than nothing");
+    const bool sorted_before_use = strayed > Strips::largest_stray;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (!grid.holds(points.x[p], points.y[p]))
+            refuse(file, "/x", "places a point outside the grid");
+        const std::int32_t home = points.home[p];
         if (home < grid.rows || home >= grid.nodes() || home % grid.rows == 0)
             refuse(file, "/home", "names a cell outside the grid");
+        const std::int32_t here = grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]));
+        const bool far = std::abs(home / grid.rows - here / grid.rows) > 1 ||
+                         std::abs(home % grid.rows - here % grid.rows) > 1;
+        if (far && !sorted_before_use) refuse(file, "/home", "names a cell where the point is not");
     }
 }
 
-Points load_points(const Archive& archive) {
+/// How often something has happened: not negative, and far from where adding one would overflow.
+std::int64_t count_at(const Archive& archive, const std::string& name, const std::string& file) {
+    constexpr std::int64_t most = std::int64_t{1} << 53;
+    const std::int64_t count = archive.integers.at(name).at(0);
+    if (count < 0 || count > most) refuse(file, "/" + name, "is no count of what has happened");
+    return count;
+}
+
+Points load_points(const Archive& archive, const std::string& file) {
     Points points;
     if (const auto excess = archive.reals.find("excess"); excess != archive.reals.end()) {
         points.excess = excess->second;
@@ -129,8 +150,11 @@ Points load_points(const Archive& archive) {
     }
     if (const auto measures = archive.integers.find("stress_of_soils");
         measures != archive.integers.end()) {
+        constexpr auto known = words::values<exchange::StressMeasure>;
         for (const std::int64_t measure : measures->second) {
-            carried.stress_of_soils.push_back(static_cast<exchange::StressMeasure>(measure));
+            if (measure < 0 || static_cast<std::size_t>(measure) >= known.size())
+                refuse(file, "/stress_of_soils", "is no measure of stress");
+            carried.stress_of_soils.push_back(known[static_cast<std::size_t>(measure)]);
         }
     }
     return points;
@@ -180,9 +204,10 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
     refuse_if_different(archive, "scene", provenance.scene, file.string());
     refuse_if_different(archive, "inputs", digests(provenance), file.string());
     try {
-        ZonedPoints points{load_points(archive), {}};
+        ZonedPoints points{load_points(archive, file.string()), {}};
         refuse_if_ragged(points.points, scene::soils_of(scene).size(), file.string());
-        refuse_if_homeless(points.points, make_grid(scene::mpm_of(scene)), file.string());
+        refuse_if_homeless(points.points, archive.reals.at("run.strayed").at(0),
+                           make_grid(scene::mpm_of(scene)), file.string());
         points.zones = zones_of(scene, points.points);
         Body body = make_body(scene, std::move(points), file.string(), computing);
         Clock clock;
@@ -190,15 +215,18 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         for_each_number(clock, start, body.tally, [&](const char* name, double& value) {
             value = archive.reals.at(std::string("run.") + name).at(0);
         });
-        clock.step = archive.integers.at("run.step").at(0);
-        clock.frames = archive.integers.at("run.frames").at(0);
-        clock.looks = archive.integers.at("run.looks").at(0);
+        clock.step = count_at(archive, "run.step", file.string());
+        clock.frames = count_at(archive, "run.frames", file.string());
+        clock.looks = count_at(archive, "run.looks", file.string());
+        if (clock.time < 0.0) refuse(file.string(), "/run.time", "is before the beginning");
         Records records{load(archive, records_prefix),
                         load_gauges(scene::mpm_of(scene).gauges, archive, records_prefix),
                         load_profiles(archive, records_prefix)};
+        if (records.history.empty() && clock.looks > 0)
+            refuse(file.string(), "/run.looks", "counts looks of which there is no record");
         return {Simulation(scene, std::move(body), clock, start, std::move(records),
                            load_ground(archive, file.string())),
-                archive.integers.at("run.telemetry_lines").at(0)};
+                count_at(archive, "run.telemetry_lines", file.string())};
     } catch (const std::out_of_range&) {
         refuse(file.string(), "/", "lacks an array of a checkpoint");
     }

@@ -125,8 +125,10 @@ const Row& Simulation::look() {
     if (const auto complaint = ground_complaint(body_)) break_down(*complaint);
     moving_ = why_moving(records_.history, start_.energy, body_, view_.mobile, rest_);
     const double interval = mpm_.telemetry_interval;
-    clock_.looks =
-        interval > 0.0 ? static_cast<std::int64_t>(std::floor(clock_.time / interval)) + 1 : 0;
+    constexpr double most =
+        0x1p53;  // an interval of 1e-30 s asks for more looks than can be counted
+    const double looks = std::clamp(std::floor(clock_.time / interval) + 1.0, 0.0, most);
+    clock_.looks = interval > 0.0 ? static_cast<std::int64_t>(looks) : 0;
     last_good_.keep(body_.points, clock_.time, clock_.step);
     return row;
 }

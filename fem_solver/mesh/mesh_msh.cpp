@@ -161,7 +161,7 @@ class MshReader {
         for (long i = 0; i < count && in_; ++i) {
             next<long>();
             const int type = next<int>();
-            const int tags = next<int>();
+            const long tags = next<int>();
             const int physical = tags > 0 ? next<int>() : 0;
             skip(tags - 1);
             add_element(type, physical);

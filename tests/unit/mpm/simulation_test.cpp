@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "tests/unit/mpm/bodies.hpp"
@@ -270,6 +272,31 @@ TEST_F(ChangedCheckpoint, WithAPointThatIsNotThereIsRefused) {
 TEST_F(ChangedCheckpoint, WithAHomeOutsideTheGridIsRefused) {
     archive_.integers.at("home").back() = 1 << 20;
     expect_refused("/home");
+}
+
+TEST_F(ChangedCheckpoint, WithAPointOutsideTheGridIsRefused) {
+    archive_.reals.at("x").front() = 1e300;
+    expect_refused("/x");
+}
+
+TEST_F(ChangedCheckpoint, WithAPointFarFromItsHomeIsRefused) {
+    archive_.integers.at("home").front() = archive_.integers.at("home").back();
+    expect_refused("/home");
+}
+
+TEST_F(ChangedCheckpoint, WithLooksOfWhichThereIsNoRecordIsRefused) {
+    archive_.integers.at("run.looks") = {1};
+    expect_refused("/run.looks");
+}
+
+TEST_F(ChangedCheckpoint, WithAMeasureOfStressThatIsNoneIsRefused) {
+    archive_.integers["stress_of_soils"] = {2};
+    expect_refused("/stress_of_soils");
+}
+
+TEST_F(ChangedCheckpoint, WithACountThatCannotGoOnIsRefused) {
+    archive_.integers.at("run.step") = {std::numeric_limits<std::int64_t>::max()};
+    expect_refused("/run.step");
 }
 
 TEST(Simulation, AStepFarTooLargeIsABreakdownNotAResult) {

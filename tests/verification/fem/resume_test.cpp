@@ -2,6 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <limits>
 #include <thread>
 
 #include "fem_solver/run.hpp"
@@ -181,6 +182,11 @@ TEST(Checkpoint, WithArraysThatAreNotTheMeshsIsRefused) {
     exchange::Archive beyond = sound;
     beyond.integers.at("position").at(0) = 2;  // stages are 0 and 1
     expect_refused(beyond, "stage");
+    for (std::size_t i = 1; i < 6; ++i) {  // counts; two marks follow
+        exchange::Archive uncountable = sound;
+        uncountable.integers.at("position").at(i) = std::numeric_limits<std::int64_t>::max();
+        expect_refused(uncountable, "count " + std::to_string(i));
+    }
 }
 
 TEST(Checkpoint, WithTheMatrixOfAnotherMeshIsRefused) {
