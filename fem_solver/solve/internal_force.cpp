@@ -54,7 +54,7 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds, int threads)
         hourglass_ = model.hourglass;
     }
     d_q_.resize(model.hourglass.size());
-    nodal_.resize(model.mesh.quads.size());
+    if (threads > 1) nodal_.resize(model.mesh.quads.size());
     for (const Zone& zone : model.zones) {
         const double G = materials::elasticity(zone.law).shear_modulus();
         elastic_c_s_.insert(elastic_c_s_.end(), d_q_.empty() ? 0 : zone.count, 4.0 * G);
@@ -221,12 +221,14 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
     return Geometry::sound;
 }
 
-void InternalForce::accumulate_strain(std::size_t element, const Motion& old, Motion& trial) const {
-    for (std::size_t p = element * points_; p < (element + 1) * points_; ++p) {
-        if (half_angle_.empty()) {
+void InternalForce::accumulate_strain(std::size_t begin, std::size_t end, const Motion& old,
+                                      Motion& trial) const {
+    if (half_angle_.empty()) {
+        for (std::size_t p = begin * points_; p < end * points_; ++p)
             trial.strain[p] = old.strain[p] + d_epsilon_[p];
-            continue;
-        }
+        return;
+    }
+    for (std::size_t p = begin * points_; p < end * points_; ++p) {
         const double half = half_angle_[p];
         const Voigt turned = rotated_strain(old.strain[p], half) + d_epsilon_[p];
         trial.strain[p] = rotated_strain(turned, half);
@@ -236,17 +238,27 @@ void InternalForce::accumulate_strain(std::size_t element, const Motion& old, Mo
 /// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
 /// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
 /// element. H of the end configuration stands for that of the middle, as in the tangent.
-void InternalForce::advance_hourglass(std::size_t e, const Motion& old, Motion& trial) const {
-    const Hourglass& before = old.hourglass[e];
-    Hourglass& after = trial.hourglass[e];
-    const auto turned = [&](const Vec2& force) -> Vec2 {
-        return half_angle_.empty() ? force : Vec2(Eigen::Rotation2Dd(half_angle_[e]) * force);
+void InternalForce::advance_hourglass(std::size_t begin, std::size_t end, const Motion& old,
+                                      Motion& trial) const {
+    const std::vector<SspGeometry>& geometries = hourglasses();
+    const auto pass = [&](const auto& turned) {
+        for (std::size_t e = begin; e < end; ++e) {
+            const Hourglass& before = old.hourglass[e];
+            Hourglass& after = trial.hourglass[e];
+            const Vec2 first = turned(e, before.force);
+            const Vec2 last = first + before.c_s * (geometries[e].H * d_q_[e]);
+            after.energy = before.energy + 0.5 * (first + last).dot(d_q_[e]);
+            after.force = turned(e, last);
+            after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
+        }
     };
-    const Vec2 start = turned(before.force);
-    const Vec2 end = start + before.c_s * (hourglasses()[e].H * d_q_[e]);
-    after.energy = before.energy + 0.5 * (start + end).dot(d_q_[e]);
-    after.force = turned(end);
-    after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
+    if (half_angle_.empty()) {
+        pass([](std::size_t, const Vec2& force) { return force; });
+    } else {
+        pass([&](std::size_t e, const Vec2& force) -> Vec2 {
+            return Eigen::Rotation2Dd(half_angle_[e]) * force;
+        });
+    }
 }
 
 /// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stresses s
@@ -271,38 +283,49 @@ double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Mo
 /// What follows from the stresses: total strains, hourglass forces, nodal forces.
 void InternalForce::force_pass(const Motion& old, Motion& trial) {
     const std::size_t elements = model_.mesh.quads.size();
-    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t e = begin; e < end; ++e) {
-            accumulate_strain(e, old, trial);
-            if (!d_q_.empty()) advance_hourglass(e, old, trial);
-            nodal_[e] = nodal_forces(e, trial);
-        }
-    });
     trial.force.setZero();
-    for (std::size_t e = 0; e < elements; ++e) {
+    const auto add = [&](std::size_t e, const Dofs8& f) {
         for (int k = 0; k < 4; ++k) {
             const auto d = 2 * static_cast<Eigen::Index>(model_.mesh.quads[e][k]);
-            trial.force.segment<2>(d) += nodal_[e].segment<2>(2 * k);
+            trial.force.segment<2>(d) += f.segment<2>(2 * k);
         }
-    }
+    };
+    const auto range = [&](std::size_t begin, std::size_t end, const auto& take) {
+        accumulate_strain(begin, end, old, trial);
+        if (!d_q_.empty()) advance_hourglass(begin, end, old, trial);
+        visit_nodal_forces(begin, end, trial, take);
+    };
+    if (threads_ <= 1) return range(0, elements, add);
+    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+        range(begin, end, [&](std::size_t e, const Dofs8& f) { nodal_[e] = f; });
+    });
+    for (std::size_t e = 0; e < elements; ++e) add(e, nodal_[e]);
 }
 
-Dofs8 InternalForce::nodal_forces(std::size_t e, const Motion& trial) const {
-    const Quadrature& q = quadratures()[e];
-    Dofs8 f = Dofs8::Zero();
-    for (std::size_t g = 0; g < points_; ++g) {
-        const Voigt& s = trial.points[e * points_ + g].sigma;
-        const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
-        f.noalias() += q.B[g].transpose() * sigma;
+template <class Take>
+void InternalForce::visit_nodal_forces(std::size_t begin, std::size_t end, const Motion& trial,
+                                       const Take& take) const {
+    const std::vector<Quadrature>& current = quadratures();
+    const std::vector<SspGeometry>& geometries = hourglasses();
+    for (std::size_t e = begin; e < end; ++e) {
+        const Quadrature& q = current[e];
+        Dofs8 f = Dofs8::Zero();
+        for (std::size_t g = 0; g < points_; ++g) {
+            const Voigt& s = trial.points[e * points_ + g].sigma;
+            const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
+            f.noalias() += q.B[g].transpose() * sigma;
+        }
+        if (!d_q_.empty()) f += hourglass_forces(geometries[e], trial.hourglass[e].force);
+        take(e, f);
     }
-    if (!d_q_.empty()) f += hourglass_forces(hourglasses()[e], trial.hourglass[e].force);
-    return f;
 }
 
 void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
     const bool symmetric = A.symmetry() == Symmetry::symmetric;
+    const std::vector<Quadrature>& current = quadratures();
+    const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
-        const Quadrature& q = quadratures()[e];
+        const Quadrature& q = current[e];
         Stiffness K = Stiffness::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
             const std::size_t p = e * points_ + g;
@@ -323,7 +346,7 @@ void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, Linea
                 }
             }
         }
-        if (!d_q_.empty()) K += hourglass_stiffness(hourglasses()[e], old.hourglass[e].c_s);
+        if (!d_q_.empty()) K += hourglass_stiffness(geometries[e], old.hourglass[e].c_s);
         A.add_element(e, K);
     }
 }

@@ -61,12 +61,17 @@ class InternalForce {
     template <materials::Remembers Law>
     Geometry integrate_zone_with_tangent(const Law& law, std::size_t z, const Motion& old,
                                          Motion& trial);
-    void accumulate_strain(std::size_t element, const Motion& old, Motion& trial) const;
-    void advance_hourglass(std::size_t element, const Motion& old, Motion& trial) const;
+    void accumulate_strain(std::size_t begin, std::size_t end, const Motion& old,
+                           Motion& trial) const;
+    void advance_hourglass(std::size_t begin, std::size_t end, const Motion& old,
+                           Motion& trial) const;
     double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
                                   const Motion& trial) const;
     void force_pass(const Motion& old, Motion& trial);
-    Dofs8 nodal_forces(std::size_t element, const Motion& trial) const;
+    /// take(element, its nodal forces) for the elements [begin, end), in order.
+    template <class Take>
+    void visit_nodal_forces(std::size_t begin, std::size_t end, const Motion& trial,
+                            const Take& take) const;
     void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
     template <typename Visit>
     void visit_viscous_elements(Visit visit) const;
@@ -88,7 +93,7 @@ class InternalForce {
     std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
     std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
     std::vector<Vec2> d_q_;               ///< single point: [elements] amplitude of the step [m]
-    std::vector<Dofs8> nodal_;            ///< [elements] forces, summed in order [N]
+    std::vector<Dofs8> nodal_;  ///< several threads: [elements] forces, summed in order [N]
 };
 
 /// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].

@@ -110,9 +110,9 @@ EDITS = {
          "                }\n            }\n", ""),
         ("moving mesh", FORCE, "void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A)",
          "void InternalForce::stiffness_pass(const Motion& old, const Motion&, LinearSystem& A)"),
-        ("moving mesh", FORCE, "    const auto turned = [&](const Vec2& force) -> Vec2 {\n"
-         "        return half_angle_.empty() ? force : Vec2(Eigen::Rotation2Dd(half_angle_[e]) * force);\n    };\n",
-         "    const auto turned = [](const Vec2& force) { return force; };\n"),
+        ("moving mesh", FORCE, "    if (half_angle_.empty()) {\n        pass([](std::size_t, const Vec2& force) { return force; });\n    } else {\n"
+         "        pass([&](std::size_t e, const Vec2& force) -> Vec2 {\n            return Eigen::Rotation2Dd(half_angle_[e]) * force;\n"
+         "        });\n    }\n", "    pass([](std::size_t, const Vec2& force) { return force; });\n"),
         ("moving mesh", FORCE, "    if (!half_angle_.empty()) {\n        d_sigma = mechanics::rotated_stress(trial.points[e].sigma, -half_angle_[e]) -\n"
          "                  mechanics::rotated_stress(old.points[e].sigma, half_angle_[e]);\n    }\n", ""),
     ],
