@@ -39,7 +39,7 @@ void add_crossings(const Path& one, const Path& other, std::vector<double>& xs) 
 /// A line from side to side of the model: level beyond its ends.
 Path prolonged(Path line, double from, double to) {
     if (line.front().x() > from) line.insert(line.begin(), {from, line.front().y()});
-    if (line.back().x() < to) line.push_back({to, line.back().y()});
+    if (line.back().x() < to) line.emplace_back(to, line.back().y());
     return line;
 }
 

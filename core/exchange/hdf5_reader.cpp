@@ -131,7 +131,7 @@ std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
         static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
     H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
     // Nothing is compressed: a dataset larger than its file is a damaged one.
-    double bytes = static_cast<double>(H5Tget_size(type.get()));
+    auto bytes = static_cast<double>(H5Tget_size(type.get()));
     for (const hsize_t n : shape) bytes *= static_cast<double>(n);
     if (bytes > static_cast<double>(bytes_)) {
         fault(path, "shape " + as_text(shape) + " is more than the file can hold");

@@ -1,5 +1,6 @@
 #include "core/exchange/mesh_snapshot.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -46,7 +47,14 @@ std::vector<double> averages(std::span<const double> values, std::size_t n, std:
 /// 1 where a corner of the deformed element is turned inside out, 0 elsewhere.
 std::vector<std::int32_t> inverted_elements(const MeshSnapshot& s) {
     std::vector<std::int32_t> inverted;
+    const auto is_there = [&](std::int32_t node) {
+        return node >= 0 && static_cast<std::size_t>(node) < s.position_0.size();
+    };
     for (const auto& quad : s.quads) {
+        if (!std::ranges::all_of(quad, is_there)) {  // every reader refuses it
+            inverted.push_back(1);
+            continue;
+        }
         Eigen::Matrix<double, 2, 4> before, now;
         for (int k = 0; k < 4; ++k) {
             before.col(k) = s.position_0[quad[k]];
