@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/folder.hpp"
 #include "wrong.hpp"
 
 namespace breach::check {
@@ -76,14 +77,14 @@ TEST(Check, AMeshFileThatIsMissingOrNoMeshIsRefused) {
 }
 
 TEST(Check, AMeshFileNeedsASurfaceForEveryRegion) {
-    const auto file = std::filesystem::path(testing::TempDir()) / "one_surface.msh";
+    const test::Folder folder;
+    const auto file = folder / "one_surface.msh";
     std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n"
                            "2 1 \"slope\"\n$EndPhysicalNames\n";
     const Checked checked = changed("slope", {"/fem/msh_file=" + file.string()});
     ASSERT_FALSE(checked.faults.empty());
     for (const fault::Fault& each : checked.faults)
         EXPECT_NE(each.cause.find("has no physical surface"), std::string::npos) << each.cause;
-    std::filesystem::remove(file);
 }
 
 TEST(Check, OneListHoldsTheReadersFaultsAndThoseOfEveryPhase) {

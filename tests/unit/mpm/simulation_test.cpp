@@ -6,6 +6,7 @@
 
 #include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
+#include "tests/folder.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {
@@ -72,8 +73,8 @@ TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
     scene.mpm->overlap_correction = {.rate = 5.0, .tolerance = 0.0};
     const exchange::Provenance provenance{
         .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
-    const auto file = std::filesystem::temp_directory_path() /
-                      ("breach_mpm_resume_" + std::to_string(static_cast<int>(GetParam())) + ".h5");
+    const breach::test::Folder folder;
+    const auto file = folder / "checkpoint.h5";
     Simulation whole = fresh_and_wet(scene);
     Simulation stopped = fresh_and_wet(scene);
     advance_looking(whole, 137);
@@ -88,7 +89,6 @@ TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
     exchange::Provenance other = provenance;
     other.scene = "{\"name\":\"other\"}";
     EXPECT_THROW(load_checkpoint(file, scene, other), fault::BadInput);
-    std::filesystem::remove(file);
 }
 
 /// 0.3 g at 2 Hz for 1.2 s from the transfer at 0.4 s on.
@@ -111,7 +111,8 @@ TEST(ShakenRun, GoesOnAfterAStopWithTheSameBits) {
     scene.mpm->shaking = scene::Shaking::goes_on;
     const exchange::Provenance provenance{
         .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
-    const auto file = std::filesystem::temp_directory_path() / "breach_mpm_resume_shaken.h5";
+    const breach::test::Folder folder;
+    const auto file = folder / "checkpoint.h5";
     Simulation whole = fresh_and_shaken(scene);
     Simulation stopped = fresh_and_shaken(scene);
     advance_looking(whole, 137);
@@ -139,7 +140,6 @@ TEST(ShakenRun, GoesOnAfterAStopWithTheSameBits) {
     save_checkpoint(file, still, 1, provenance);
     scene.mpm->shaking = scene::Shaking::goes_on;
     EXPECT_THROW(load_checkpoint(file, scene, provenance), fault::BadInput);
-    std::filesystem::remove(file);
 }
 
 TEST(ShakenRun, IsNotAtRestBeforeTheGroundIs) {
@@ -230,7 +230,6 @@ class ChangedCheckpoint : public testing::Test {
         save_checkpoint(file_, fresh(scene_), 0, provenance_);
         archive_ = exchange::read_archive(file_, "mpm_checkpoint", 7);
     }
-    ~ChangedCheckpoint() override { std::filesystem::remove(file_); }
 
     void expect_refused(const std::string& where) {
         exchange::write_archive(file_, archive_, provenance_);
@@ -242,8 +241,8 @@ class ChangedCheckpoint : public testing::Test {
         }
     }
 
-    const std::filesystem::path file_ =
-        std::filesystem::path(testing::TempDir()) / "changed_checkpoint.h5";
+    const breach::test::Folder folder_;
+    const std::filesystem::path file_ = folder_ / "checkpoint.h5";
     const exchange::Provenance provenance_{};
     const scene::Scene scene_;
     exchange::Archive archive_;
