@@ -15,7 +15,7 @@ allowed = 1e-6
 study = root / "workflows/studies/mochikoshi_quarter.json"
 # What an execution costs, and where its files lie, is its own.
 own = {"cpu_seconds", "wall_seconds", "seconds", "peak_memory_MB", "particle_steps_per_second", "provenance", "threads"}
-settings = ["/section/element_size=3", "/fem/stages/1/duration=4.5", "/mpm/duration=15", "/mpm/checkpoint_interval=0.5",
+settings = ["/section/element_size=3", "/fem/stages/2/duration=4.5", "/mpm/duration=15", "/mpm/checkpoint_interval=0.5",
             "/fem/snapshot_times=[2.5]"]  # a wanted snapshot brings a checkpoint
 
 
