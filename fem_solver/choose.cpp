@@ -37,28 +37,32 @@ std::string laws_that(const scene::Scene& scene, Question question) {
     return text;
 }
 
-std::string regions_that_soften(const scene::Scene& scene) {
+/// "a, b": the regions whose material is so.
+template <class Question>
+std::string regions_where(const scene::Scene& scene, const Question& question) {
     std::string names;
     for (const scene::Region& region : scene.section.regions) {
-        if (!materials::softening(scene.materials[region.material].law)) continue;
+        if (!question(scene.materials[region.material])) continue;
         names += (names.empty() ? "" : ", ") + region.name;
     }
     return names;
 }
 
+std::string regions_that_soften(const scene::Scene& scene) {
+    return regions_where(scene, [](const scene::Material& material) {
+        return materials::softening(material.law) != nullptr;
+    });
+}
+
 /// "1000 Pa s beside the law's stress in a; ...": every material with a viscosity and its regions.
 std::string viscous_regions(const scene::Scene& scene) {
     std::string text;
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        const double viscosity = scene.materials[m].viscosity;
-        if (viscosity == 0.0) continue;
-        std::string names;
-        for (const scene::Region& region : scene.section.regions) {
-            if (region.material != m) continue;
-            names += (names.empty() ? "" : ", ") + region.name;
-        }
+    for (const scene::Material& material : scene.materials) {
+        if (material.viscosity == 0.0) continue;
+        const std::string names =
+            regions_where(scene, [&](const scene::Material& each) { return &each == &material; });
         if (names.empty()) continue;
-        text += (text.empty() ? "" : "; ") + words::text_of(viscosity) +
+        text += (text.empty() ? "" : "; ") + words::text_of(material.viscosity) +
                 " Pa s beside the law's stress in " + names;
     }
     return text;

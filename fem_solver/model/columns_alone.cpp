@@ -94,18 +94,15 @@ PoreWater water_of(const Model& whole, const std::vector<ZonePart>& parts) {
     return water;
 }
 
-/// `count` points of a zone's memory.
-materials::LawMemory part_of(const materials::LawMemory& memory, std::size_t first,
-                             std::size_t count) {
-    materials::LawMemory part = memory;
-    std::visit(
-        [&](auto& each) {
-            if constexpr (requires { each.points; }) {
-                const auto begin = each.points.begin() + static_cast<std::ptrdiff_t>(first);
-                each.points.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-            }
-        },
-        part);
+/// What `count` points of a zone of this law remember.
+materials::LawMemory part_of(const materials::Law& law, const materials::LawMemory& zone,
+                             std::size_t first, std::size_t count) {
+    materials::LawMemory part = materials::memory_for(law, 0);
+    materials::with_memory(law, zone, [&]<class L>(const L&, const auto& points) {
+        const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
+        std::get<materials::ZoneMemory<L>>(part).points.assign(
+            begin, begin + static_cast<std::ptrdiff_t>(count));
+    });
     return part;
 }
 
@@ -159,8 +156,8 @@ Motion columns_alone(const Model& whole, const Motion& motion) {
     for (const ZonePart& part : zone_parts(whole)) {
         const std::size_t before =
             (part.first - whole.zones[part.zone].first) * whole.points_per_element;
-        alone.memory.push_back(
-            part_of(motion.memory[part.zone], before, part.count * whole.points_per_element));
+        alone.memory.push_back(part_of(whole.zones[part.zone].law, motion.memory[part.zone], before,
+                                       part.count * whole.points_per_element));
     }
     return alone;
 }

@@ -185,8 +185,7 @@ bool is_finite(const State& s) {
 
 }  // namespace
 
-bool open_call(const Ready& law, const State& old, const Strain& d, const Options&,
-               Errand& errand) {
+bool open_call(const Ready& law, const State& old, const Strain& d, Errand& errand) {
     *errand.update = {old, Outcome::done, {}};
     State& state = errand.update->state;
     errand.plastic = d;
@@ -219,7 +218,7 @@ bool open_call(const Ready& law, const State& old, const Strain& d, const Option
     return elastic < 1.0;
 }
 
-double unload(const Ready& law, const Options&, const Strain& rest, State& state) {
+double unload(const Ready& law, const Strain& rest, State& state) {
     const State from = state;
     const ElasticPath path(law, from, rest, Cap::follows);
     const double F_end = path.excess(1.0);

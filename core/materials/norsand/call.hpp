@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/materials/calls.hpp"
 #include "core/materials/norsand/walk.hpp"
 
 namespace breach::materials::norsand {
@@ -26,12 +27,11 @@ struct Errand {
 };
 
 /// Elastic part. True if there is plastic strain to walk through.
-bool open_call(const Ready& law, const State& old, const Strain& d, const Options& options,
-               Errand& errand);
+bool open_call(const Ready& law, const State& old, const Strain& d, Errand& errand);
 
 /// Takes a state on the surface that unloads along the strain `rest`: how much of it is elastic. 1:
 /// all of it; 0: nothing, what looked like unloading was neutral. The state is moved.
-double unload(const Ready& law, const Options& options, const Strain& rest, State& state);
+double unload(const Ready& law, const Strain& rest, State& state);
 
 /// Closes a call: void ratio, floor, tension, and the old state if it failed.
 void finish_call(const Ready& law, const State& old, const Strain& d, Errand& errand);
@@ -82,7 +82,7 @@ template <class R>
 
 /// Writes lane i back into its errand.
 template <class R>
-[[gnu::always_inline]] inline void store(int i, Walk<R>& walk, Errand& errand) {
+[[gnu::always_inline]] inline void store(const Ready&, int i, const Walk<R>& walk, Errand& errand) {
     using lanes::lane;
     State& s = errand.update->state;
     set_stress(s, norsand::lane(walk.sigma, i));
@@ -99,26 +99,23 @@ template <class R>
                               .cut_off = 0};
 }
 
-/// One lane's progress after `begin`: leaves, unloads or walks on.
-enum class Next { walk, again, leave };
-
 /// What lane i does after `begin` found that it unloads.
 template <class R>
-[[gnu::always_inline]] inline Next after_unloading(const Ready& law, const Options& options, int i,
-                                                   Walk<R>& walk, Errand& errand) {
+[[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
+                                                   Errand& errand) {
     const double time = lanes::lane(walk.time, i);
     const double left = 1.0 - time;
     State at = errand.update->state;
     set_stress(at, norsand::lane(walk.sigma, i));
     at.p_i = lanes::lane(walk.p_i, i);
     at.e = (1.0 + at.e) * std::exp(-time * lanes::lane(walk.volume, i)) - 1.0;
-    const double elastic = unload(law, options, left * errand.plastic, at);
+    const double elastic = unload(law, left * errand.plastic, at);
     if (elastic <= 0.0) return Next::walk;
     norsand::set_lane(walk.sigma, i, stress_of(at));
     lanes::set_lane(walk.p_i, i, at.p_i);
     if (elastic >= 1.0) {
         lanes::set_lane(walk.time, i, 1.0);
-        store(i, walk, errand);
+        store(law, i, walk, errand);
         return Next::leave;
     }
     const double there = 1.0 - left * (1.0 - elastic);
@@ -137,5 +134,18 @@ template <class R>
     if (stuck) errand.update->outcome = Outcome::unresolved;
     return stuck || over;
 }
+
+/// What calls.hpp asks for.
+struct Calls {
+    using Ready = norsand::Ready;
+    using State = norsand::State;
+    using Strain = norsand::Strain;
+    using Options = norsand::Options;
+    using Update = norsand::Update;
+    using Errand = norsand::Errand;
+    template <class R>
+    using Walk = norsand::Walk<R>;
+    static Strain strain(const Voigt& d_epsilon) { return inward(d_epsilon); }
+};
 
 }  // namespace breach::materials::norsand

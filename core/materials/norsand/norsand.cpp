@@ -7,20 +7,6 @@ namespace breach::materials::norsand {
 
 namespace {
 
-void walk_through(const Ready& law, const Options& options, Errand& errand) {
-    Walk<double> walk(law, options);
-    load(errand, 0, walk);
-    for (;;) {
-        if (walk.begin(true)) {
-            const Next next = after_unloading(law, options, 0, walk, errand);
-            if (next == Next::again) continue;
-            if (next == Next::leave) return;
-        }
-        const bool lost = walk.advance(true);
-        if (ends(0, walk, lost, options, errand)) return store(0, walk, errand);
-    }
-}
-
 /// Surface and flow of a state that loading goes on from in the direction d.
 struct There {
     Place<double> place;
@@ -47,11 +33,7 @@ Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options) {
     const Strain d = inward(d_epsilon);
     if (!may_be_tried(d, options)) return {old, Outcome::refused, {}};
-    Update update;
-    Errand errand{&update, {}};
-    if (open_call(law, old, d, options, errand)) walk_through(law, options, errand);
-    finish_call(law, old, d, errand);
-    return update;
+    return call_alone<Calls>(law, old, d, options);
 }
 
 Matrix4 elastic_tangent(const Ready& law, const State& state) {

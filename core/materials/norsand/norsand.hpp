@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/materials/width.hpp"
 #include "core/mechanics/elasticity.hpp"
 #include "core/mechanics/tensor.hpp"
 
@@ -160,8 +161,7 @@ struct Update {
 Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options);
 
-/// How many points the batch takes side by side, widest first.
-enum class Width { widest, avx512, avx2, portable };
+using materials::Width;
 
 /// The same for many points of one zone: updates[i] = integrate(law, old[i], d_epsilon[i],
 /// options), to the last bit and in any order.

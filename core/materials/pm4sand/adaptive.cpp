@@ -18,24 +18,6 @@ Plane direction(const Ready& law, const Stress& sigma, const Plane& alpha,
     return shear > 0.0 ? (1.0 / shear) * d.e : Plane{0.0, 1.0};
 }
 
-void walk_through(const Ready& law, const Options& options, Errand& errand) {
-    Walk<double> walk(law, options);
-    load(errand, 0, walk);
-    for (;;) {
-        if (walk.begin(true)) {
-            const Next next = after_unloading(law, 0, walk, errand);
-            if (next == Next::again) continue;
-            if (next == Next::leave) return;
-        }
-        if (walk.advance(true) || walk.evaluations > options.most_evaluations) {
-            errand.update->outcome = Outcome::unresolved;
-        } else if (walk.time < 1.0) {
-            continue;
-        }
-        return store(law, 0, walk, errand);
-    }
-}
-
 }  // namespace
 
 bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand) {
@@ -88,11 +70,7 @@ void finish_call(const Ready& law, const State& old, const Strain<double>& d, Er
 
 Update integrate_adaptive(const Ready& law, const State& old, const Strain<double>& d,
                           const Options& options) {
-    Update update;
-    Errand errand{&update, {}, 0.0, {}};
-    if (open_call(law, old, d, errand)) walk_through(law, options, errand);
-    finish_call(law, old, d, errand);
-    return update;
+    return call_alone<Calls>(law, old, d, options);
 }
 
 }  // namespace breach::materials::pm4sand

@@ -2,6 +2,7 @@
 // how it is closed. One point and several side by side share this text.
 #pragma once
 
+#include "core/materials/calls.hpp"
 #include "core/materials/pm4sand/call.hpp"
 #include "core/materials/pm4sand/walk.hpp"
 
@@ -126,9 +127,6 @@ template <class R>
     return path.end;
 }
 
-/// One lane's progress after `begin`: leaves, unloads or walks on.
-enum class Next { walk, again, leave };
-
 /// What lane i does after `begin` found that it unloads.
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
@@ -145,6 +143,30 @@ template <class R>
     store(law, i, walk, errand);
     return Next::leave;
 }
+
+/// Whether lane i has come to its end after `advance`, and how.
+template <class R>
+[[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
+                                        const Options& options, Errand& errand) {
+    const bool stuck = lost || lanes::lane(walk.evaluations, i) > options.most_evaluations;
+    if (stuck) errand.update->outcome = Outcome::unresolved;
+    return stuck || lanes::lane(walk.time, i) >= 1.0;
+}
+
+inline bool may_be_tried(const Strain<double>& d, const Options&) { return is_finite(d); }
+
+/// What calls.hpp asks for.
+struct Calls {
+    using Ready = pm4sand::Ready;
+    using State = pm4sand::State;
+    using Strain = pm4sand::Strain<double>;
+    using Options = pm4sand::Options;
+    using Update = pm4sand::Update;
+    using Errand = pm4sand::Errand;
+    template <class R>
+    using Walk = pm4sand::Walk<R>;
+    static Strain strain(const Voigt& d_epsilon) { return inward(d_epsilon); }
+};
 
 Update integrate_adaptive(const Ready& law, const State& old, const Strain<double>& d,
                           const Options& options);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/materials/width.hpp"
 #include "core/mechanics/elasticity.hpp"
 #include "core/mechanics/tensor.hpp"
 
@@ -160,13 +161,11 @@ struct Update {
 Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options);
 
-/// How many points the batch takes side by side, widest first.
-enum class Width { widest, avx512, avx2, portable };
+using materials::Width;
 
 /// The same for many points of one zone: updates[i] = integrate(law, old[i], d_epsilon[i],
 /// options), to the last bit and in any order. Points go side by side through the CPU's vector
-/// unit; one that is finished makes room for the next. A width that this CPU lacks is replaced by
-/// the next one.
+/// unit; one that is finished makes room for the next.
 void integrate(const Ready& law, std::span<const State> old, std::span<const Voigt> d_epsilon,
                const Options& options, std::span<Update> updates, Width width = Width::widest);
 

@@ -189,12 +189,12 @@ void choose(AccuracyTable& table) {
 
 /// Softening without a length of its own goes on in one element, however small it is.
 bool softens_in_one_element(const AccuracyPlan& plan, json scene, const Ladder& ladder) {
-    for (const std::string& each : plan.base) scene::apply_override(scene, each);
     if (plan.quantity.reach != Reach::fem && plan.quantity.reach != Reach::chain) return false;
     const bool changes_mesh =
         std::ranges::any_of(ladder.steps.front(),
                             [](const std::string& each) { return each.starts_with("/section/"); });
     if (!changes_mesh) return false;
+    for (const std::string& each : plan.base) scene::apply_override(scene, each);
     const json& materials = scene.at("materials");
     return std::ranges::any_of(scene.at("section").at("regions"), [&](const json& region) {
         const json& law = materials.at(region.at("material").get<std::string>()).at("law");

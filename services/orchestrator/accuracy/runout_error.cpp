@@ -110,10 +110,12 @@ class Studies {
 
     /// Nothing: no study has this rung.
     std::optional<Estimate> estimate(const Task& mpm) {
+        if (!mpm.recipe) return std::nullopt;
+        const auto [first, last] = rungs_.equal_range(*mpm.recipe);
+        if (first == last) return std::nullopt;
         const auto question = question_of(mpm);
         if (!question) return std::nullopt;
         std::optional<Estimate> best;
-        const auto [first, last] = rungs_.equal_range(*mpm.recipe);
         for (auto each = first; each != last && !(best && best->error); ++each) {
             const AccuracyRung& rung = each->second;
             if (question_of(*store_.task(rung.mpm_task)) != question) continue;
