@@ -42,6 +42,16 @@ template <class R>
     return {lanes::lane(a.d, i), lanes::lane(a.x, i)};
 }
 
+/// Puts what a reversal moves into lane i.
+template <class R>
+[[gnu::always_inline]] inline void load_reversal(const State& s, int i, Fixed<R>& f) {
+    pm4sand::set_lane(f.alpha_app, i, deviator(s.alpha_app));
+    pm4sand::set_lane(f.alpha_true, i, s.alpha_true);
+    pm4sand::set_lane(f.alpha_prev, i, s.alpha_prev);
+    pm4sand::set_lane(f.z_in, i, s.z_in);
+    lanes::set_lane(f.p_zp, i, s.p_zp);
+}
+
 /// Puts an opened errand into lane i.
 template <class R>
 [[gnu::always_inline]] inline void load(const Errand& errand, int i, Walk<R>& walk) {
@@ -61,13 +71,9 @@ template <class R>
     pm4sand::set_lane(walk.n, i, errand.n);
     pm4sand::set_lane(walk.z, i, s.z);
     Fixed<R>& f = walk.fixed;
-    pm4sand::set_lane(f.alpha_app, i, deviator(s.alpha_app));
-    pm4sand::set_lane(f.alpha_true, i, s.alpha_true);
-    pm4sand::set_lane(f.alpha_prev, i, s.alpha_prev);
-    pm4sand::set_lane(f.z_in, i, s.z_in);
+    load_reversal(s, i, f);
     set_lane(f.z_cum, i, s.z_cum);
     set_lane(f.z_peak, i, s.z_peak);
-    set_lane(f.p_zp, i, s.p_zp);
     set_lane(f.A_do, i, s.A_do);
     set_lane(f.z_max, i, s.z_max);
     set_lane(f.p_min, i, s.p_min);
@@ -127,10 +133,27 @@ template <class R>
     return path.end;
 }
 
-/// What lane i does after `begin` found that it unloads.
+/// A reversal in the midst of a call: a call that is long for the point has the memory of a short
+/// one.
+template <class R>
+[[gnu::always_inline]] inline bool reverses(int i, Walk<R>& walk, Errand& errand) {
+    State& s = errand.update->state;
+    const Plane alpha = pm4sand::lane(walk.alpha, i);
+    const Plane n = pm4sand::lane(walk.n, i);
+    if (dot(alpha - s.alpha_true, n) >= 0.0) return false;
+    s.p = lanes::lane(walk.p, i);
+    s.alpha = alpha;
+    s.z = pm4sand::lane(walk.z, i);
+    reverse(n, s);
+    load_reversal(s, i, walk.fixed);
+    return true;
+}
+
+/// What lane i does after `begin` found that it unloads or reverses.
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
                                                    Errand& errand) {
+    if (reverses(i, walk, errand)) return Next::again;
     switch (excursion(law, i, walk, errand)) {
         case Excursion::End::nowhere:
             return Next::walk;

@@ -31,8 +31,11 @@ inline double yield_function(const Ready& law, const Stress& sigma, const Plane&
 /// Normal of section 4 with its degenerate cases.
 Plane normal(const Ready& law, const Stress& sigma, const Plane& alpha);
 
-/// Section 11, once per call: detects a reversal and moves the initial back-stress ratios.
+/// Section 11, where a call begins: a reversal moves the initial back-stress ratios.
 void detect_reversal(const Ready& law, const Strain<double>& d, State& state);
+
+/// What a reversal towards n does to them, at the state's p, alpha and z.
+void reverse(const Plane& n, State& state);
 
 /// Sections 13.1 and 13.3 from (sigma, alpha): the fraction of the increment that is elastic.
 double elastic_fraction(const Ready& law, const Stress& sigma, const Plane& alpha,

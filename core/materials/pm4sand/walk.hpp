@@ -72,7 +72,8 @@ class Walk {
         return {&evaluations, &sub_steps, &rejected, &forced, &projected, &softened, &stalled};
     }
 
-    /// Surfaces, modulus and rates at the current place; returns the lanes that want to unload.
+    /// Surfaces, modulus and rates at the current place; returns the lanes that want to unload or
+    /// reverse.
     [[gnu::always_inline]] MaskOf<R> begin(const MaskOf<R>& busy);
     /// One trial sub-step from there, accepted or not lane by lane. Returns the lanes that cannot
     /// go on.
@@ -91,13 +92,14 @@ class Walk {
     [[gnu::always_inline]] void project(const Surfaces<R>& surface, const MaskOf<R>& busy);
     [[gnu::always_inline]] Deviator<R> t_0() const { return {-n.x, n.d}; }
     /// Where the right-hand side jumps (low pressure, repeated projection, sign of B) no step is
-    /// exact. Each sub-step accepted all the same lets the next be 5 % larger, up to the size of
-    /// the reference scheme's parts.
+    /// exact. Each sub-step accepted all the same and each projection lets the next be 5 % larger,
+    /// up to the size of the reference scheme's parts.
     [[gnu::always_inline]] R least_step() const {
         using namespace lanes;
         const R first(options_.least_sub_step);
-        if (!any(forced > R(0.0))) return first / size;
-        return smaller(first * exponential(R(0.05) * forced), R(1e-5)) / size;
+        const R jumps = forced + projected;
+        if (!any(jumps > R(0.0))) return first / size;
+        return smaller(first * exponential(R(0.05) * jumps), R(1e-5)) / size;
     }
     [[gnu::always_inline]] R floor() const { return R(0.2) * fixed.p_min; }
 
@@ -223,7 +225,8 @@ inline MaskOf<R> Walk<R>::begin(const MaskOf<R>& busy) {
     J_.across_across = -across;
     J_.along_along = R(-0.5) * at.L * magnitude(at.K_p) / (larger(magnitude(at.B), R(1e-6)) * at.p);
     evaluations = evaluations + counted_;
-    return at.unloads & busy;
+    const MaskOf<R> reverses = dot(alpha - fixed.alpha_true, n) < zero;
+    return (at.unloads | reverses) & busy;
 }
 
 namespace ros34pw2 {
