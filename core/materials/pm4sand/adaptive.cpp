@@ -23,7 +23,6 @@ Plane direction(const Ready& law, const Stress& sigma, const Plane& alpha,
 bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand) {
     *errand.update = {old, Outcome::done, {}};
     State& state = errand.update->state;
-    detect_reversal(law, d, state);
     const Stress change = elastic_change(law, state.G, d);
     const double a = elastic_fraction(law, {state.p, state.s}, state.alpha, change);
     const Stress sigma{state.p + a * change.p, state.s + a * change.s};

@@ -16,7 +16,7 @@ struct Errand {
     Plane n;                 ///< plastic direction where the plastic part begins
 };
 
-/// Reversal and elastic part. True if there is plastic strain to walk through.
+/// The elastic part. True if there is plastic strain to walk through.
 bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand);
 
 /// Takes a point that unloads from (p, alpha, n) along the elastic path.
@@ -133,14 +133,15 @@ template <class R>
     return path.end;
 }
 
-/// A reversal in the midst of a call: a call that is long for the point has the memory of a short
-/// one.
+/// Section 11 on the plastic path, wherever in a call that is: the memory of a point does not hang
+/// on how its strain is cut into calls.
 template <class R>
-[[gnu::always_inline]] inline bool reverses(int i, Walk<R>& walk, Errand& errand) {
+[[gnu::always_inline]] inline bool reverses(const Ready& law, int i, Walk<R>& walk,
+                                            Errand& errand) {
     State& s = errand.update->state;
     const Plane alpha = pm4sand::lane(walk.alpha, i);
     const Plane n = pm4sand::lane(walk.n, i);
-    if (dot(alpha - s.alpha_true, n) >= 0.0) return false;
+    if (dot(alpha - s.alpha_true, n) >= reversed_below(law)) return false;
     s.p = lanes::lane(walk.p, i);
     s.alpha = alpha;
     s.z = pm4sand::lane(walk.z, i);
@@ -153,7 +154,7 @@ template <class R>
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
                                                    Errand& errand) {
-    if (reverses(i, walk, errand)) return Next::again;
+    if (reverses(law, i, walk, errand)) return Next::again;
     switch (excursion(law, i, walk, errand)) {
         case Excursion::End::nowhere:
             return Next::walk;

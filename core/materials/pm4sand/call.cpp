@@ -45,12 +45,6 @@ void remember_pressure(State& state) {
 
 }  // namespace
 
-void detect_reversal(const Ready& law, const Strain<double>& d, State& state) {
-    const Stress change = elastic_change(law, state.G, d);
-    const Plane n = normal(law, {state.p + change.p, state.s + change.s}, state.alpha);
-    if (dot(state.alpha - state.alpha_true, n) < 0.0) reverse(n, state);
-}
-
 void reverse(const Plane& n, State& state) {
     const InPlane old_app = state.alpha_app;
     const InPlane alpha = components(state.alpha);

@@ -1,5 +1,5 @@
-// What both integrators share around their sub-steps, for one point: the reversal test, the elastic
-// part of the path, and the closing of a call (sections 10, 11, 13.1, 13.3, 14).
+// What both integrators share around their sub-steps, for one point: what a reversal does, the
+// elastic part of the path, and the closing of a call (sections 10, 11, 13.1, 13.3, 14).
 #pragma once
 
 #include "core/materials/pm4sand/functions.hpp"
@@ -31,10 +31,8 @@ inline double yield_function(const Ready& law, const Stress& sigma, const Plane&
 /// Normal of section 4 with its degenerate cases.
 Plane normal(const Ready& law, const Stress& sigma, const Plane& alpha);
 
-/// Section 11, where a call begins: a reversal moves the initial back-stress ratios.
-void detect_reversal(const Ready& law, const Strain<double>& d, State& state);
-
-/// What a reversal towards n does to them, at the state's p, alpha and z.
+/// Section 11: what a reversal towards n does to the initial back-stress ratios, at the state's p,
+/// alpha and z.
 void reverse(const Plane& n, State& state);
 
 /// Sections 13.1 and 13.3 from (sigma, alpha): the fraction of the increment that is elastic.

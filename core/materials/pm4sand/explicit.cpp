@@ -208,6 +208,13 @@ void Part::correct_drift(double D) {
     }
 }
 
+/// Section 11, once per call: by the normal at the end of the elastic path.
+void detect_reversal(const Ready& law, const Strain<double>& d, State& state) {
+    const Stress change = elastic_change(law, state.G, d);
+    const Plane n = normal(law, {state.p + change.p, state.s + change.s}, state.alpha);
+    if (dot(state.alpha - state.alpha_true, n) < 0.0) reverse(n, state);
+}
+
 }  // namespace
 
 Update integrate_reference(const Ready& law, const State& old, const Strain<double>& d,

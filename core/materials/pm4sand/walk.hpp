@@ -52,6 +52,10 @@ struct Stiffness {
     }
 };
 
+/// A point reverses where (alpha - alpha_in^true):n falls below this. A hundredth of the cone beneath
+/// zero: alpha that shrinks with its bounding surface right after a reversal is none.
+inline double reversed_below(const Ready& law) { return -0.01 * law.parameters.m; }
+
 template <class R>
 class Walk {
   public:
@@ -225,7 +229,7 @@ inline MaskOf<R> Walk<R>::begin(const MaskOf<R>& busy) {
     J_.across_across = -across;
     J_.along_along = R(-0.5) * at.L * magnitude(at.K_p) / (larger(magnitude(at.B), R(1e-6)) * at.p);
     evaluations = evaluations + counted_;
-    const MaskOf<R> reverses = dot(alpha - fixed.alpha_true, n) < zero;
+    const MaskOf<R> reverses = dot(alpha - fixed.alpha_true, n) < R(reversed_below(law_));
     return (at.unloads | reverses) & busy;
 }
 

@@ -166,7 +166,8 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
     const auto made = service.post(door + "?repeats=3", "{}");
     ASSERT_EQ(made.status, 202) << made.text;
     const std::string check = made.body.at("id");
-    for (const json& each : service.wait_for_end(check).at("tasks"))
+    const json checked = service.wait_for_end(check);
+    for (const json& each : checked.at("tasks"))
         EXPECT_EQ(each.at("state"), each.at("phase") == "fem_solver" ? "cached" : "succeeded")
             << each.at("label") << ": no lattice of the study";
     const json told = service.get("/v1/runs/" + check + "/accuracy/check").body;
@@ -180,7 +181,8 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
     // One by one the same six lattices: 0.02 m x 0.8649 and x 0.8298 are more than 0.15 %.
     const std::string single =
         service.post(door + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
-    for (const json& each : service.wait_for_end(single).at("tasks"))
+    const json ended = service.wait_for_end(single);
+    for (const json& each : ended.at("tasks"))
         EXPECT_EQ(each.at("state"), "cached") << each.at("label");
     const json one_by_one = service.get("/v1/runs/" + single + "/accuracy/check").body;
     EXPECT_EQ(one_by_one.at("judged"), 6);
