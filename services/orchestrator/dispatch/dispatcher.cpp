@@ -48,6 +48,14 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
+Bell::Bell() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+Bell::~Bell() { close(descriptor_); }
+void Bell::ring() const { eventfd_write(descriptor_, 1); }
+void Bell::silence() const {
+    eventfd_t count = 0;
+    eventfd_read(descriptor_, &count);
+}
+
 Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
                        ProgressBoard& board, DispatchSettings settings)
     : store_(store),
@@ -56,7 +64,6 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
       board_(board),
       settings_(std::move(settings)),
       triggers_(store, data),
-      wake_descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
       registrar_(store, data,
                  [this](const std::string& task) {
                      {
@@ -79,10 +86,9 @@ Dispatcher::~Dispatcher() {
     thread_.request_stop();
     wake();
     thread_.join();
-    close(wake_descriptor_);
 }
 
-void Dispatcher::wake() { eventfd_write(wake_descriptor_, 1); }
+void Dispatcher::wake() { bell_.ring(); }
 
 void Dispatcher::settle_all() {
     unsettled_ = true;
@@ -186,10 +192,9 @@ void Dispatcher::wait_for_something() {
     wait = std::min(wait, triggers_.patience());
     pollfd wanted[] = {{watch_.descriptor(), POLLIN, 0},
                        {triggers_.descriptor(), POLLIN, 0},
-                       {wake_descriptor_, POLLIN, 0}};
+                       {bell_.descriptor(), POLLIN, 0}};
     poll(wanted, 3, static_cast<int>(wait.count()));
-    eventfd_t count = 0;
-    eventfd_read(wake_descriptor_, &count);
+    bell_.silence();
 }
 
 void Dispatcher::shut_down() {

@@ -33,6 +33,21 @@ struct DispatchSettings {
     std::chrono::milliseconds retry_delay{500};  ///< doubled with each further try
 };
 
+/// Wakes the dispatcher's thread out of its poll; may be rung by any thread.
+class Bell {
+  public:
+    Bell();
+    ~Bell();
+    Bell(const Bell&) = delete;
+    Bell& operator=(const Bell&) = delete;
+    void ring() const;
+    void silence() const;
+    int descriptor() const { return descriptor_; }
+
+  private:
+    int descriptor_;
+};
+
 class Dispatcher {
   public:
     Dispatcher(Store& store, const DataFolder& data, Executor& executor, ProgressBoard& board,
@@ -112,7 +127,7 @@ class Dispatcher {
     DispatchSettings settings_;
     FolderWatch watch_;
     TriggerWatch triggers_;
-    int wake_descriptor_;
+    Bell bell_;             // before those whose threads ring it: it goes after them
     std::stop_token stop_;  ///< of the serving thread
     std::list<Live> live_;
     std::chrono::steady_clock::time_point looked_at_all_{};
