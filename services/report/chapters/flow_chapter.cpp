@@ -19,9 +19,8 @@ json gauges_in(const PhaseFolder& mpm) { return mpm.scene.at("mpm").value("gauge
 /// Depth or velocity at every gauge against time, of one runout.
 Figure gauge_figure(const PhaseFolder& mpm, const std::string& quantity, const std::string& label) {
     const Telemetry telemetry(mpm.files / phases::files::telemetry);
-    const std::string of = mpm.transfer_time ? short_number(*mpm.transfer_time) + "s" : "filled";
     Figure figure{
-        "gauge_" + quantity + "_" + of,
+        "gauge_" + quantity + "_" + file_word(mpm),
         {"Gauges: " + quantity + ", " + of_transfer(mpm), {"time since transfer [s]"}, {label}, {}},
         "Mean over a cell each way: of the depth of mobile soil, and of its horizontal "
         "velocity by mass."};

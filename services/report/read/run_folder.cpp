@@ -120,9 +120,10 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     for (const json& row : table.at("rows")) {
         const json error = row.value("runout_error", json());
         for (PhaseFolder& each : phases) {
-            if (each.phase != phases::mpm.program || !each.transfer_time ||
-                each.variant != row.at("variant") ||
-                std::abs(*each.transfer_time - row.at("transfer_time").get<double>()) > same_time)
+            if (each.phase != phases::mpm.program || each.variant != row.at("variant")) continue;
+            const json at = row.at("transfer_time");  // null: the points fill the section
+            if (at.is_null() != !each.transfer_time) continue;
+            if (each.transfer_time && std::abs(*each.transfer_time - at.get<double>()) > same_time)
                 continue;
             if (error.is_number()) each.runout_error = error;
             if (const json from = row.value("runout_error_from", json()); from.is_string())
@@ -165,6 +166,8 @@ Run read_run(const fs::path& folder) {
         if (about.is_object()) {
             run.name = about.value("name", run.name);
             run.id = about.value("id", "");
+            run.state = about.value("state", "");
+            if (const json at = about.value("finished", json()); at.is_string()) run.finished = at;
             if (!about.value("title", "").empty()) run.title = about.at("title");
         }
         return run;
@@ -184,6 +187,10 @@ std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& 
 const PhaseFolder* phase_named(const Run& run, const std::string& phase) {
     const auto found = phases_named(run, phase);
     return found.empty() ? nullptr : found.front();
+}
+
+bool is_static(const Run& run) {
+    return !phase_named(run, phases::fem.program) && !phase_named(run, phases::transfer.program);
 }
 
 bool has_telemetry(const PhaseFolder& phase) {

@@ -31,6 +31,8 @@ struct Run {
     std::string name;
     std::string title;
     std::string id;                   ///< empty: not known to a service
+    std::string state = {};           ///< of the run as the service told it; empty: not known
+    std::string finished = {};        ///< when; empty: not known, or it has not
     nlohmann::json scene;             ///< completed, of the first phase
     nlohmann::json study;             ///< null when the folder has none
     std::vector<PhaseFolder> phases;  ///< by phase, then transfer time, then variant
@@ -47,6 +49,9 @@ Run read_run(const std::filesystem::path& folder);
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.
 const PhaseFolder* phase_named(const Run& run, const std::string& phase);
+
+/// Without a FEM there is nothing to shake and nothing to transfer: points fill the section.
+bool is_static(const Run& run);
 
 /// False for a phase that ended before its first line.
 bool has_telemetry(const PhaseFolder& phase);

@@ -161,6 +161,20 @@ void add_what_is_not_known(const Run& run, Verdict& verdict) {
     verdict.doubts.push_back(text);
 }
 
+/// One word for all of it, the worst first.
+std::string word_for(const Run& run, const Verdict& verdict) {
+    const auto any = [&](auto test) { return std::ranges::any_of(run.phases, test); };
+    if (any([](const PhaseFolder& each) { return !each.result.is_object(); }))
+        return "not finished, or broken down in part";
+    if (any([](const PhaseFolder& each) {
+            const auto flags = flags_of(each);
+            return flags && fault::is_questionable(*flags);
+        }))
+        return "questionable";
+    if (!verdict.doubts.empty()) return "not known";
+    return verdict.notes.empty() ? "nothing found against it" : "stands, with the remarks below";
+}
+
 }  // namespace
 
 std::optional<std::vector<Flag>> flags_of(const PhaseFolder& phase) {
@@ -275,6 +289,7 @@ Verdict verdict_of(const Run& run) {
         (is_doubt(each.flag) ? verdict.doubts : verdict.notes).push_back(sentence_of(run, each));
     }
     add_what_is_not_known(run, verdict);
+    verdict.word = word_for(run, verdict);
     if (verdict.doubts.empty() && verdict.notes.empty()) {
         verdict.notes.emplace_back("No phase of this run raised a flag.");
     }
