@@ -36,9 +36,6 @@ std::string of_transfer(const PhaseFolder& phase);
 /// "/energy/numerical/share".
 std::string fact(const nlohmann::json& result, const std::string& pointer, double unit = 1.0);
 
-/// The scene that the study asks about, without its variants' changes; of a run without a study that
-/// of its first phase.
-const nlohmann::json& asked_scene(const Run& run);
 /// How a runout is named in files: "13s", "filled_soft".
 std::string file_word(const PhaseFolder& mpm);
 

@@ -173,25 +173,30 @@ void add_mean(const Run& run, Table& table) {
              (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
 }
 
+/// Of each gauge, as far as the page has room: when it came, how deep, how fast.
 void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolder*>& all,
                     Table& table) {
-    const json gauges = shown.result.value("gauges", json::object());
-    std::size_t count = 0;
-    for (const auto& [name, seen] : gauges.items()) {
-        if (++count > most_gauges) break;
-        const std::string at = "/gauges/" + name, of = name + " (x = " + fact(seen, "/x") + " m): ";
-        table.rows.push_back({of + "arrival [s]", brief_fact(shown, at + "/arrival_time"),
-                              range_of(all, at + "/arrival_time", false),
-                              brief_fact(shown, at + "/arrival_time") == "-"
-                                  ? "the flow was not there by the end"
-                                  : "since the soil was let go"});
+    const json gauges = shown.scene.value("/mpm/gauges"_json_pointer, json::array());
+    for (std::size_t i = 0; i < std::min(gauges.size(), most_gauges); ++i) {
+        const std::string name = gauges[i].at("name"), at = "/gauges/" + name;
+        if (!shown.result.contains(json::json_pointer(at))) continue;
+        const std::string arrival = brief_fact(shown, at + "/arrival_time");
+        const auto largest = [&](const char* of) {
+            return bounded(shown, brief_fact(shown, at + of));
+        };
         table.rows.push_back(
-            {of + "largest depth [m]", bounded(shown, brief_fact(shown, at + "/largest_depth")),
-             range_of(all, at + "/largest_depth", true), "mean over a cell each way"});
-        table.rows.push_back({of + "largest velocity [m/s]",
-                              bounded(shown, brief_fact(shown, at + "/largest_velocity")),
-                              range_of(all, at + "/largest_velocity", true), "by mass"});
+            {"Gauge " + name + " (x = " + short_number(gauges[i].at("x")) +
+                 " m): arrival [s]; largest depth [m]; velocity [m/s]",
+             arrival + "; " + largest("/largest_depth") + "; " + largest("/largest_velocity"),
+             range_of(all, at + "/arrival_time", false) + "; " +
+                 range_of(all, at + "/largest_depth", true) + "; " +
+                 range_of(all, at + "/largest_velocity", true),
+             arrival == "-" ? "the flow was not there by the end"
+                            : "arrival since the soil was let go"});
     }
+    if (gauges.size() > most_gauges)
+        table.rows.push_back({"Further gauges", std::to_string(gauges.size() - most_gauges), "-",
+                              "in the chapter \"Flow and deposit\""});
 }
 
 void add_runouts(const Run& run, Table& table) {
@@ -291,6 +296,11 @@ std::vector<std::string> limits_of(const Run& run, const json& scene) {
     return limits;
 }
 
+/// "2026-11-22T13:15:02.123Z" -> "2026-11-22 13:15 UTC"
+std::string moment_of(const std::string& time) {
+    return time.size() < 16 ? time : time.substr(0, 10) + " " + time.substr(11, 5) + " UTC";
+}
+
 /// "Run 01, flow-slope; scene flow_slope; breachline 0.9.0; finished 2026-11-22 13:15 UTC."
 std::string identity_of(const Run& run) {
     std::string text = "Scene " + run.scene.at("name").get<std::string>();
@@ -305,17 +315,11 @@ std::string identity_of(const Run& run) {
         text += ", computed by Breachline " + version;
         break;
     }
-    if (!run.finished.empty()) text += ", finished " + run.finished;
+    if (!run.finished.empty()) text += ", finished " + moment_of(run.finished);
     return text + ".";
 }
 
 }  // namespace
-
-const json& asked_scene(const Run& run) {
-    const bool is_there =
-        run.study.is_object() && run.study.contains("scene") && run.study.at("scene").is_object();
-    return is_there ? run.study.at("scene") : run.scene;
-}
 
 Front front_of(const Run& run) {
     const json& scene = asked_scene(run);

@@ -47,7 +47,7 @@ struct Front {
 
 struct Document {
     std::string title;
-    std::vector<std::string> remarks;  ///< below the title: what everybody must know first
+    std::vector<std::string> remarks;  ///< what everybody must know first, beside the limits
     std::vector<Chapter> chapters;
     std::vector<LeftOut> left_out;
     Verdict verdict = {};  ///< above the remarks; empty: nothing is said

@@ -16,7 +16,7 @@ constexpr const char* style =
     "body{font:16px/1.5 Helvetica,Arial,sans-serif;color:#222;max-width:1180px;margin:2em auto;"
     "padding:0 1em}h1,h2{line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #ccc}"
     "figure{margin:1.5em 0}figure svg{max-width:100%;height:auto}figcaption{font-size:14px;"
-    "color:#444}.remark{background:#fff6dd;border-left:4px solid #e69f00;padding:.4em 1em}"
+    "color:#444}"
     ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px}caption{text-align:left;"
     "font-weight:bold;padding:.4em 0}th,td{border-bottom:1px solid #ddd;padding:.2em .7em;"
     "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
@@ -34,13 +34,17 @@ constexpr const char* style =
     "@page{margin:12mm;@bottom-right{content:counter(page) ' / ' counter(pages);font:8pt "
     "Helvetica,Arial,sans-serif;color:#666}}@page wide{size:landscape}"
     "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
-    "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.sign,.remark{break-inside:avoid}"
-    ".front{break-after:page;font-size:9.5pt}.front table,.front .verdict{font-size:8.5pt}"
-    "h1{font-size:16pt;margin:0}.front .wide p{margin:.2em 0}.sign{margin-top:1.5em}"
+    "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.sign{break-inside:avoid}"
+    ".front{break-after:page;font-size:8.5pt;line-height:1.35}.front table,.front .verdict,"
+    ".front .wide p{font-size:8pt;margin:.2em 0}h1{font-size:14pt;margin:0}.front>p{margin:.3em 0}"
+    ".front td:nth-child(2){white-space:nowrap}"
+    ".sign{margin-top:2.2em}nav>ol{columns:2}nav li{break-inside:avoid}"
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
-    "th,td{padding:.15em .4em}td.long{overflow-wrap:anywhere;min-width:6em}"
+    "th,td{padding:.15em "
+    ".4em}td.long{overflow-wrap:anywhere;min-width:6em}td.long:first-child{min-width:11em}"
     "tbody tr:first-child{break-before:avoid}.many,.sheet{page:wide}.sheet "
-    "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
+    "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}.many "
+    "td.long:first-child{min-width:6em}}";
 
 constexpr std::size_t many = 9;        // columns that a printed page has no room for when it stands
 constexpr std::size_t long_text = 12;  // characters that need not stay on one line
@@ -78,9 +82,10 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
          << link(file + ".png", "PNG") << "</figcaption>\n</figure>\n";
 }
 
-/// Numbers stand at the right; lower bounds are told apart from them.
+/// Numbers stand at the right, those with a mark as well; lower bounds are told apart from them.
 const char* opening_of(const std::string& cell) {
-    if (is_number(cell)) return "<td class=\"n\">";
+    if (is_number(cell.ends_with(" *") ? cell.substr(0, cell.size() - 2) : cell))
+        return "<td class=\"n\">";
     if (cell.starts_with("\u2265")) return "<td class=\"n b\">";
     return cell.size() > long_text ? "<td class=\"long\">" : "<td>";
 }
@@ -135,10 +140,9 @@ void write_front(std::ostream& html, const Document& document, const std::string
     write_list(html, "What was asked", front.asked);
     if (!front.found.rows.empty()) write_table(html, front.found, folder);
     write_verdict(html, document.verdict);
-    write_list(html, "Limits", front.limits);
-    for (const std::string& each : document.remarks) {
-        html << "<p class=\"remark\">" << escaped(each) << "</p>\n";
-    }
+    std::vector<std::string> limits = front.limits;
+    limits.insert(limits.end(), document.remarks.begin(), document.remarks.end());
+    write_list(html, "Limits", limits);
     html << "<div class=\"sign\"><span>prepared by</span><span>checked by</span><span>date</span>"
             "</div>\n</header>\n";
 }

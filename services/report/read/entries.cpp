@@ -4,6 +4,7 @@
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
+#include "services/report/chart/axis.hpp"
 
 namespace breach::report {
 
@@ -44,7 +45,9 @@ bool holds_objects(const json& list) {
 }
 
 std::string text_of(const json& value) {
+    constexpr std::size_t many_digits = 10;  // what follows from other entries has them all
     if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float() && value.dump().size() > many_digits) return rounded(value, 7);
     std::string text;
     for (const char c : value.dump()) {
         text += c;

@@ -41,10 +41,15 @@ struct Run {
     nlohmann::json means = nlohmann::json::array();
 };
 
-/// A folder belongs to a phase when it holds scene.completed.json and its label begins with lem,
-/// fem, transfer or mpm (or result.json names the phase). Throws IoError when the folder cannot be
+/// A folder belongs to a phase when it holds scene.completed.json, or the task.json of an export, and
+/// its label begins with lem, fem, transfer or mpm (or one of its files names the phase). A task that
+/// has not begun is a phase without a result; one that its FEM did not reach is none. Throws IoError when the folder cannot be
 /// read, BadInput when no phase is in it or a file in it is not what it should be.
 Run read_run(const std::filesystem::path& folder);
+
+/// The scene that the study asks about, without its variants' changes; of a run without a study that
+/// of its first phase.
+const nlohmann::json& asked_scene(const Run& run);
 
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.
