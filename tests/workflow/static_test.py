@@ -26,7 +26,7 @@ def records(file):
 
 
 def empty_chapters(html):
-    return [each for each in re.findall(r"<section[ >].*?</section>", html, re.S) if "<figure" not in each and "<table" not in each]
+    return [each for each in re.findall(r"<section[^>]*><h2 id=.*?</section>", html, re.S) if "<figure" not in each and "<table" not in each]
 
 
 def with_points(service, folder):

@@ -1,5 +1,5 @@
 // What went in: section, materials, water, boundary, motion and every setting, with what nobody set
-// marked as such. Every entry of the completed scene stands in one of the tables.
+// marked as such. Every entry that the run's phases read stands in one of the tables.
 #include <algorithm>
 #include <cmath>
 
@@ -125,6 +125,26 @@ Table section_of(const json& scene, const std::vector<SceneEntry>& entries) {
     return table;
 }
 
+std::vector<std::string> pointers_set(const json& overrides) {
+    std::vector<std::string> pointers;
+    for (const json& each : overrides) {
+        const std::string text = each;
+        pointers.push_back(text.substr(0, text.find('=')));
+    }
+    return pointers;
+}
+
+/// The transfer's part is completed in every scene, also where nothing is transferred.
+std::vector<SceneEntry> entries_read(const Run& run, const json& scene) {
+    const json overrides =
+        run.study.is_object() ? run.study.value("overrides", json::array()) : json::array();
+    std::vector<SceneEntry> entries = entries_of(scene, pointers_set(overrides));
+    if (is_static(run))
+        std::erase_if(entries,
+                      [](const SceneEntry& each) { return is_below(each.pointer, "/transfer"); });
+    return entries;
+}
+
 /// Some materials side by side, one row per entry that one of them has.
 Table materials_abreast_of(const std::vector<std::string>& names,
                            const std::vector<SceneEntry>& entries, std::size_t number) {
@@ -155,8 +175,7 @@ Table materials_abreast_of(const std::vector<std::string>& names,
 std::vector<Table> materials_of(const json& scene, const std::vector<SceneEntry>& entries) {
     std::vector<std::string> names;
     const json materials = scene.value("materials", json::object());
-    for (const auto& [name, material] : materials.items())
-        names.push_back(name);
+    for (const auto& [name, material] : materials.items()) names.push_back(name);
     std::vector<Table> tables;
     for (std::size_t first = 0; first < names.size(); first += materials_abreast) {
         const auto begin = names.begin() + static_cast<std::ptrdiff_t>(first);
@@ -167,23 +186,11 @@ std::vector<Table> materials_of(const json& scene, const std::vector<SceneEntry>
     return tables;
 }
 
-std::vector<std::string> pointers_set(const json& overrides) {
-    std::vector<std::string> pointers;
-    for (const json& each : overrides) {
-        const std::string text = each;
-        pointers.push_back(text.substr(0, text.find('=')));
-    }
-    return pointers;
-}
-
 }  // namespace
 
 void add_inputs(const Material& from, Document& document) {
-    const json& study = from.run.study;
     const json& scene = asked_scene(from.run);
-    const std::vector<SceneEntry> entries =
-        entries_of(scene, study.is_object() ? pointers_set(study.value("overrides", json::array()))
-                                            : std::vector<std::string>{});
+    const std::vector<SceneEntry> entries = entries_read(from.run, scene);
     const auto defaults = std::ranges::count_if(entries, &SceneEntry::is_default);
     Chapter chapter{"Inputs",
                     "The scene as it was computed, whole: " + std::to_string(entries.size()) +
