@@ -225,7 +225,8 @@ function trust_note(rows, hidden) {
     const parts = [bounds && `${bounds} still moving: lower bounds`, doubtful && `${doubtful} questionable for other reasons`,
                    unknown && `${unknown} without flags: not known`].filter(Boolean);
     if (parts.length === 0) return "";
-    return `Of ${finished.length} results ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
+    const what = finished.every((row) => Number.isFinite(row.runout)) ? "runouts" : "results";
+    return `Of ${finished.length} ${what} ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
 }
 
 /// [{variant, rows}] in the study's order, rows in order of time.

@@ -328,7 +328,8 @@ TEST(Entries, AreAllThatTheSceneHasWithWhatNobodySet) {
         if (at == entries.end()) throw std::runtime_error("no entry " + pointer);
         return *at;
     };
-    for (const auto& [pointer, value] : scene.flatten().items()) {
+    const nlohmann::json flat = scene.flatten();
+    for (const auto& [pointer, value] : flat.items()) {
         ++leaves;
         const bool is_there = std::ranges::any_of(entries, [&](const SceneEntry& each) {
             return pointer == each.pointer || pointer.starts_with(each.pointer + "/");
