@@ -60,8 +60,18 @@ std::string transfers_of(const Run& run) {
            (triggers.empty() ? "" : " (triggers: " + joined(triggers) + ")");
 }
 
+/// A FEM can be asked about by itself.
+bool asks_for_runouts(const Run& run) {
+    const bool waits = run.study.is_object() && !run.study.value("triggers", json::array()).empty();
+    return waits || phase_named(run, phases::mpm.program);
+}
+
 std::string question_of(const Run& run, const json& scene) {
-    if (phase_named(run, phases::fem.program))
+    const bool fem = phase_named(run, phases::fem.program);
+    if (fem && !asks_for_runouts(run))
+        return "Whether and when does the section fail, " + motion_of(scene) +
+               "? Finite elements for " + seconds_of_stages(scene) + "; nothing is transferred.";
+    if (fem)
         return "How far does the soil run out that fails, " + motion_of(scene) +
                "? Finite elements for " + seconds_of_stages(scene) +
                "; their state becomes material points at t_T = " + transfers_of(run) + ".";
@@ -276,13 +286,13 @@ void add_fems(const Run& run, Table& table) {
 // ---------------------------------------------------------------- limits
 
 std::vector<std::string> limits_of(const Run& run, const json& scene) {
-    const bool flows = phase_named(run, phases::mpm.program);
     std::vector<std::string> limits{
-        flows ? "Plane strain: the section goes on sideways for ever, and volumes are per metre of "
-                "width. A breach of finite width spreads and drains otherwise."
-              : "Plane strain and limit equilibrium: no deformation, no runout, and no surface but "
-                "those that were searched."};
-    if (!flows) return limits;
+        "Plane strain: the section goes on sideways for ever, and volumes are per metre of width. "
+        "A breach of finite width spreads and drains otherwise."};
+    if (!phase_named(run, phases::fem.program) && !phase_named(run, phases::mpm.program))
+        limits.emplace_back(
+            "Limit equilibrium: no deformation, and no surface but those that were searched.");
+    if (!asks_for_runouts(run)) return limits;
     limits.emplace_back("No mixing with water: nothing is diluted, and no free water flows along.");
     limits.emplace_back(
         "Total stress in the runout: strength is what the soil had when it was let go, but for "

@@ -37,7 +37,7 @@ export class Cost {
             plot.show({ series: series_by_variant(finished, variants).map(({ variant, rows: points }) => ({
                 name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),
                 looks: points.map((row) => (column === "runout" ? look_of(row) : look_of(row).replace(/.*bound.*/, "doubtful"))), notes: points.map(flag_note),
-                names: points.map((row) => point_name(row) || run.name),
+                names: points.map((row) => point_name({ ...row, variant: "" }) || "the section"),
                 x: points.map((row) => row.cpu_seconds), y: points.map((row) => row[field] ?? null) })) });
         }
         draw_totals(run.tasks);
