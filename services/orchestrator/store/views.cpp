@@ -21,7 +21,7 @@ SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, r
     CASE WHEN is_open THEN CASE WHEN started IS NULL THEN 'queued' ELSE 'running' END
          WHEN cancelled > 0 THEN 'cancelled'
          WHEN failed > 0 AND (runouts > 0 OR reached > 0 AND NOT EXISTS (SELECT 1 FROM tasks
-             WHERE tasks.run = id AND phase <> 'lem_tool')) THEN 'partial'
+             WHERE tasks.run = counted.id AND phase <> 'lem_tool')) THEN 'partial'
          WHEN failed > 0 THEN 'failed'
          WHEN reached < ended AND runouts = 0 THEN 'partial'
          WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
@@ -30,7 +30,7 @@ SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, r
     CASE WHEN NOT is_open THEN last_finished END AS finished
 FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
         WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open
-      FROM runs JOIN run_counts ON run_counts.run = runs.id))sql";
+      FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
 struct Expression {
     std::string name;
