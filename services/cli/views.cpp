@@ -282,8 +282,7 @@ std::string result_cell(const json& row, const json& column) {
 
 /// There is a number, but not a word on whether to believe it.
 bool is_unjudged(const json& row) {
-    return !row.value("cpu_seconds", json()).is_null() &&
-           row.value("questionable", json()).is_null();
+    return !row.value("runout", json()).is_null() && row.value("questionable", json()).is_null();
 }
 
 std::string place_of(const json& row) {
