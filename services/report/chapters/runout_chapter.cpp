@@ -228,8 +228,8 @@ void add_runout(const Material& from, Document& document) {
         return;
     }
     Chapter chapter{"Runout", window_text(from.measures)};
-    if (!is_static(from.run)) {
-        Figure against = runout_against_time(from);
+    if (Figure against = is_static(from.run) ? Figure{} : runout_against_time(from);
+        !against.chart.series.empty()) {
         add_points(from.paper, against);
         chapter.figures.push_back(std::move(against));
     }
