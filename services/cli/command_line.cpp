@@ -124,8 +124,9 @@ class CommandLine {
     void take_study(CLI::App* sub) {
         CLI::Option_group* what = sub->add_option_group("what");
         take_study_file(what);
-        what->add_option("--scene", a_.submit.scene,
-                         "instead: a scene file (JSON), to be run as it is; needs --times");
+        what->add_option(
+            "--scene", a_.submit.scene,
+            "instead: a scene file (JSON), to be run as it is; one with a FEM needs --times");
         what->require_option(1);
         sub->add_option("--times", a_.submit.transfer_times,
                         "transfer times instead of the study's, separated by commas [s]")

@@ -239,6 +239,18 @@ std::string as_task_page(const json& task) {
 
 namespace {
 
+/// Without the columns that no row fills, as soon as a row has a result: a static scene has no
+/// transfer time, a stability analysis alone no runout.
+std::vector<json> without_empty(std::vector<json> columns, const json& rows) {
+    const auto is_empty = [&](const std::string& name) {
+        return std::ranges::all_of(
+            rows, [&](const json& row) { return row.value(name, json()).is_null(); });
+    };
+    if (!is_empty("cpu_seconds"))
+        std::erase_if(columns, [&](const json& each) { return is_empty(each.at("name")); });
+    return columns;
+}
+
 /// What people read first comes first; the rest as the server has it.
 std::vector<json> columns_for_people(const json& columns, const json& rows) {
     const bool variants =
@@ -252,7 +264,7 @@ std::vector<json> columns_for_people(const json& columns, const json& rows) {
         if (each.at("title") != "" && each.at("name") != "variant" &&
             std::ranges::find(found, each) == found.end())
             found.push_back(each);
-    return found;
+    return without_empty(std::move(found), rows);
 }
 
 std::string heading_of(const json& column) {
@@ -274,9 +286,9 @@ bool is_unjudged(const json& row) {
 }
 
 std::string place_of(const json& row) {
-    const std::string variant = row.value("variant", "");
-    return (variant.empty() ? "" : harmless(variant) + ", ") + "t_T " + cell(row, "transfer_time") +
-           " s";
+    const std::string variant = harmless(row.value("variant", ""));
+    if (row.value("transfer_time", json()).is_null()) return variant.empty() ? "the run" : variant;
+    return (variant.empty() ? "" : variant + ", ") + "t_T " + cell(row, "transfer_time") + " s";
 }
 
 }  // namespace

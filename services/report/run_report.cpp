@@ -2,6 +2,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
 #include "services/report/chart/page.hpp"
 #include "services/report/chart/png.hpp"
 #include "services/report/read/verdict.hpp"
@@ -35,18 +36,26 @@ void add_companion(const std::filesystem::path& folder, const std::optional<Pape
 Document filled(const Run& run, const Choice& choice) {
     const std::optional<Paper> paper = paper_for(run.scene.at("name"));
     const Measures measures = measures_of(run, paper);
-    Document document{run.title, {}, {}, {}, verdict_of(run)};
-    if (!run.id.empty()) document.remarks.push_back("Run " + run.id + ", " + run.name + ".");
+    Document document{run.title, {}, {}, {}, verdict_of(run), front_of(run)};
     if (paper) {
         document.remarks.insert(document.remarks.end(), paper->remarks.begin(),
                                 paper->remarks.end());
     }
     const Material material{run, paper, measures, choice};
-    for (const auto add :
-         {add_stability, add_element_tests, add_motion, add_shaking, add_mesh, add_transfer,
-          add_runout, add_ground, add_flow, add_variants, add_numbers}) {
-        add(material, document);
+    for (const auto add : {add_inputs, add_stability, add_element_tests}) add(material, document);
+    if (is_static(run)) {
+        document.left_out.push_back({"motion, course of the finite elements, meshes and transfers",
+                                     "the scene is static: it has no FEM"});
+    } else {
+        for (const auto add : {add_motion, add_shaking, add_mesh, add_transfer})
+            add(material, document);
     }
+    if (phase_named(run, phases::mpm.program)) {
+        for (const auto add : {add_runout, add_ground, add_flow}) add(material, document);
+    } else {
+        document.left_out.push_back({"runout, flow and deposit", "the run has no runout"});
+    }
+    for (const auto add : {add_variants, add_numbers}) add(material, document);
     for (const auto& each : choice.companions) add_companion(each, paper, document);
     return document;
 }
@@ -82,6 +91,8 @@ void write_report(Document document, const std::filesystem::path& page) {
             exchange::publish_text(folder / (each.name + ".csv"), as_csv(each));
         }
     }
+    exchange::publish_text(folder / (document.front.found.name + ".csv"),
+                           as_csv(document.front.found));
     exchange::publish_text(page, as_html(document, folder_name));
 }
 

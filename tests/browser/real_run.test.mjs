@@ -23,6 +23,54 @@ const text_of = (selector) => page.textContent(selector);
 const markers = () => page.locator("#runout-plot svg.plot > .marker.series-0").count();
 const answer_of = async (address) => (await fetch(url + address)).json();
 
+/// The run's report, opened.
+async function report_of(run, name) {
+    const folder = path.join(live.folder, `exported-${name}`);
+    const report = path.join(live.folder, `${name}.html`);
+    execFileSync(program("breach"), ["--server", url, "export", run, folder], { encoding: "utf8" });
+    execFileSync(program("report"), [folder, "--output", report]);
+    const paper = await page.context().newPage();
+    await paper.goto(`file://${report}`);
+    return paper;
+}
+
+/// Nothing of a page is cut off on A4 and Letter: no element is wider than what the margins of 12 mm leave (at 96 px to the inch; wide tables
+/// lie on their side), no text leaves its figure, every cell and sentence is in the PDF's text, and the first page is the one to sign.
+/// Returns how its pages lie.
+async function printed_whole(paper, name) {
+    const kinds = new Set();
+    const words = await paper.$$eval("h1, h2, td, th, .front li, figcaption", (all) => all.map((each) => each.innerText));
+    const bare = (text) => text.replaceAll(/\s/g, "");
+    await paper.emulateMedia({ media: "print" });
+    for (const [format, upright, lying] of [["A4", 703, 1032], ["Letter", 725, 965]]) {
+        for (const [width, lies] of [[upright, false], [lying, true]]) {
+            await paper.setViewportSize({ width, height: 900 });
+            const cut = await paper.evaluate((wanted) => {
+                const room = document.body.getBoundingClientRect().right + 0.5;
+                const named = (each) => `${each.tagName} ${each.id || each.closest("[id]")?.id} ${each.textContent.slice(0, 40)}`;
+                const mine = (each) => Boolean(each.closest(".many, .sheet")) === wanted;
+                const wide = [...document.querySelectorAll("body *:not(svg *)")].filter((each) => mine(each) && each.getBoundingClientRect().right > room);
+                const out = [...document.querySelectorAll("figure svg text")].filter((each) => {
+                    const [text, frame] = [each, each.ownerSVGElement].map((one) => one.getBoundingClientRect());
+                    return text.left < frame.left - 1 || text.right > frame.right + 1 || text.top < frame.top - 1 || text.bottom > frame.bottom + 1;
+                });
+                return [...wide, ...out].map(named);
+            }, lies);
+            assert.deepEqual(cut, [], `${name}, ${format}`);
+        }
+        const file = path.join(live.folder, `${name}-${format}.pdf`);
+        const pdf = (await paper.pdf({ path: file, format, preferCSSPageSize: true })).toString("latin1");
+        for (const [, wide, high] of pdf.matchAll(/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]/g)) kinds.add(Number(wide) > Number(high) ? "lying" : "upright");
+        const text = bare(execFileSync("pdftotext", ["-raw", file, "-"], { encoding: "utf8" }));
+        assert.deepEqual(words.filter((each) => !text.includes(bare(each))), [], `${name}, ${format}: all of it is in the PDF`);
+        const first = bare(execFileSync("pdftotext", ["-raw", "-l", "1", file, "-"], { encoding: "utf8" }));
+        for (const part of ["What was asked", "What comes out", "Verdict of the checks", "Limits", "checked by"]) {
+            assert.ok(first.includes(bare(part)), `${name}, ${format}: the first page has "${part}"`);
+        }
+    }
+    return [...kinds];
+}
+
 test("a study with faults is refused with the places at fault", async () => {
     await page.goto(url);
     await page.click("nav [data-opens=submit]");
@@ -182,31 +230,56 @@ test("variants are curves of their own, and a trigger's threshold and firing are
 
 test("its report says first what must be known, and printed nothing of it is cut off", async () => {
     const [run] = (await answer_of("/v1/runs")).runs.filter(({ name }) => name === "two-floors");
-    const folder = path.join(live.folder, "exported");
-    const report = path.join(live.folder, "report.html");
-    execFileSync(program("breach"), ["--server", url, "export", run.id, folder], { encoding: "utf8" });
-    execFileSync(program("report"), [folder, "--output", report]);
-    const paper = await page.context().newPage();
-    await paper.goto(`file://${report}`);
+    const paper = await report_of(run.id, "two-floors");
     assert.ok(await paper.isVisible("#verdict"));
-    // What a page leaves between margins of 12 mm, at 96 px to the inch; wide tables lie on their side.
-    const formats = [["A4", 703, 1032], ["Letter", 725, 965]];
-    await paper.emulateMedia({ media: "print" });
-    for (const [format, upright, lying] of formats) {
-        for (const [width, kind] of [[upright, ".wide:not(.many)"], [lying, ".wide.many"]]) {
-            await paper.setViewportSize({ width, height: 900 });
-            const cut = await paper.evaluate((selector) => [...document.querySelectorAll(selector)].map((box) => {
-                const table = box.querySelector("table");
-                return { name: table.id, by: Math.max(table.scrollWidth, table.offsetWidth) - box.clientWidth, hidden: getComputedStyle(box).overflowX };
-            }).filter(({ by, hidden }) => by > 0 || hidden !== "visible"), kind);
-            assert.deepEqual(cut, [], `${format}, ${kind}`);
-        }
-        const pdf = (await paper.pdf({ format, preferCSSPageSize: true })).toString("latin1");
-        const pages = [...pdf.matchAll(/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]/g)].map(([, wide, high]) => Number(wide) > Number(high));
-        assert.ok(pages.includes(true) && pages.includes(false), `${format}: ${pages.length} pages, some of them on their side`);
-    }
     assert.ok(await paper.locator(".wide.many").count() >= 3, "there are wide tables");
+    const kinds = await printed_whole(paper, "two-floors");
+    assert.ok(kinds.includes("lying") && kinds.includes("upright"), "wide tables lie on their side");
     await paper.close();
+});
+
+test("a scene without a FEM is shown by variant: no transfer time, no triggers, its factors of safety", async () => {
+    const read = (file) => JSON.parse(readFileSync(new URL(`../../workflows/${file}`, import.meta.url), "utf8"));
+    const flow = { ...read("studies/flow_slope.json"), scene: read("scenes/flow_slope.json") };
+    flow.variants = flow.variants.filter(({ name }) => ["s_r_9", "s_r_24"].includes(name));
+    const submit = async (sent) => {
+        await page.click("nav [data-opens=submit]");
+        await page.fill("#study", JSON.stringify(sent));
+        await page.click("#submit");
+        await until("its title", async () => (await text_of("#run-title")) === sent.title);
+        await until("the end of the run", async () => /succeeded|questionable/.test(await text_of("#run-state")), 120000);
+    };
+    await submit(flow);
+    await until("one marker per variant", async () => (await markers()) === 2);
+    assert.equal(await text_of("#runout-title"), "Runout by variant");
+    assert.ok(!(await page.isVisible("#triggers")) && !/transfer time/.test(await page.textContent("#runout-table thead tr th:first-child .point")));
+    assert.deepEqual(await page.locator("#runout-rows th").allTextContents(), ["s_r_9", "s_r_24"]);
+    assert.deepEqual(await page.locator("#telemetry-source option").allTextContents(), ["MPM, s_r_9", "MPM, s_r_24"]);
+    const rows = (await answer_of(`/v1/runs/${page.url().split("/").at(-1)}/results`)).rows;
+    const shown = await page.locator('#runout-rows [data-column="factor_of_safety"]').allTextContents();
+    assert.deepEqual(shown.map(Number), rows.map((row) => Number(row.factor_of_safety.toPrecision(4))));
+    await page.selectOption("#runout-measure", "factor_of_safety");
+    assert.equal(await text_of("#runout-title"), "Factor of safety by variant");
+    await page.click('#runout-rows tr:first-child [data-column="factor_of_safety"]');
+    await page.waitForSelector("#provenance[open] .step");
+    assert.match(await text_of("#provenance-where"), new RegExp(`Exactly ${rows[0].factor_of_safety}`));
+    assert.deepEqual(await page.locator("#provenance .step h3").allTextContents(), ["lem_tool, s_r_9"]);
+    await page.keyboard.press("Escape");
+    await screenshot(page, "static_both");
+    const paper = await report_of(page.url().split("/").at(-1), "static");
+    assert.deepEqual(await paper.$$eval("section", (all) => all.filter((each) => !each.querySelector("figure, table, li")).length), 0);
+    await printed_whole(paper, "static");
+    await paper.close();
+
+    const { mpm, ...standing } = flow.scene;
+    await submit({ ...flow, title: "Stability alone", name: "stability-alone", scene: standing });
+    await until("one marker per variant", async () => (await markers()) === 2);
+    assert.equal(await text_of("#runout-title"), "Factor of safety by variant");
+    assert.deepEqual(await page.locator("#runout-measure option:not([hidden])").allTextContents(), ["factor of safety"]);
+    for (const none of ["#particles", "#telemetry", "#triggers"]) assert.ok(!(await page.isVisible(none)), `${none} has nothing to show`);
+    await screenshot(page, "static_stability");
+    await page.click("#run-list li:last-child a");
+    await until("the first run again", async () => (await text_of("#run-title")) === study.title);
 });
 
 test("the finished run is photographed, light and dark", async () => {

@@ -22,7 +22,8 @@ struct Estimate {
     std::optional<double> bias = {};  ///< the same without scatter [m]
 };
 
-/// Recipes of the three phases; of the FEM without the times of its snapshots.
+/// Recipes of the three phases; of the FEM without the times of its snapshots. Of points that fill
+/// the section that of the MPM alone.
 using Question = std::tuple<std::string, std::string, std::string>;
 
 json& field(ResultRow& row, std::string_view name, std::span<const ResultColumn> columns) {
@@ -57,7 +58,7 @@ class Questions {
 };
 
 bool is_runout(const Quantity& quantity) {
-    return quantity.reach == Reach::chain && quantity.name.starts_with("runout") &&
+    return has_lattice(quantity.reach) && quantity.name.starts_with("runout") &&
            quantity.unit == "m";
 }
 
@@ -130,7 +131,8 @@ class Studies {
 
   private:
     std::optional<Question> question_of(const Task& mpm) {
-        if (!mpm.recipe || !mpm.parent) return std::nullopt;
+        if (!mpm.recipe) return std::nullopt;
+        if (!mpm.parent) return Question{*mpm.recipe, "", ""};
         const auto transfer = store_.task(*mpm.parent);
         return questions_.of(mpm, *transfer, *store_.task(*transfer->parent));
     }
@@ -142,11 +144,17 @@ class Studies {
     std::map<std::string, std::optional<AccuracyTable>> tables_;
 };
 
+/// A variant at a transfer time; of a static scene there is none.
+using Place = std::pair<std::string, std::optional<double>>;
+
+Place place_at(const std::string& variant, const json& transfer_time) {
+    return {variant,
+            transfer_time.is_number() ? std::optional<double>(transfer_time) : std::nullopt};
+}
+
 /// The draws of each variant at each transfer time.
 class Scatter {
   public:
-    using Place = std::pair<std::string, double>;
-
     Scatter(const Store& store, const std::string& run) {
         const json study = store.study_of(run).value_or(json::object());
         if (study.value("draws", 1) < 2 && study.value("first_draw", 0) == 0) return;
@@ -187,7 +195,8 @@ class Scatter {
     Place place_of(const ResultRow& row) const {
         const std::string variant = value_of(row, "variant");
         const auto found = repeated_.find(variant);
-        return {found == repeated_.end() ? variant : found->second, value_of(row, "transfer_time")};
+        return place_at(found == repeated_.end() ? variant : found->second,
+                        value_of(row, "transfer_time"));
     }
 
     std::map<std::string, std::string> repeated_;
@@ -233,7 +242,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         const auto value = [&](const char* name) -> json& {
             return field(mean, name, mean_columns());
         };
-        const Scatter::Place place{value("variant"), value("transfer_time")};
+        const Place place = place_at(value("variant"), value("transfer_time"));
         auto known = by_repeated.find(place.first);
         if (const auto task = scatter.task_of(place); task && known == by_repeated.end())
             known = by_repeated

@@ -224,8 +224,9 @@ void show_sweep(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_sweep(service, call.parts[0]);
     json body = sweep_json(service, run);
-    body["transfer_times"] = service.store.study_of(run.id)->at("transfer_times");
-    body["variants"] = service.store.study_of(run.id)->value("variants", json::array());
+    const json study = service.store.study_of(run.id).value();
+    body["transfer_times"] = study.value("transfer_times", json::array());
+    body["variants"] = study.value("variants", json::array());
     reply(call.response, body);
 }
 

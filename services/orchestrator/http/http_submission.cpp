@@ -71,6 +71,7 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
     if (!study.triggers.empty() && study.snapshot_interval <= 0.0)
         for (TaskPlan& each : graph.tasks)
             if (each.phase == phases::fem.program) each.recipe.clear();
+    const std::size_t states = std::max<std::size_t>(1, study.transfer_times.size());
     return {.id = new_run_id(),
             .name = study.name,
             .title = study.title,
@@ -81,7 +82,7 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .triggers = study.triggers,
             .firing_plan = std::move(graph.one_more_transfer),
             .priority = study.priority,
-            .sweep = study.variants.size() * study.transfer_times.size() > 1};
+            .sweep = study.variants.size() * states > 1};
 }
 
 std::string stored(Service& service, const std::string& body, Ask ask,

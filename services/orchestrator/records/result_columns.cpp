@@ -21,7 +21,8 @@ static constexpr auto words_of(ColumnKind) {
 namespace {
 
 constexpr std::array columns{
-    ResultColumn{"transfer_time", "", number, "s", "t_T", "transfer time"},
+    ResultColumn{"transfer_time", "", number, "s", "t_T",
+                 "transfer time; null: the scene has no FEM"},
     ResultColumn{"state", "", word, "", "state",
                  "that of the row; questionable: there is a result, but not one to rely on"},
     ResultColumn{"runout", "/runout", number, "m", "runout",
@@ -38,11 +39,15 @@ constexpr std::array columns{
                  "indicator of error: area of soil that lies in other soil, of all"},
     ResultColumn{"cpu_seconds", "/cpu_seconds", number, "s", "CPU", "of the MPM"},
     ResultColumn{"reason", "", word, "", "", "why there is no result"},
-    ResultColumn{"transfer_task", "", word, "", "", "the task that made the points"},
-    ResultColumn{"mpm_task", "", word, "", "", "the task that made the result"},
+    ResultColumn{"transfer_task", "", word, "", "",
+                 "the task that made the points; null: they fill the section"},
+    ResultColumn{"mpm_task", "", word, "", "",
+                 "the task that made the result: mpm_solver, or lem_tool where it is alone"},
     ResultColumn{"variant", "", word, "", "variant", "of the study; empty: it has none"},
     ResultColumn{"reused", "", yes_no, "", "", "taken from an earlier, equal task"},
-    ResultColumn{"trigger", "", word, "", "", "what made the transfer; at_time: the study's list"},
+    ResultColumn{
+        "trigger", "", word, "", "",
+        "what made the transfer; at_time: the study's list; empty: nothing is transferred"},
     ResultColumn{"at_rest", "/at_rest", yes_no, "", "rest",
                  "the soil came to rest; if not, the runout is a lower bound"},
     ResultColumn{"ended", "/ended", word, "", "", "what ended the MPM: at_rest or duration"},
@@ -59,6 +64,9 @@ constexpr std::array columns{
                  "the sweep's own draws; null: nothing tells it"},
     ResultColumn{"runout_error_from", "", word, "", "",
                  "what tells the error, or why nothing does"},
+    ResultColumn{"factor_of_safety", "", number, "1", "FS",
+                 "of the variant's stability analysis, or of the one that serves all; null: there "
+                 "is none, not yet, or variants share it in parts"},
 };
 
 }  // namespace

@@ -364,7 +364,7 @@ std::vector<AccuracyRung> Store::accuracy_rungs(std::size_t most_runs) const {
         database.query(
             "SELECT run, variant, id, recipe FROM tasks WHERE run IN (SELECT id FROM runs WHERE "
             "json_type(study, '$.accuracy')='object' ORDER BY id DESC LIMIT ?) AND phase=? AND "
-            "recipe IS NOT NULL AND parent IS NOT NULL ORDER BY run DESC, id",
+            "recipe IS NOT NULL ORDER BY run DESC, id",
             {as_value(most_runs), phases::mpm.program}, [&](const Row& row) {
                 found.push_back({.run = row.text(0),
                                  .variant = row.text(1),
@@ -380,8 +380,9 @@ std::pair<std::int64_t, std::int64_t> Store::points_of(const std::string& run) c
     read([&](Connection& database) {
         database.query(
             "SELECT count(*), coalesce(sum(state IN ('succeeded', 'cached')), 0) FROM tasks WHERE "
-            "run=? AND phase=?",
-            {run, phases::mpm.program}, [&](const Row& row) {
+            "run=? AND " +
+                makes_a_row("tasks"),
+            {run}, [&](const Row& row) {
                 counts = {row.integer(0), row.integer(1)};
             });
     });
@@ -421,10 +422,9 @@ std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter
         // The page is found first, so that a long table is not worked out for a part of it.
         sql +=
             "mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants ON "
-            "variants.run=tasks.run AND variants.name=tasks.variant WHERE tasks.run=?1 AND "
-            "tasks.phase='" +
-            std::string(phases::mpm.program) +
-            "' ORDER BY coalesce(variants.place, 0), tasks.transfer_time "
+            "variants.run=tasks.run AND variants.name=tasks.variant WHERE tasks.run=?1 AND " +
+            makes_a_row("tasks") +
+            " ORDER BY coalesce(variants.place, 0), tasks.transfer_time "
             "LIMIT ?2 OFFSET ?3) ORDER BY variant_place, transfer_time";
     } else {
         sql +=

@@ -12,7 +12,7 @@ namespace breach::orchestrator {
 namespace {
 
 // A run with an open trigger is not over: it may still get tasks. One of which no transfer time was
-// reached by its FEM has no runout, though nothing failed.
+// reached by its FEM has no runout, though nothing failed. Of lem_tool alone no runout is expected.
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
@@ -20,7 +20,8 @@ SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, r
         AS questionable,
     CASE WHEN is_open THEN CASE WHEN started IS NULL THEN 'queued' ELSE 'running' END
          WHEN cancelled > 0 THEN 'cancelled'
-         WHEN failed > 0 AND runouts > 0 THEN 'partial'
+         WHEN failed > 0 AND (runouts > 0 OR reached > 0 AND NOT EXISTS (SELECT 1 FROM tasks
+             WHERE tasks.run = counted.id AND phase <> 'lem_tool')) THEN 'partial'
          WHEN failed > 0 THEN 'failed'
          WHEN reached < ended AND runouts = 0 THEN 'partial'
          WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
@@ -29,7 +30,7 @@ SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, r
     CASE WHEN NOT is_open THEN last_finished END AS finished
 FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
         WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open
-      FROM runs JOIN run_counts ON run_counts.run = runs.id))sql";
+      FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
 struct Expression {
     std::string name;
@@ -62,10 +63,17 @@ const std::vector<Expression> own_columns{
     {"variant", "mpm.variant"},
     {"reused", "mpm.state = 'cached'"},
     {"trigger",
-     "coalesce((SELECT group_concat(triggers.name, ' ') FROM triggers"
+     "CASE WHEN transfer.id IS NULL THEN '' ELSE coalesce((SELECT group_concat(triggers.name, ' ') "
+     "FROM triggers"
      "\n        JOIN firings ON firings.trigger = triggers.id"
      "\n        WHERE triggers.fem_task = transfer.parent AND firings.snapshot = transfer.input),"
-     " 'at_time')"},
+     " 'at_time') END"},
+    // Its variant's own stability analysis, or the one that serves all.
+    {"factor_of_safety",
+     "(SELECT json_extract(lem.result, '$.factor_of_safety') FROM tasks AS lem"
+     "\n        WHERE lem.run = mpm.run AND lem.phase = '" +
+         std::string(phases::lem.program) +
+         "'\n        AND lem.variant IN (mpm.variant, '') LIMIT 1)"},
     {"questionable", "CASE WHEN mpm.result IS NULL THEN NULL WHEN " + is_questionable +
                          " THEN 1 WHEN " + is_judged + " THEN 0 END"},
     {"flags", "CASE WHEN " + is_judged +
@@ -109,7 +117,8 @@ std::string sql_of(const ResultColumn& column) {
     return own->sql;
 }
 
-/// One row per variant and transfer time: the runout, or why there is none.
+/// One row per variant and transfer time: the runout, or why there is none. Of a static scene the
+/// points come from no transfer; of one with a stability analysis alone `mpm` is that.
 std::string sweep_results() {
     std::string columns;
     for (const Expression& each : other_columns)
@@ -121,10 +130,10 @@ std::string sweep_results() {
         if (is_in_view(each))
             columns.append(",\n    ").append(sql_of(each)).append(" AS ").append(each.name);
     return columns +
-           "\nFROM tasks AS mpm JOIN tasks AS transfer ON transfer.id = mpm.parent"
+           "\nFROM tasks AS mpm LEFT JOIN tasks AS transfer ON transfer.id = mpm.parent"
            "\n    LEFT JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant"
-           "\nWHERE mpm.phase = '" +
-           phases::mpm.program + "' AND transfer.phase = '" + phases::transfer.program + "'";
+           "\nWHERE " +
+           makes_a_row("mpm");
 }
 
 // What a row of means has besides the means. A draw that waits or runs has no result yet; of one
@@ -178,6 +187,13 @@ void make_views(Connection& database) {
         database.script("DROP VIEW IF EXISTS " + each.name);
         database.script(each.sql);
     }
+}
+
+std::string makes_a_row(const std::string& task) {
+    return "(" + task + ".phase = '" + phases::mpm.program + "' OR " + task + ".phase = '" +
+           phases::lem.program +
+           "' AND NOT EXISTS (SELECT 1 FROM tasks AS other WHERE other.run = " + task +
+           ".run AND other.phase <> '" + phases::lem.program + "'))";
 }
 
 std::string selected_means(const std::string& condition) {

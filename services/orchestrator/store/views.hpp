@@ -9,6 +9,9 @@ namespace breach::orchestrator {
 bool views_are_current(Connection& database);
 void make_views(Connection& database);
 
+/// The SQL condition on a task by which it makes a row of sweep_results: an MPM, or the stability
+/// analysis of a run that has nothing else.
+std::string makes_a_row(const std::string& task);
 /// "state, runout, ...": what is read of sweep_results for one ResultRow.
 std::string selected_result_columns();
 /// The same of sweep_means, for one row of mean_columns().

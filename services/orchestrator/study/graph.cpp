@@ -75,14 +75,13 @@ class Planner {
         : study_(study), numerics_(numerics), tasks_(study), open_(study) {}
 
     void plan(const Variant& variant) {
-        if (study_.reach == Reach::chain) {
-            plan_chain(variant);
-        } else {
-            plan_one_phase(variant, phases_of(study_.reach).front().program);
-        }
+        if (study_.reach == Reach::chain) return plan_chain(variant);
+        plan_one_phase(variant, phases_of(study_.reach).front().program);
+        if (study_.reach == Reach::filled_mpm && study_.stability)
+            plan_one_phase(variant, phases::lem.program);
     }
 
-    /// Nothing but this phase; never one task for two variants: each is a rung of its own.
+    /// This phase alone; never one task for two variants: each has its row in the table of results.
     void plan_one_phase(const Variant& variant, const std::string& phase) {
         variant_ = &variant;
         recipes_of_variant_[phase] = recipe(phase, variant.scene);

@@ -4,6 +4,8 @@
 //                                                  (for each variant and each t_T)
 //     lem_tool                                     (for each variant, on its own)
 //
+// A scene without a FEM is static: its material points fill the section, and mpm_solver and lem_tool
+// wait for nothing, each once for each variant. A scene with neither FEM nor MPM has lem_tool alone.
 // An accuracy study can need less: fem_solver, lem_tool or mpm_solver alone (study/accuracy.hpp).
 //
 // Tasks of different variants are one task when they are the same: equal recipe, equal parent,

@@ -93,6 +93,14 @@ void need_part(const json& scene, const std::string& part, std::vector<Fault>& f
                       "add \"" + part + "\" to the scene"});
 }
 
+/// What a scene lets be run: without a FEM the points fill the section; without points, too, there
+/// is its stability.
+Reach reach_of(const json& scene) {
+    if (scene.contains(phases::fem.part)) return Reach::chain;
+    if (scene.contains(phases::mpm.part)) return Reach::filled_mpm;
+    return scene.contains(phases::lem.part) ? Reach::lem : Reach::chain;
+}
+
 /// A scene that was sent has no folder: its files are named by absolute paths, in overrides too.
 void need_absolute_files(json scene, const std::vector<std::string>& overrides,
                          std::vector<Fault>& faults) {
@@ -235,6 +243,11 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach,
     const Draws draws{.first = document["first_draw"], .count = document["draws"]};
     std::vector<VariantEntry> own = own_variants(document["variants"]);
     if (draws.first == 0 && draws.count == 1) return own;
+    if (!has_lattice(reach)) {
+        faults.push_back({"/draws", "draws move the lattice of material points, and there are none",
+                          "leave \"draws\" and \"first_draw\" out, or add \"mpm\" to the scene"});
+        return own;
+    }
     if (own.empty())
         own.push_back({.name = "",
                        .overrides = {},
@@ -289,6 +302,21 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
         variants.push_back(std::move(variant));
     }
     return variants;
+}
+
+/// What a study of a scene without a FEM cannot ask for.
+void check_without_fem(const json& document, Reach reach, std::vector<Fault>& faults) {
+    const auto refuse = [&](const std::string& entry, const std::string& cause) {
+        faults.push_back(
+            {"/" + entry, cause, "leave \"" + entry + "\" out, or add \"fem\" to the scene"});
+    };
+    if (document.contains("transfer_times"))
+        refuse("transfer_times", "the scene has no FEM, and nothing else is transferred");
+    if (!document["triggers"].empty())
+        refuse("triggers", "triggers watch a FEM, and the scene has none");
+    if (reach == Reach::lem && !document["stability"].get<bool>())
+        faults.push_back({"/stability", "the scene has nothing but a stability analysis to run",
+                          "leave \"stability\" out, or add \"mpm\" to the scene"});
 }
 
 // ---------------------------------------------------------------- accuracy
@@ -416,6 +444,8 @@ Study read_study(std::string_view text) {
         } else if (sound("check") && sound("draws")) {
             study.reach = read_blind_check(document["check"], base.scene, document["draws"], faults)
                               .quantity.reach;
+        } else {
+            study.reach = reach_of(base.scene);
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
@@ -445,6 +475,9 @@ Study read_study(std::string_view text) {
     } else if (scene && times_are_sound && repeats_are_sound && sound("check")) {
         check_blind(document, study, faults);
     }
+    const bool judged = document.contains("accuracy") || document.contains("check");
+    if (!judged && times_are_sound && sound("stability") && study.reach != Reach::chain)
+        check_without_fem(document, study.reach, faults);
     if (scene && repeats_are_sound && rungs_are_sound) {
         const std::vector<VariantEntry> entries =
             accuracy ? variants_of(*accuracy, base.scene)

@@ -36,9 +36,14 @@ std::string of_transfer(const PhaseFolder& phase);
 /// "/energy/numerical/share".
 std::string fact(const nlohmann::json& result, const std::string& pointer, double unit = 1.0);
 
+/// How a runout is named in files: "13s", "filled_soft".
+std::string file_word(const PhaseFolder& mpm);
+
 /// The section before anything moved.
 Series section_at_rest(const nlohmann::json& scene);
 
+Front front_of(const Run& run);
+void add_inputs(const Material& from, Document& document);
 void add_stability(const Material& from, Document& document);
 void add_element_tests(const Material& from, Document& document);
 void add_motion(const Material& from, Document& document);

@@ -19,12 +19,13 @@ json gauges_in(const PhaseFolder& mpm) { return mpm.scene.at("mpm").value("gauge
 /// Depth or velocity at every gauge against time, of one runout.
 Figure gauge_figure(const PhaseFolder& mpm, const std::string& quantity, const std::string& label) {
     const Telemetry telemetry(mpm.files / phases::files::telemetry);
-    const std::string of = mpm.transfer_time ? short_number(*mpm.transfer_time) + "s" : "filled";
-    Figure figure{
-        "gauge_" + quantity + "_" + of,
-        {"Gauges: " + quantity + ", " + of_transfer(mpm), {"time since transfer [s]"}, {label}, {}},
-        "Mean over a cell each way: of the depth of mobile soil, and of its horizontal "
-        "velocity by mass."};
+    Figure figure{"gauge_" + quantity + "_" + file_word(mpm),
+                  {"Gauges: " + quantity + ", " + of_transfer(mpm),
+                   {mpm.transfer_time ? "time since transfer [s]" : "time [s]"},
+                   {label},
+                   {}},
+                  "Mean over a cell each way: of the depth of mobile soil, and of its horizontal "
+                  "velocity by mass."};
     for (const json& gauge : gauges_in(mpm)) {
         const std::string name = gauge.at("name");
         const std::string field = "gauge." + name + "." + quantity;

@@ -135,7 +135,14 @@ void add_before_and_after(const Material& from, const PhaseFolder& transfer,
                                  "the run has no snapshot at " + of_transfer(transfer)});
 }
 
+/// Those of the first variant that has any; of a static scene, where each variant has one, all.
 std::vector<const PhaseFolder*> first_runouts(const Run& run) {
+    if (is_static(run)) {
+        std::vector<const PhaseFolder*> all;
+        for (const std::string& variant : variants_of(run))
+            std::ranges::copy(runouts_of(run, variant), std::back_inserter(all));
+        return all;
+    }
     for (const std::string& variant : variants_of(run)) {
         if (auto found = runouts_of(run, variant); !found.empty()) return found;
     }
@@ -152,6 +159,11 @@ std::string window_text(const Measures& measures) {
 }
 
 }  // namespace
+
+std::string file_word(const PhaseFolder& mpm) {
+    if (mpm.transfer_time) return short_number(*mpm.transfer_time) + "s";
+    return mpm.variant.empty() ? "filled" : "filled_" + mpm.variant;
+}
 
 Series section_at_rest(const json& scene) {
     Series s{"section at rest", {}, {}, Style::segments};
@@ -216,18 +228,14 @@ void add_runout(const Material& from, Document& document) {
         return;
     }
     Chapter chapter{"Runout", window_text(from.measures)};
-    Figure against = runout_against_time(from);
-    if (against.chart.series.empty()) {
-        document.left_out.push_back({"runout against transfer time",
-                                     "the points fill the section: there is no transfer time"});
-    } else {
+    if (Figure against = is_static(from.run) ? Figure{} : runout_against_time(from);
+        !against.chart.series.empty()) {
         add_points(from.paper, against);
         chapter.figures.push_back(std::move(against));
     }
     for (const PhaseFolder* each : runouts) {
         const auto file = exchange::read_particle_state(each->files / phases::files::final_state);
-        const std::string of =
-            each->transfer_time ? short_number(*each->transfer_time) + "s" : "filled";
+        const std::string of = file_word(*each);
         Figure geometry = points_by_material(file.state, "final_geometry_" + of,
                                              "Final geometry, " + of_transfer(*each));
         geometry.chart.series.push_back(section_at_rest(each->scene));

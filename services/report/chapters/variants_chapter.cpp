@@ -158,11 +158,143 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
             how_they_ended(count.runouts)};
 }
 
+// ---------------------------------------------------------------- static scenes
+
+/// The phase's own result for a variant; null when it has none.
+const PhaseFolder* own_result(const Run& run, const std::string& phase,
+                              const std::string& variant) {
+    for (const PhaseFolder* each : phases_named(run, phase))
+        if ((each->variant == variant || each->variant.empty()) && each->result.is_object())
+            return each;
+    return nullptr;
+}
+
+std::string fate_of(const Run& run, const std::string& variant) {
+    std::string text;
+    for (const PhaseFolder& each : run.phases)
+        if (each.variant == variant || each.variant.empty())
+            text += (text.empty() ? "" : "; ") + std::string(phases::named(each.phase)->part) +
+                    ": " + how_it_ended(each);
+    return text;
+}
+
+/// One row per variant: no transfer time, no window, no FEM.
+Table static_table(const Run& run, const std::vector<std::string>& variants) {
+    const bool flows = phase_named(run, phases::mpm.program);
+    const bool judged = phase_named(run, phases::lem.program);
+    Table table{"variants",
+                "One thing changed at a time",
+                {"variant", "changed"},
+                {},
+                flows ? "Runout: 99 % of the mobile soil, from the toe; negative: before it. "
+                        "\u2265: the soil still moved, a lower bound and compared with nothing."
+                      : ""};
+    if (judged) table.columns.emplace_back("factor of safety");
+    if (flows)
+        table.columns.insert(table.columns.end(), {"runout [m]", "against the first [%]",
+                                                   "area beyond toe [m2]", "at rest", "end [s]"});
+    table.columns.emplace_back("how it ended");
+    const PhaseFolder* first = own_result(run, phases::mpm.program, variants.front());
+    for (const std::string& variant : variants) {
+        std::vector<std::string> row{variant, changes_of(run, variant)};
+        const auto of = [&](const PhaseFolder* phase, const char* pointer, int digits) {
+            const json::json_pointer at(pointer);
+            return phase && phase->result.value(at, json()).is_number()
+                       ? rounded(phase->result.at(at).get<double>(), digits)
+                       : std::string("-");
+        };
+        const PhaseFolder* lem = own_result(run, phases::lem.program, variant);
+        const PhaseFolder* mpm = own_result(run, phases::mpm.program, variant);
+        const auto distance = [&](const char* pointer) {
+            const std::string value = of(mpm, pointer, 4);
+            return mpm ? bounded(*mpm, value) : value;
+        };
+        if (judged) row.push_back(of(lem, "/factor_of_safety", 4));
+        if (flows) {
+            const bool comparable = first && mpm && first != mpm && runout_of(first) > 0.0 &&
+                                    !still_moves(*first) && !still_moves(*mpm);
+            row.insert(
+                row.end(),
+                {distance("/runout"),
+                 comparable ? rounded(100.0 * (runout_of(mpm) / runout_of(first) - 1.0), 3) : "-",
+                 distance("/area_beyond_toe"), mpm ? fact(mpm->result, "/at_rest") : "-",
+                 of(mpm, "/end_time", 4)});
+        }
+        row.push_back(fate_of(run, variant));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+/// The one entry that every variant sets to a number of its own.
+struct Parameter {
+    std::string entry;
+    std::vector<double> values;  ///< of the variants, in their order
+};
+
+std::optional<Parameter> one_parameter(const Run& run) {
+    Parameter found;
+    for (const json& each : run.study.at("variants")) {
+        const json overrides = each.value("overrides", json::array());
+        if (overrides.size() != 1) return {};
+        const std::string text = overrides.front();
+        const std::size_t equals = text.find('=');
+        const json value = json::parse(text.substr(equals + 1), nullptr, false);
+        if (!value.is_number()) return {};
+        if (!found.values.empty() && text.substr(0, equals) != found.entry) return {};
+        found.entry = text.substr(0, equals);
+        found.values.push_back(value);
+    }
+    return found;
+}
+
+/// A number of each variant's result against the parameter that they change.
+Figure against_parameter(const Run& run, const std::vector<std::string>& variants,
+                         const Parameter& parameter, const phases::Phase& phase, const char* key,
+                         const std::string& name, const std::string& title,
+                         const std::string& label) {
+    Figure figure{name,
+                  {title, {parameter.entry.substr(parameter.entry.rfind('/') + 1)}, {label}, {}},
+                  "Against " + parameter.entry + ", which alone the variants change."};
+    Series series{title, {}, {}, Style::line_and_points};
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        const PhaseFolder* found = own_result(run, phase.program, variants[i]);
+        if (!found || !found->result.value(key, json()).is_number()) continue;
+        series.x.push_back(parameter.values[i]);
+        series.y.push_back(found->result.at(key));
+        series.certainty.push_back(certainty_of(*found));
+    }
+    if (std::ranges::all_of(series.certainty,
+                            [](Certainty each) { return each == Certainty::certain; }))
+        series.certainty.clear();
+    if (!series.x.empty()) figure.chart.series.push_back(std::move(series));
+    return figure;
+}
+
+Chapter static_chapter(const Run& run, const std::vector<std::string>& variants) {
+    Chapter chapter{"Variants"};
+    if (const auto parameter = one_parameter(run)) {
+        std::vector figures{against_parameter(run, variants, *parameter, phases::mpm, "runout",
+                                              "runout_against_parameter", "Runout", "runout [m]"),
+                            against_parameter(run, variants, *parameter, phases::lem,
+                                              "factor_of_safety", "safety_against_parameter",
+                                              "Factor of safety", "factor of safety [-]")};
+        std::erase_if(figures, [](const Figure& each) { return each.chart.series.empty(); });
+        chapter.figures = std::move(figures);
+    }
+    chapter.tables.push_back(static_table(run, variants));
+    return chapter;
+}
+
 }  // namespace
 
 void add_variants(const Material& from, Document& document) {
     const std::vector<std::string> variants = listed_variants(from.run);
     if (variants.size() < 2) return;
+    if (is_static(from.run)) {
+        document.chapters.push_back(static_chapter(from.run, variants));
+        return;
+    }
     Table table{
         "variants",
         "One thing changed at a time",

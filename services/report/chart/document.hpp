@@ -32,16 +32,26 @@ struct LeftOut {
 
 /// What must be known before the numbers are believed, in sentences.
 struct Verdict {
+    std::string word = {};            ///< "questionable"; empty: the sentences say it all
     std::vector<std::string> doubts;  ///< a number is a bound, is wrong or cannot be trusted
     std::vector<std::string> notes;   ///< all else, and that there is nothing
 };
 
+/// The first page, which a reader can sign: what was asked, what comes out, and within which limits.
+struct Front {
+    std::string of = {};                   ///< which run of which scene by which version
+    std::vector<std::string> asked = {};   ///< in sentences
+    Table found = {};                      ///< without rows: nothing came out
+    std::vector<std::string> limits = {};  ///< of the model, in sentences
+};
+
 struct Document {
     std::string title;
-    std::vector<std::string> remarks;  ///< below the title: what everybody must know first
+    std::vector<std::string> remarks;  ///< what everybody must know first, beside the limits
     std::vector<Chapter> chapters;
     std::vector<LeftOut> left_out;
     Verdict verdict = {};  ///< above the remarks; empty: nothing is said
+    Front front = {};      ///< above all else; what is empty of it is not shown
 };
 
 /// Comma-separated, heads first; every cell quoted that is not a number. Throws

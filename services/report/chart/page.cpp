@@ -16,24 +16,35 @@ constexpr const char* style =
     "body{font:16px/1.5 Helvetica,Arial,sans-serif;color:#222;max-width:1180px;margin:2em auto;"
     "padding:0 1em}h1,h2{line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #ccc}"
     "figure{margin:1.5em 0}figure svg{max-width:100%;height:auto}figcaption{font-size:14px;"
-    "color:#444}.remark{background:#fff6dd;border-left:4px solid #e69f00;padding:.4em 1em}"
+    "color:#444}"
     ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px}caption{text-align:left;"
     "font-weight:bold;padding:.4em 0}th,td{border-bottom:1px solid #ddd;padding:.2em .7em;"
     "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
     "right;font-variant-numeric:tabular-nums;"
-    "white-space:nowrap}nav li{display:inline;margin-right:1.2em}nav ul{padding:0}a{color:#0059a0}"
+    "white-space:nowrap}a{color:#0059a0}"
+    ".front>p{color:#444}.front h2{margin:.7em 0 .2em;font-size:1.15em}.front ul{margin:.2em 0}"
+    ".sign{display:flex;gap:2em;margin-top:2.5em}.sign span{flex:1;border-top:1px solid #222;"
+    "font-size:13px;color:#444}nav ol{padding-left:1.4em}nav ul{padding-left:1.2em;color:#444;"
+    "font-size:14px}"
     ".verdict{border-left:4px solid #3b7a8c;background:#eaf4f6;padding:.4em 1em}.verdict.doubt{"
     "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
     "td.b{white-space:nowrap;font-weight:bold}"
     // A page cannot be scrolled: tables take its width, wide ones lie on their side with their
     // chapter when it has nothing else, rows stay whole, and only long texts are broken anywhere.
-    "@page{margin:12mm}@page wide{size:landscape}"
+    "@page{margin:12mm;@bottom-right{content:counter(page) ' / ' counter(pages);font:8pt "
+    "Helvetica,Arial,sans-serif;color:#666}}@page wide{size:landscape}"
     "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
-    "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.verdict,.remark{break-inside:avoid}"
+    "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.sign{break-inside:avoid}"
+    ".front{break-after:page;font-size:8.5pt;line-height:1.35}.front table,.front .verdict,"
+    ".front .wide p{font-size:8pt;margin:.2em 0}h1{font-size:14pt;margin:0}.front>p{margin:.3em 0}"
+    ".front td:nth-child(2){white-space:nowrap}"
+    ".sign{margin-top:2.2em}nav>ol{columns:2}nav li{break-inside:avoid}"
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
-    "th,td{padding:.15em .4em}td.long{overflow-wrap:anywhere;min-width:6em}"
+    "th,td{padding:.15em "
+    ".4em}td.long{overflow-wrap:anywhere;min-width:6em}td.long:first-child{min-width:11em}"
     "tbody tr:first-child{break-before:avoid}.many,.sheet{page:wide}.sheet "
-    "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}}";
+    "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}.many "
+    "td.long:first-child{min-width:6em}}";
 
 constexpr std::size_t many = 9;        // columns that a printed page has no room for when it stands
 constexpr std::size_t long_text = 12;  // characters that need not stay on one line
@@ -71,9 +82,10 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
          << link(file + ".png", "PNG") << "</figcaption>\n</figure>\n";
 }
 
-/// Numbers stand at the right; lower bounds are told apart from them.
+/// Numbers stand at the right, those with a mark as well; lower bounds are told apart from them.
 const char* opening_of(const std::string& cell) {
-    if (is_number(cell)) return "<td class=\"n\">";
+    if (is_number(cell.ends_with(" *") ? cell.substr(0, cell.size() - 2) : cell))
+        return "<td class=\"n\">";
     if (cell.starts_with("\u2265")) return "<td class=\"n b\">";
     return cell.size() > long_text ? "<td class=\"long\">" : "<td>";
 }
@@ -81,8 +93,10 @@ const char* opening_of(const std::string& cell) {
 void write_verdict(std::ostream& html, const Verdict& verdict) {
     if (verdict.doubts.empty() && verdict.notes.empty()) return;
     const bool doubt = !verdict.doubts.empty();
-    html << "<section id=\"verdict\" class=\"verdict" << (doubt ? " doubt" : "") << "\"><h2>"
-         << (doubt ? "Before these numbers are believed" : "How it ended") << "</h2>\n<ul>\n";
+    html << "<section id=\"verdict\" class=\"verdict" << (doubt ? " doubt" : "")
+         << "\"><h2>Verdict of the checks";
+    if (!verdict.word.empty()) html << ": " << escaped(verdict.word);
+    html << "</h2>\n<ul>\n";
     for (const auto* sentences : {&verdict.doubts, &verdict.notes}) {
         for (const std::string& each : *sentences) html << "<li>" << escaped(each) << "</li>\n";
     }
@@ -111,6 +125,42 @@ void write_table(std::ostream& html, const Table& table, const std::string& fold
          << link(folder + "/" + table.name + ".csv", "data") << "</p></div>\n";
 }
 
+void write_list(std::ostream& html, const std::string& title,
+                const std::vector<std::string>& sentences) {
+    if (sentences.empty()) return;
+    html << "<h2>" << title << "</h2>\n<ul>\n";
+    for (const std::string& each : sentences) html << "<li>" << escaped(each) << "</li>\n";
+    html << "</ul>\n";
+}
+
+void write_front(std::ostream& html, const Document& document, const std::string& folder) {
+    const Front& front = document.front;
+    html << "<header class=\"front\">\n<h1>" << escaped(document.title) << "</h1>\n";
+    if (!front.of.empty()) html << "<p>" << escaped(front.of) << "</p>\n";
+    write_list(html, "What was asked", front.asked);
+    if (!front.found.rows.empty()) write_table(html, front.found, folder);
+    write_verdict(html, document.verdict);
+    std::vector<std::string> limits = front.limits;
+    limits.insert(limits.end(), document.remarks.begin(), document.remarks.end());
+    write_list(html, "Limits", limits);
+    html << "<div class=\"sign\"><span>prepared by</span><span>checked by</span><span>date</span>"
+            "</div>\n</header>\n";
+}
+
+/// Chapters with what is in them, all linked.
+void write_contents(std::ostream& html, const std::vector<Chapter>& chapters) {
+    html << "<nav><h2>Contents</h2><ol>\n";
+    for (std::size_t i = 0; i < chapters.size(); ++i) {
+        html << "<li>" << link("#" + anchor_of(i), escaped(chapters[i].title)) << "<ul>";
+        for (const Figure& each : chapters[i].figures)
+            html << "<li>" << link("#" + each.name, escaped(each.chart.title)) << "</li>";
+        for (const Table& each : chapters[i].tables)
+            html << "<li>" << link("#" + each.name, escaped(each.title)) << "</li>";
+        html << "</ul></li>\n";
+    }
+    html << "</ol></nav>\n";
+}
+
 }  // namespace
 
 std::string as_csv(const Table& table) {
@@ -135,24 +185,15 @@ std::string as_html(const Document& document, const std::string& figures) {
     std::ostringstream html;
     html << "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          << "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>"
-         << escaped(document.title) << "</title>\n<style>" << style << "</style>\n</head>\n<body>\n"
-         << "<h1>" << escaped(document.title) << "</h1>\n";
-    write_verdict(html, document.verdict);
-    for (const std::string& each : document.remarks) {
-        html << "<p class=\"remark\">" << escaped(each) << "</p>\n";
-    }
-    html << "<nav><ul>\n";
-    for (std::size_t i = 0; i < document.chapters.size(); ++i) {
-        html << "<li>"
-             << link(std::string(1, '#').append(anchor_of(i)), escaped(document.chapters[i].title))
-             << "</li>\n";
-    }
-    html << "</ul></nav>\n";
+         << escaped(document.title) << "</title>\n<style>" << style
+         << "</style>\n</head>\n<body>\n";
+    write_front(html, document, figures);
+    write_contents(html, document.chapters);
     for (std::size_t i = 0; i < document.chapters.size(); ++i) {
         const Chapter& chapter = document.chapters[i];
         const bool sheet = chapter.figures.empty() && has_many(chapter.tables);
         html << "<section" << (sheet ? " class=\"sheet\">" : ">") << "<h2 id=\"" << anchor_of(i)
-             << "\">" << escaped(chapter.title) << "</h2>\n";
+             << "\">" << i + 1 << " " << escaped(chapter.title) << "</h2>\n";
         if (!chapter.text.empty()) html << "<p>" << escaped(chapter.text) << "</p>\n";
         for (const Figure& each : chapter.figures) write_figure(html, each, figures);
         for (const Table& each : chapter.tables) write_table(html, each, figures);

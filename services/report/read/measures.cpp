@@ -91,6 +91,7 @@ void measure_runout(const Run& run, const std::string& variant, const std::optio
                     Measures& found) {
     const std::string suffix = variant.empty() ? "" : ":" + variant;
     const auto all = runouts_of(run, variant);
+    if (is_static(run)) return;  // no transfer times, no plateau over them
     if (paper) measure_paper_times(all, suffix, *paper, found);
     bool begun = false;
     for (const PhaseFolder* each : all) {

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* task_file = "task.json";  ///< of a task that `breach export` wrote
+
 std::size_t rank_of(const std::string& phase) {
     const auto found = std::ranges::find(phases::all, phase, &phases::Phase::program);
     return static_cast<std::size_t>(found - phases::all.begin());
@@ -69,17 +71,25 @@ std::string fault_of(const fs::path& files, const json& task) {
     if (task.is_object() && task.contains("fault") && task.at("fault").is_object()) {
         return task.at("fault").value("summary", "");
     }
-    return "it has not ended";
+    const std::string state = task.is_object() ? task.value("state", "") : "";
+    if (state == "cancelled" || state == "failed" || state == "skipped") return "it was " + state;
+    return state.empty() ? "it has not ended" : "it has not ended (" + state + ")";
+}
+
+/// What was not reached before the FEM's regular end is no part of the run.
+bool was_not_reached(const json& task) {
+    return task.is_object() && task.value("not_reached", json()) == json(true);
 }
 
 std::optional<PhaseFolder> read_phase(const fs::path& files) {
-    const json task = read_if_there(files / "task.json");
+    const json task = read_if_there(files / task_file);
+    if (was_not_reached(task)) return {};
     PhaseFolder phase{.phase = {},
                       .label = label_of(files),
                       .variant = {},
                       .transfer_time = {},
                       .files = files,
-                      .scene = read_json(files / phases::files::scene),
+                      .scene = read_if_there(files / phases::files::scene),
                       .result = read_if_there(files / phases::files::result),
                       .runout_error = {},
                       .runout_error_from = {},
@@ -103,12 +113,14 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
 std::vector<fs::path> phase_folders(const fs::path& folder) {
     std::vector<fs::path> found;
     fs::recursive_directory_iterator it(folder);
-    if (fs::is_regular_file(folder / phases::files::scene)) found.push_back(folder);
+    const auto is_phase = [](const fs::path& at) {
+        return fs::is_regular_file(at / phases::files::scene) ||
+               fs::is_regular_file(at / task_file);
+    };
+    if (is_phase(folder)) found.push_back(folder);
     for (; it != fs::recursive_directory_iterator(); ++it) {
         if (it.depth() >= 2) it.disable_recursion_pending();
-        if (it->is_directory() && fs::is_regular_file(it->path() / phases::files::scene)) {
-            found.push_back(it->path());
-        }
+        if (it->is_directory() && is_phase(it->path())) found.push_back(it->path());
     }
     return found;
 }
@@ -120,9 +132,10 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     for (const json& row : table.at("rows")) {
         const json error = row.value("runout_error", json());
         for (PhaseFolder& each : phases) {
-            if (each.phase != phases::mpm.program || !each.transfer_time ||
-                each.variant != row.at("variant") ||
-                std::abs(*each.transfer_time - row.at("transfer_time").get<double>()) > same_time)
+            if (each.phase != phases::mpm.program || each.variant != row.at("variant")) continue;
+            const json at = row.at("transfer_time");  // null: the points fill the section
+            if (at.is_null() != !each.transfer_time) continue;
+            if (each.transfer_time && std::abs(*each.transfer_time - at.get<double>()) > same_time)
                 continue;
             if (error.is_number()) each.runout_error = error;
             if (const json from = row.value("runout_error_from", json()); from.is_string())
@@ -154,9 +167,13 @@ Run read_run(const fs::path& folder) {
         std::ranges::sort(run.phases, {}, [](const PhaseFolder& p) {
             return std::tuple(rank_of(p.phase), p.transfer_time.value_or(0.0), p.variant, p.label);
         });
-        run.scene = run.phases.front().scene;
-        const json about = read_if_there(folder / "run.json");
         run.study = read_if_there(folder / "study.json");
+        const auto begun = std::ranges::find_if(
+            run.phases, [](const PhaseFolder& p) { return p.scene.is_object(); });
+        run.scene = begun != run.phases.end() ? begun->scene : asked_scene(run);
+        for (PhaseFolder& each : run.phases)  // one that has not begun has the study's
+            if (!each.scene.is_object()) each.scene = run.scene;
+        const json about = read_if_there(folder / "run.json");
         const json results = read_if_there(folder / "results.json");
         take_errors(results, run.phases);
         if (results.is_object()) run.means = results.value("means", json::array());
@@ -165,12 +182,20 @@ Run read_run(const fs::path& folder) {
         if (about.is_object()) {
             run.name = about.value("name", run.name);
             run.id = about.value("id", "");
+            run.state = about.value("state", "");
+            if (const json at = about.value("finished", json()); at.is_string()) run.finished = at;
             if (!about.value("title", "").empty()) run.title = about.at("title");
         }
         return run;
     } catch (const json::exception& error) {
         throw fault::BadInput(folder.string(), {{"", error.what(), "export the run again"}});
     }
+}
+
+const json& asked_scene(const Run& run) {
+    const bool is_there =
+        run.study.is_object() && run.study.contains("scene") && run.study.at("scene").is_object();
+    return is_there ? run.study.at("scene") : run.scene;
 }
 
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase) {
@@ -184,6 +209,10 @@ std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& 
 const PhaseFolder* phase_named(const Run& run, const std::string& phase) {
     const auto found = phases_named(run, phase);
     return found.empty() ? nullptr : found.front();
+}
+
+bool is_static(const Run& run) {
+    return !phase_named(run, phases::fem.program) && !phase_named(run, phases::transfer.program);
 }
 
 bool has_telemetry(const PhaseFolder& phase) {

@@ -31,6 +31,8 @@ struct Run {
     std::string name;
     std::string title;
     std::string id;                   ///< empty: not known to a service
+    std::string state = {};           ///< of the run as the service told it; empty: not known
+    std::string finished = {};        ///< when; empty: not known, or it has not
     nlohmann::json scene;             ///< completed, of the first phase
     nlohmann::json study;             ///< null when the folder has none
     std::vector<PhaseFolder> phases;  ///< by phase, then transfer time, then variant
@@ -39,14 +41,22 @@ struct Run {
     nlohmann::json means = nlohmann::json::array();
 };
 
-/// A folder belongs to a phase when it holds scene.completed.json and its label begins with lem,
-/// fem, transfer or mpm (or result.json names the phase). Throws IoError when the folder cannot be
+/// A folder belongs to a phase when it holds scene.completed.json, or the task.json of an export, and
+/// its label begins with lem, fem, transfer or mpm (or one of its files names the phase). A task that
+/// has not begun is a phase without a result; one that its FEM did not reach is none. Throws IoError when the folder cannot be
 /// read, BadInput when no phase is in it or a file in it is not what it should be.
 Run read_run(const std::filesystem::path& folder);
+
+/// The scene that the study asks about, without its variants' changes; of a run without a study that
+/// of its first phase.
+const nlohmann::json& asked_scene(const Run& run);
 
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.
 const PhaseFolder* phase_named(const Run& run, const std::string& phase);
+
+/// Without a FEM there is nothing to shake and nothing to transfer: points fill the section.
+bool is_static(const Run& run);
 
 /// False for a phase that ended before its first line.
 bool has_telemetry(const PhaseFolder& phase);

@@ -78,6 +78,7 @@ struct Finding {
     std::string phase;
     Flag flag;  ///< the first of them
     std::vector<std::string> labels;
+    std::string elsewhere = {};  ///< other phases that say the same in the same words
 };
 
 std::vector<Finding> findings_of(const Run& run) {
@@ -119,9 +120,25 @@ std::string capital(std::string text) {
     return text;
 }
 
+/// What several phases say in the same words is said once.
+std::vector<Finding> without_echoes(const Run& run, const std::vector<Finding>& all) {
+    std::vector<Finding> found;
+    for (const Finding& each : all) {
+        const auto same = std::ranges::find_if(found, [&](const Finding& f) {
+            return f.flag.code == each.flag.code && f.flag.severity == each.flag.severity &&
+                   f.flag.message == each.flag.message;
+        });
+        if (same == found.end())
+            found.push_back(each);
+        else
+            same->elsewhere += ", " + whose(run, each.phase, each.labels.size());
+    }
+    return found;
+}
+
 std::string sentence_of(const Run& run, const Finding& finding) {
     std::string text = capital(worded(finding.flag.code)) + ", " +
-                       whose(run, finding.phase, finding.labels.size()) + ": " +
+                       whose(run, finding.phase, finding.labels.size()) + finding.elsewhere + ": " +
                        finding.flag.message;
     if (finding.labels.size() > 1) text += " (" + finding.labels.front() + ", the first of them)";
     return text + (text.ends_with('.') ? "" : ".");
@@ -159,6 +176,23 @@ void add_what_is_not_known(const Run& run, Verdict& verdict) {
                 " runouts among them still moved at the end: their distances are lower bounds.";
     }
     verdict.doubts.push_back(text);
+}
+
+/// Of a run whose state is not known it is taken for granted.
+bool is_over(const Run& run) { return run.state != "queued" && run.state != "running"; }
+
+/// One word for all of it, the worst first.
+std::string word_for(const Run& run, const Verdict& verdict) {
+    const auto any = [&](auto test) { return std::ranges::any_of(run.phases, test); };
+    if (any([](const PhaseFolder& each) { return !each.result.is_object(); }))
+        return is_over(run) ? "broken down in part" : "not finished";
+    if (any([](const PhaseFolder& each) {
+            const auto flags = flags_of(each);
+            return flags && fault::is_questionable(*flags);
+        }))
+        return "questionable";
+    if (!verdict.doubts.empty()) return "not known";
+    return verdict.notes.empty() ? "nothing found against it" : "stands, with the remarks below";
 }
 
 }  // namespace
@@ -262,6 +296,9 @@ std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts) {
 
 Verdict verdict_of(const Run& run) {
     Verdict verdict;
+    if (!is_over(run))
+        verdict.doubts.push_back("The run was " + run.state +
+                                 " when it was exported: what follows is not all of it.");
     std::set<std::string> told;  // entanglements, which are told as an end
     for (const PhaseFolder* fem : phases_named(run, phases::fem.program)) {
         if (const std::string end = entanglement_of(*fem); !end.empty()) {
@@ -270,11 +307,12 @@ Verdict verdict_of(const Run& run) {
             told.insert({"entangled", "entangled_corner"});
         }
     }
-    for (const Finding& each : findings_of(run)) {
+    for (const Finding& each : without_echoes(run, findings_of(run))) {
         if (told.contains(each.flag.code)) continue;
         (is_doubt(each.flag) ? verdict.doubts : verdict.notes).push_back(sentence_of(run, each));
     }
     add_what_is_not_known(run, verdict);
+    verdict.word = word_for(run, verdict);
     if (verdict.doubts.empty() && verdict.notes.empty()) {
         verdict.notes.emplace_back("No phase of this run raised a flag.");
     }

@@ -2,7 +2,7 @@
 // of the run went.
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_note, look_of } from "./flags.js";
-import { number, seconds } from "./format.js";
+import { number, point_name, seconds } from "./format.js";
 import { Plot } from "./plot.js";
 import { key_of, series_by_variant } from "./results.js";
 
@@ -29,13 +29,15 @@ export class Cost {
         set_text(by_id("cost-runout-title"), has_error ? "Error estimate of the runout" : "Runout (the results carry no error estimate)");
         by_id("cost-plots").hidden = finished.length === 0;
         by_id("cost-none").hidden = finished.length > 0;
+        set_text(by_id("cost-none"), run.tasks.some(({ phase }) => phase === "lem_tool") && run.tasks.every(({ phase }) => phase === "lem_tool")
+            ? "A stability analysis alone: no runout is asked for." : "No runout is known yet.");
         for (const { plot, column, error, unit } of this.plots) {
             const field = error && has_error ? error : column;
             plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : plot.labels.y;
             plot.show({ series: series_by_variant(finished, variants).map(({ variant, rows: points }) => ({
                 name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),
                 looks: points.map((row) => (column === "runout" ? look_of(row) : look_of(row).replace(/.*bound.*/, "doubtful"))), notes: points.map(flag_note),
-                names: points.map((row) => `t_T = ${number(row.transfer_time)} s`),
+                names: points.map((row) => point_name({ ...row, variant: "" }) || "the section"),
                 x: points.map((row) => row.cpu_seconds), y: points.map((row) => row[field] ?? null) })) });
         }
         draw_totals(run.tasks);

@@ -108,6 +108,9 @@ export function point_name({ transfer_time, variant }) {
     return [time, variant].filter(Boolean).join(", ");
 }
 
+/// "MPM from t_T = 1.5 s, softened"; of points that fill the section "MPM, softened".
+export const mpm_name = (task) => (Number.isFinite(task.transfer_time) ? `MPM from ${point_name(task)}` : ["MPM", task.variant].filter(Boolean).join(", "));
+
 /// "fem_solver", "mpm_solver, t_T = 1.5 s, softened"
 export const task_name = (task) => [task.phase, point_name(task)].filter(Boolean).join(", ");
 

@@ -3,7 +3,7 @@
 import * as api from "./api.js";
 import { region_css, scale_gradient } from "./colours.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { by_point, is_active, number, point_name, seconds, variants_of } from "./format.js";
+import { by_point, is_active, mpm_name, number, seconds, variants_of } from "./format.js";
 import { extents_of, PointView, reach_of, spacing_of } from "./points.js";
 
 const frames_per_second = 12;
@@ -57,6 +57,7 @@ export class Particles {
             .sort(by_point(variants_of(run)));
         mirror(by_id("view-source"), sources, (task) => task.id,
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
+        by_id("particles").hidden = sources.length === 0;
         const scene = run.study?.scene;
         this.materials = new Map((scene?.section?.regions ?? []).map(({ name, material }) => [name, material]));
         this.view.overlay = { outlines: (scene?.section?.regions ?? []).map((region) => region.polygon),
@@ -356,7 +357,7 @@ function add_material(snapshot, materials_of_regions) {
 }
 
 function source_name(task) {
-    const what = task.phase === "fem_solver" ? ["FEM mesh", task.variant].filter(Boolean).join(", ") : `MPM from ${point_name(task)}`;
+    const what = task.phase === "fem_solver" ? ["FEM mesh", task.variant].filter(Boolean).join(", ") : mpm_name(task);
     return ["succeeded", "cached"].includes(task.state) ? what : `${what} (${task.state})`;
 }
 

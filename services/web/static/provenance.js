@@ -9,7 +9,7 @@ import { moments } from "./triggers.js";
 const column_names = {
     runout: ["runout", "m"], runout_beyond_toe: ["runout of what passed the toe", "m"], runout_largest: ["farthest point", "m"],
     volume_ratio: ["volume ratio", "–"], numerical_share: ["numerical share of the released energy", "–"],
-    overlap: ["overlap", "–"], cpu_seconds: ["CPU time of the MPM run", "s"],
+    overlap: ["overlap", "–"], factor_of_safety: ["factor of safety", ""], cpu_seconds: ["CPU time of the MPM run", "s"],
 };
 const result_paths = { numerical_share: "energy.numerical.share" }; // others stand in result.json under their own name
 
@@ -29,13 +29,14 @@ export class Provenance {
         const [name, unit] = column_names[column] ?? [column, ""];
         set_text(by_id("provenance-title"), `${name}: ${number(row[column], 6)} ${unit}`);
         const value = Number.isFinite(row[column]) ? `Exactly ${row[column]}: ` : "";
-        set_text(by_id("provenance-where"), `${value}${point_name(row)}. “${result_paths[column] ?? column}” in result.json of ` +
-                                            `task ${row.mpm_task}${row.reason ? `. ${row.state}: ${row.reason}` : ""}`);
+        const stability = column === "factor_of_safety" ? stability_of(run, row) : null;
+        set_text(by_id("provenance-where"), `${value}${point_name(row) || run.name}. “${result_paths[column] ?? column}” in result.json of ` +
+                                            `task ${stability?.id ?? row.mpm_task}${row.reason ? `. ${row.state}: ${row.reason}` : ""}`);
         by_id("provenance-look").hidden = !Number.isFinite(row.runout);
         by_id("provenance-chain").replaceChildren(element("p", { class: "muted" }, "Reading…"));
         if (!this.dialog.open) this.dialog.showModal();
         try {
-            const steps = await chain_of(run, row);
+            const steps = await chain_of(run, row, stability);
             if (this.row !== row) return;
             by_id("provenance-chain").replaceChildren(asked_for(run, row, steps),
                                                      ...steps.map((step) => step_section(step, (run.study?.variants ?? []).length > 0)));
@@ -45,14 +46,17 @@ export class Provenance {
     }
 }
 
-/// The tasks from the runout back to the FEM, each as {task, provenance: of its result.json, or of the fault.json of one
+/// The stability analysis of a row's variant, or the one that serves all.
+const stability_of = (run, { variant }) => run.tasks.find((task) => task.phase === "lem_tool" && [variant, ""].includes(task.variant));
+
+/// The tasks from the runout back to the FEM (of a factor of safety, its analysis), each as {task, provenance: of its result.json, or of the fault.json of one
 /// that broke down, or null}.
-async function chain_of(run, row) {
+async function chain_of(run, row, stability) {
     const transfer = run.tasks.find((task) => task.id === row.transfer_task);
     const fem = run.tasks.find((task) => task.phase === "fem_solver" && task.variant === (transfer?.variant || row.variant)) ??
                 run.tasks.find((task) => task.phase === "fem_solver");
     const mpm = run.tasks.find((task) => task.id === row.mpm_task);
-    return Promise.all([mpm, transfer, fem].filter(Boolean).map(async (listed) => {
+    return Promise.all((stability ? [stability] : [mpm, transfer, fem]).filter(Boolean).map(async (listed) => {
         const task = await api.read_task(listed.id);
         const file = task.artifacts.find(({ name }) => name === "result.json") ?? task.artifacts.find(({ name }) => name === "fault.json");
         const result = file ? await api.read_json_artifact(file.sha256).catch(() => null) : null;
@@ -65,7 +69,8 @@ function asked_for(run, row, steps) {
     const trigger = run.triggers.find(({ name }) => name && name === row.trigger);
     const firing = trigger?.firings.find((each) => Math.abs(each.transfer_time - row.transfer_time) < 1e-6);
     const variant = run.study?.variants?.find(({ name }) => name === row.variant);
-    const lines = [["transfer asked for by", firing ? `trigger ${trigger.name} (${trigger.kind})` : "a time of the study"]];
+    const transferred = Boolean(row.transfer_task);
+    const lines = !transferred ? [] : [["transfer asked for by", firing ? `trigger ${trigger.name} (${trigger.kind})` : "a time of the study"]];
     if (firing) {
         const [moment] = moments([{ ...trigger, firings: [firing] }]);
         if (moment) lines.push(["fired", moment.label]);
@@ -74,7 +79,7 @@ function asked_for(run, row, steps) {
     }
     if (variant) lines.push(["variant sets", (variant.overrides ?? []).join(", ") || "nothing"]);
     const cost = steps.reduce((sum, { provenance }) => sum + (provenance?.cpu_seconds ?? 0), 0);
-    lines.push(["CPU time of the chain", `${seconds(cost)} when it was computed (the FEM and the transfer serve other points too)`]);
+    lines.push(["CPU time", seconds(cost) + (transferred ? " of the chain when it was computed (the FEM and the transfer serve other points too)" : "")]);
     return facts(lines);
 }
 

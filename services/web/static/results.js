@@ -11,8 +11,12 @@ export const measures = {
     runout: "99 % of the mobile soil",
     runout_beyond_toe: "99 % of what passed the toe",
     runout_largest: "farthest point",
+    factor_of_safety: "factor of safety",
 };
-const columns = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap", "cpu_seconds"];
+const of_runout = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap"];
+const columns = [...of_runout, "factor_of_safety", "cpu_seconds"];
+const unit_of = (measure) => (measure === "factor_of_safety" ? "" : "m");
+const y_label_of = (measure) => (measure === "factor_of_safety" ? "factor of safety [–]" : "runout from the toe [m]");
 
 /// Left out where the table has no room for them, until a person asks for all.
 const folded = new Set(["runout_largest", "volume_ratio", "overlap"]);
@@ -83,13 +87,33 @@ export class Results {
         this.run = run;
         this.variants = variants_of(run);
         this.rows = rows.sort(by_point(this.variants));
+        this.offer_what_there_is();
         this.refresh();
-        const finished = rows.filter((row) => Number.isFinite(row.runout)).length;
+        const finished = rows.filter(is_finished).length;
         const several = this.variants.length > 1;
-        const what = several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
+        const what = this.is_static() ? (several ? "variants" : "runs")
+            : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
         return this.rows;
+    }
+
+    /// A scene without a FEM has no transfer times: its variants stand side by side.
+    is_static() {
+        return !this.run.tasks.some(({ phase }) => phase === "fem_solver" || phase === "transfer_tool");
+    }
+
+    /// What the run cannot have is not asked about: runouts of a stability analysis alone, factors of safety without one.
+    offer_what_there_is() {
+        const has = (phase) => this.run.tasks.some((task) => task.phase === phase);
+        const offered = (measure) => (measure === "factor_of_safety" ? has("lem_tool") : has("mpm_solver") || !has("lem_tool"));
+        const select = by_id("runout-measure");
+        for (const option of select.options) option.hidden = option.disabled = !offered(option.value);
+        if (!offered(select.value)) select.value = Object.keys(measures).find(offered);
+        const shown = by_id("runout-table").classList;
+        shown.toggle("no-safety", !offered("factor_of_safety"));
+        shown.toggle("no-runout", !offered("runout"));
+        shown.toggle("no-time", this.is_static());
     }
 
     /// The rows that a person wants to see: all, or without the finished ones that are not known to be sound.
@@ -116,19 +140,22 @@ export class Results {
         const several = variants.length > 1;
         const rows = this.shown();
         const lines = series_by_variant(rows, variants);
-        const points = (some) => ({ unit: "m", points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
+        this.plot.labels.y = y_label_of(measure);
+        const points = (some) => ({ unit: unit_of(measure), points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
                                     errors: some.map((row) => error_of(row, measure)), looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
         const errors_name = this.shows_means() ? "standard deviation of the draws" : "error of one run";
-        const side_by_side = several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1;
-        set_text(by_id("runout-title"), side_by_side ? "Runout by variant" : "Runout against transfer time");
+        const side_by_side = this.is_static() || (several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1);
+        const what = measure === "factor_of_safety" ? "Factor of safety" : "Runout";
+        set_text(by_id("runout-title"), what + (!side_by_side ? " against transfer time" : several ? " by variant" : ""));
         if (side_by_side) {
             // One transfer time: the variants stand side by side.
             const at = (row) => lines.findIndex(({ variant }) => variant === row.variant);
             this.plot.show({
-                series: [{ name: `${measures[measure]}, t_T = ${number(rows[0].transfer_time)} s`, scatter: true, ...points(rows), x: rows.map(at) }],
+                series: [{ name: [measures[measure], point_name({ ...rows[0], variant: "" })].filter(Boolean).join(", "), scatter: true,
+                           ...points(rows), x: rows.map(at) }],
                 marks: marks.map((row) => ({ ...mark_of(row, several), x: at(row) })),
-                names: lines.map(({ variant }, x) => ({ x, label: variant })), x_label: "variant", errors_name,
+                names: lines.map(({ variant }, x) => ({ x, label: variant || this.run.name })), x_label: several ? "variant" : " ", errors_name,
             });
             return;
         }
@@ -146,18 +173,21 @@ export class Results {
         const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", { class: "variant" }),
                             element("td", {}, element("span")));
         for (const column of columns) {
-            row.append(element("td", { class: folded.has(column) ? "number fold" : "number", "data-column": column,
-                                       title: "Where this number comes from" }));
-            if (column === "runout") row.append(element("td", { class: "rest" }), element("td", { class: "flag-codes" }));
+            const kind = of_runout.includes(column) ? "of-runout" : column === "factor_of_safety" ? "safety" : "";
+            row.append(element("td", { class: ["number", folded.has(column) ? "fold" : "", kind].filter(Boolean).join(" "),
+                                       "data-column": column, title: "Where this number comes from" }));
+            if (column === "runout") row.append(element("td", { class: "rest of-runout" }), element("td", { class: "flag-codes" }));
         }
-        row.append(element("td", { class: "fold" }), element("td", {}, ask));
+        row.append(element("td", { class: "fold time" }), element("td", {}, ask));
         return row;
     }
 }
 
 export const key_of = (row) => `${row.transfer_time}/${row.variant}${row.mean ? "/mean" : ""}`;
 
-const is_finished = (row) => Number.isFinite(row.runout);
+/// Of a row that runs a factor of safety may be there before its runout.
+const is_finished = (row) => Number.isFinite(row.runout) || (Number.isFinite(row.factor_of_safety) && !row.transfer_task &&
+                                                            ["succeeded", "questionable"].includes(row.state));
 
 /// An accuracy study says whose error it measured; draws are of the runout. Of a mean: how its draws scatter.
 function error_of(row, measure) {
@@ -172,14 +202,16 @@ function note_of(row, measure) {
     const error = error_of(row, measure);
     if (row.mean) return mean_note(row, measure, error);
     const off = error === null ? "" : `± ${number(error, 2)} m: ${row.runout_error_from}`;
-    return [`${point_name(row)}: ${number(row[measure])} m, ${rest_text(row)}`, off, flag_note(row)].filter(Boolean).join("\n");
+    const rest = Number.isFinite(row.runout) ? rest_text(row) : "";
+    return [[`${point_name(row) || measures[measure]}: ${number(row[measure])} ${unit_of(measure)}`.trim(), rest].filter(Boolean).join(", "), off,
+            flag_note(row)].filter(Boolean).join("\n");
 }
 
 function mean_note(row, measure, deviation) {
     const scatter = deviation === null ? "" : `, one draw scatters by ${number(deviation, 2)} m (standard deviation)`;
     const off = measure === "runout" && Number.isFinite(row.runout_error)
         ? `the mean may be off by ${number(row.runout_error, 2)} m: ${row.runout_error_from}` : "";
-    return [`${point_name(row)}: ${number(row[measure])} m, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
+    return [`${point_name(row) || "all draws"}: ${number(row[measure])} m, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
         .filter(Boolean).join("\n");
 }
 
@@ -193,7 +225,8 @@ function trust_note(rows, hidden) {
     const parts = [bounds && `${bounds} still moving: lower bounds`, doubtful && `${doubtful} questionable for other reasons`,
                    unknown && `${unknown} without flags: not known`].filter(Boolean);
     if (parts.length === 0) return "";
-    return `Of ${finished.length} runouts ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
+    const what = finished.every((row) => Number.isFinite(row.runout)) ? "runouts" : "results";
+    return `Of ${finished.length} ${what} ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
 }
 
 /// [{variant, rows}] in the study's order, rows in order of time.
@@ -219,8 +252,10 @@ function cell_text(values, column) {
 function fill_row(row, values) {
     const [time, variant, state] = row.children;
     const look = time.firstElementChild;
-    set_text(look, number(values.transfer_time));
-    look.disabled = !values.mpm_task || ["blocked", "ready", "skipped", "not_reached"].includes(values.state);
+    const is_static = !Number.isFinite(values.transfer_time);
+    set_text(look, is_static ? values.variant || "–" : number(values.transfer_time));
+    look.disabled = !values.mpm_task || ["blocked", "ready", "skipped", "not_reached"].includes(values.state) ||
+                    (is_finished(values) && !Number.isFinite(values.runout));
     look.title = "Show the particles";
     set_text(variant, values.variant);
     show_state(state.firstElementChild, values.reused && values.state === "succeeded" ? "cached" : values.state);
@@ -230,13 +265,13 @@ function fill_row(row, values) {
     const bound = is_finished(values) && look_of(values).includes("bound");
     if (bound) set_text(row.querySelector('[data-column="runout"]'), `≥ ${number(values.runout)}`);
     const [rest, flags] = [row.querySelector(".rest"), row.querySelector(".flag-codes")];
-    set_text(rest, is_finished(values) && !values.mean ? rest_text(values) : "–");
+    set_text(rest, Number.isFinite(values.runout) && !values.mean ? rest_text(values) : "–");
     set_text(flags, is_finished(values) ? flag_codes(values.flags) : "–");
     flags.title = is_finished(values) ? flag_note(values) : "";
     row.dataset.trust = is_finished(values) ? trust_of(values) : "";
     set_text(row.children[row.children.length - 2], values.trigger === "at_time" ? "study" : values.trigger ?? "");
     set_text(row.lastElementChild.firstElementChild, values.mean ? "draws" : "trace");
-    row.lastElementChild.firstElementChild.setAttribute("aria-label", `Where the numbers at t_T = ${number(values.transfer_time)} s ` +
-                                                                      `${values.variant} come from`);
+    row.lastElementChild.firstElementChild.setAttribute("aria-label", ["Where the numbers", point_name(values) && `at ${point_name(values)}`,
+                                                                      "come from"].filter(Boolean).join(" "));
     row.classList.toggle("waiting", is_active(values.state));
 }

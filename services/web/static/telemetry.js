@@ -2,7 +2,7 @@
 // and the moments at which they fired.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { by_point, is_active, number, point_name, variants_of } from "./format.js";
+import { by_point, is_active, mpm_name, number, variants_of } from "./format.js";
 import { abscissas, is_other, panels } from "./panels.js";
 import { Plot } from "./plot.js";
 import { draw_triggers, moments, thresholds, windows } from "./triggers.js";
@@ -29,6 +29,7 @@ export class Telemetry {
             .sort(by_point(variants_of(run)));
         mirror(by_id("telemetry-source"), sources, (task) => task.id, (task) => element("option", { value: task.id }),
                (option, task) => set_text(option, source_name(task)));
+        by_id("telemetry").hidden = sources.length === 0; // a stability analysis alone has none
         const chosen = sources.find((task) => task.id === this.task) ?? sources[0];
         if (!chosen) return;
         if (chosen.id !== this.task) await this.open(chosen.id);
@@ -140,5 +141,5 @@ export class Telemetry {
 
 function source_name(task) {
     if (task.phase === "fem_solver") return task.variant ? `FEM, ${task.variant}` : "FEM";
-    return `MPM from ${point_name(task)}`;
+    return mpm_name(task);
 }

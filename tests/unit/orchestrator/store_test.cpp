@@ -140,6 +140,66 @@ TEST_F(StoreTest, WhatAResultDoesNotSayIsNotKnownRatherThanFine) {
     EXPECT_TRUE(value_of(rows[0], "flags").is_null());
 }
 
+TaskPlan alone(const char* phase, const std::string& variant) {
+    TaskPlan task{.phase = phase,
+                  .label = {},
+                  .transfer_time = {},
+                  .parent = {},
+                  .release = Release::at_once,
+                  .input = "",
+                  .overrides = {},
+                  .variant = variant};
+    task.label = label_of(task);
+    return task;
+}
+
+TEST_F(StoreTest, RowsOfAStaticSceneHaveTheirOwnFactorOfSafety) {
+    Store store(file());
+    NewRun run = small_run();
+    run.tasks = {alone("mpm_solver", "weak"), alone("lem_tool", "weak"),
+                 alone("mpm_solver", "strong"), alone("lem_tool", "strong")};
+    store.write([&](Transaction& t) { t.add_run(run); });
+    bring_to_success(store, task_id(run.id, 0), {{"runout", 4.5}, {"flags", json::array()}});
+    bring_to_success(store, task_id(run.id, 1), {{"factor_of_safety", 0.5}});
+    bring_to_success(store, task_id(run.id, 3), {{"factor_of_safety", 1.5}});
+    const auto rows = store.results(run.id);
+    ASSERT_EQ(rows.size(), 2u) << "a stability analysis beside runouts has no row of its own";
+    for (const ResultRow& row : rows) {
+        const bool weak = value_of(row, "variant") == "weak";
+        EXPECT_EQ(value_of(row, "factor_of_safety"), weak ? 0.5 : 1.5);
+        EXPECT_EQ(value_of(row, "runout").is_null(), !weak);
+        EXPECT_TRUE(value_of(row, "transfer_time").is_null());
+        EXPECT_TRUE(value_of(row, "transfer_task").is_null());
+        EXPECT_EQ(value_of(row, "trigger"), "");
+    }
+    EXPECT_EQ(store.points_of(run.id), (std::pair<std::int64_t, std::int64_t>{2, 1}));
+}
+
+TEST_F(StoreTest, StabilityAnalysesAloneAreTheRowsOfTheirRun) {
+    Store store(file());
+    NewRun run = small_run();
+    run.tasks = {alone("lem_tool", "weak"), alone("lem_tool", "strong")};
+    store.write([&](Transaction& t) { t.add_run(run); });
+    bring_to_success(store, task_id(run.id, 0),
+                     {{"factor_of_safety", 0.5}, {"flags", json::array()}});
+    const auto rows = store.results(run.id);
+    ASSERT_EQ(rows.size(), 2u);
+    for (const ResultRow& row : rows) {
+        const bool ended = value_of(row, "variant") == "weak";
+        EXPECT_EQ(value_of(row, "factor_of_safety"), ended ? json(0.5) : json());
+        EXPECT_EQ(value_of(row, "questionable"), ended ? json(false) : json());
+    }
+    const std::string other = task_id(run.id, 1);
+    store.write([&](Transaction& t) {
+        t.try_move_task(other, TaskEvent::release);
+        t.move_task(other, TaskEvent::claim);
+        t.move_attempt(other, t.add_attempt(other), AttemptEvent::submit);
+        t.move_task(other, TaskEvent::start);
+        t.fail_task(other, TaskEvent::exit_badly, {70, "it broke down"});
+    });
+    EXPECT_EQ(store.run(run.id)->state, "partial") << "one has its result, and no runout is asked";
+}
+
 TEST_F(StoreTest, RowsComeInTheStudysOrderOfVariantsPageByPage) {
     Store store(file());
     NewRun run = small_run();

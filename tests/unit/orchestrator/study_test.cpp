@@ -213,6 +213,61 @@ TEST(Graph, EachTransferTimeHasATransferFedByTheFemAndAnMpmFedByTheTransfer) {
     EXPECT_EQ(tasks[2].input, "snapshot_0.500000.vtkhdf");
 }
 
+/// Without a FEM.
+json static_study() {
+    json study = slope_study();
+    study.erase("transfer_times");
+    study["scene"].erase("fem");
+    return study;
+}
+
+std::vector<std::string> labels_of(const json& study) {
+    std::vector<std::string> labels;
+    for (const TaskPlan& each : plan_tasks(read_study(study.dump()), numerics).tasks)
+        labels.push_back(each.label);
+    return labels;
+}
+
+TEST(StaticScene, HasItsRunoutAndItsStabilityForEveryVariantAndNothingWaits) {
+    json study = static_study();
+    EXPECT_EQ(labels_of(study), (std::vector<std::string>{"mpm", "lem"}));
+    study["variants"] = {
+        {{"name", "soft"}, {"overrides", {"/mpm/cfl=0.3"}}},
+        {{"name", "light"}, {"overrides", {"/materials/slope_soil/density=1700"}}}};
+    EXPECT_EQ(labels_of(study),
+              (std::vector<std::string>{"mpm_soft", "lem_soft", "mpm_light", "lem_light"}));
+    for (const TaskPlan& each : plan_tasks(read_study(study.dump()), numerics).tasks) {
+        EXPECT_EQ(each.release, Release::at_once);
+        EXPECT_FALSE(each.transfer_time);
+    }
+    study["stability"] = false;
+    EXPECT_EQ(labels_of(study), (std::vector<std::string>{"mpm_soft", "mpm_light"}));
+    study["variants"] = json::array();
+    study["draws"] = 2;
+    const Study drawn = read_study(study.dump());
+    ASSERT_EQ(drawn.variants.size(), 2u);
+    EXPECT_TRUE(drawn.variants[1].overrides.back().starts_with("/mpm/fill_shift="));
+}
+
+TEST(StaticScene, WithoutPointsIsItsStabilityAlone) {
+    json study = static_study();
+    study["scene"].erase("mpm");
+    EXPECT_EQ(labels_of(study), (std::vector<std::string>{"lem"}));
+    study["draws"] = 2;
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/draws"});
+    study.erase("draws");
+    study["stability"] = false;
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/stability"});
+}
+
+TEST(StaticScene, HasNothingToTransferAndNothingToWatch) {
+    json study = static_study();
+    study["transfer_times"] = {0.5};
+    study["triggers"] = {{{"kind", "manual"}}};
+    EXPECT_EQ(pointers_of_faults(study),
+              (std::vector<std::string>{"/transfer_times", "/triggers"}));
+}
+
 TEST(Graph, SnapshotsOfTheSceneAreKeptAndStabilityCanBeLeftOut) {
     json study = slope_study();
     study["scene"]["fem"]["snapshot_times"] = {0.75, 1.0};

@@ -9,9 +9,11 @@
 #include <sstream>
 
 #include "core/fault/fault.hpp"
+#include "core/scene/scene.hpp"
 #include "services/report/chart/page.hpp"
 #include "services/report/chart/png.hpp"
 #include "services/report/figures/mesh_figures.hpp"
+#include "services/report/read/entries.hpp"
 #include "tests/unit/report/wet_run.hpp"
 
 namespace breach::report {
@@ -275,6 +277,73 @@ TEST_F(WetRun, SaysAtItsHeadWhatMustBeKnownFirst) {
     const std::string html = as_html(d, "files");
     EXPECT_LT(html.find("id=\"verdict\" class=\"verdict doubt\""), html.find("<nav>"));
     EXPECT_LT(html.find("Still moving, 1 of 3 runouts"), html.find("<nav>"));
+}
+
+TEST_F(WetRun, OpensWithWhatWasAskedWhatComesOutAndWhatItIsWorth) {
+    flag_all();
+    const Document d = document();
+    const auto row = [&](const std::string& what) {
+        for (const auto& each : d.front.found.rows)
+            if (each[0].starts_with(what)) return each;
+        throw std::runtime_error("no row " + what);
+    };
+    EXPECT_NE(in_one(d.front.asked).find("shaken by shake.csv scaled to 0.3 g"), std::string::npos);
+    EXPECT_NE(in_one(d.front.asked).find("2 variants: softened, not_softened"), std::string::npos);
+    EXPECT_EQ(row("Runout")[1], "\u2265 210") << "it still moved";
+    EXPECT_EQ(row("Runout")[2], "30 to \u2265 210 (3 of 3)");
+    EXPECT_NE(row("Runout")[3].find("questionable: still moving"), std::string::npos);
+    EXPECT_NE(row("Runout")[3].find("its error is not known"), std::string::npos);
+    EXPECT_EQ(row("At rest")[2], "2 of 3");
+    EXPECT_EQ(d.verdict.word, "questionable");
+    EXPECT_NE(in_one(d.front.limits).find("Plane strain"), std::string::npos);
+    const std::string html = as_html(d, "files");
+    for (const char* before :
+         {"What was asked", "What comes out", "Verdict of the checks", "Limits", "checked by"})
+        EXPECT_LT(html.find(before), html.find("<nav>")) << before;
+}
+
+TEST_F(WetRun, ThatHasNotEndedIsNotTakenForAnother) {
+    fs::remove_all(folder_ / "tasks/mpm_13.000000_softened");
+    fs::create_directories(folder_ / "tasks/mpm_13.000000_softened");
+    std::ofstream(folder_ / "tasks/mpm_13.000000_softened/task.json")
+        << R"({"phase": "mpm_solver", "variant": "softened", "transfer_time": 13, "state": "blocked"})";
+    std::ofstream(folder_ / "run.json") << R"({"id": "01", "name": "wet", "state": "running"})";
+    const Document d = document();
+    EXPECT_EQ(d.verdict.word, "not finished");
+    EXPECT_NE(
+        in_one(d.verdict.doubts).find("1 of 3 runouts left no result: it has not ended (blocked)"),
+        std::string::npos)
+        << in_one(d.verdict.doubts);
+    EXPECT_NE(in_one(d.verdict.doubts).find("was running when it was exported"), std::string::npos);
+    EXPECT_NE(d.front.found.rows.front()[2].find("(2 of 3)"), std::string::npos);
+}
+
+TEST(Entries, AreAllThatTheSceneHasWithWhatNobodySet) {
+    const auto scene = nlohmann::json::parse(
+        scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json", {}).completed);
+    const std::vector<SceneEntry> entries = entries_of(scene, {"/mpm/cfl"});
+    std::size_t leaves = 0;
+    const auto found = [&](const std::string& pointer) {
+        const auto at = std::ranges::find(entries, pointer, &SceneEntry::pointer);
+        if (at == entries.end()) throw std::runtime_error("no entry " + pointer);
+        return *at;
+    };
+    const nlohmann::json flat = scene.flatten();
+    for (const auto& [pointer, value] : flat.items()) {
+        ++leaves;
+        const bool is_there = std::ranges::any_of(entries, [&](const SceneEntry& each) {
+            return pointer == each.pointer || pointer.starts_with(each.pointer + "/");
+        });
+        EXPECT_TRUE(is_there) << pointer;
+    }
+    EXPECT_GT(leaves, 300u);
+    EXPECT_EQ(found("/mpm/cell_size").value, "2.5");
+    EXPECT_EQ(found("/mpm/cell_size").unit, "m");
+    EXPECT_FALSE(found("/mpm/cell_size").is_default) << "the scene gives it";
+    EXPECT_TRUE(found("/mpm/rest_speed").is_default) << "it does not";
+    EXPECT_FALSE(found("/mpm/cfl").is_default) << "an override set it";
+    EXPECT_FALSE(found("/materials/tailings/law/D_R").is_default);
+    EXPECT_TRUE(found("/materials/tailings/law/n_b").is_default) << "PM4Sand's own, by D_R";
 }
 
 TEST_F(WetRun, MarksLowerBoundsWhereverTheyStand) {

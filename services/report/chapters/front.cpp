@@ -1,0 +1,344 @@
+// The first page: what was asked, what comes out and how far it is to be believed, within which
+// limits. Its numbers are those of the phases' result.json.
+#include <algorithm>
+
+#include "core/phases/phases.hpp"
+#include "services/report/chapters/chapters.hpp"
+#include "services/report/read/verdict.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+using namespace nlohmann::literals;
+
+namespace {
+
+constexpr std::size_t most_gauges = 4;  // that the page has room for
+
+std::string joined(const std::vector<std::string>& words, const std::string& between = ", ") {
+    std::string text;
+    for (const std::string& each : words) text += (text.empty() ? "" : between) + each;
+    return text;
+}
+
+// ---------------------------------------------------------------- what was asked
+
+std::string motion_of(const json& scene) {
+    const json motion = scene.value("/fem/motion"_json_pointer, json());
+    if (!motion.is_object()) return "under its own weight";
+    std::string text =
+        "shaken by " +
+        std::filesystem::path(motion.at("file").get<std::string>()).filename().string();
+    if (motion.contains("scale_to_pga_g"))
+        text += " scaled to " + rounded(motion.at("scale_to_pga_g"), 4) + " g";
+    return text;
+}
+
+std::string seconds_of_stages(const json& scene) {
+    double sum = 0.0;
+    for (const json& stage : scene.value("/fem/stages"_json_pointer, json::array()))
+        sum += stage.value("duration", 0.0);
+    return rounded(sum, 4) + " s";
+}
+
+std::string transfers_of(const Run& run) {
+    std::vector<std::string> times, triggers;
+    for (const PhaseFolder* each : phases_named(run, phases::transfer.program)) {
+        if (!each->transfer_time) continue;
+        const std::string time = short_number(*each->transfer_time);
+        if (std::ranges::find(times, time) == times.end()) times.push_back(time);
+    }
+    if (run.study.is_object())
+        for (const json& each : run.study.value("triggers", json::array()))
+            triggers.push_back(each.value("name", each.value("kind", "")));
+    constexpr std::size_t most = 12;
+    const std::string when = times.size() <= most
+                                 ? joined(times) + " s"
+                                 : std::to_string(times.size()) + " times from " + times.front() +
+                                       " to " + times.back() + " s";
+    return (times.empty() ? "none" : when) +
+           (triggers.empty() ? "" : " (triggers: " + joined(triggers) + ")");
+}
+
+/// A FEM can be asked about by itself.
+bool asks_for_runouts(const Run& run) {
+    const bool waits = run.study.is_object() && !run.study.value("triggers", json::array()).empty();
+    return waits || phase_named(run, phases::mpm.program);
+}
+
+std::string question_of(const Run& run, const json& scene) {
+    const bool fem = phase_named(run, phases::fem.program);
+    if (fem && !asks_for_runouts(run))
+        return "Whether and when does the section fail, " + motion_of(scene) +
+               "? Finite elements for " + seconds_of_stages(scene) + "; nothing is transferred.";
+    if (fem)
+        return "How far does the soil run out that fails, " + motion_of(scene) +
+               "? Finite elements for " + seconds_of_stages(scene) +
+               "; their state becomes material points at t_T = " + transfers_of(run) + ".";
+    if (phase_named(run, phases::mpm.program))
+        return "How far does the soil run out when it is let go as it stands, with the strengths "
+               "of the scene? A static scene: no earthquake, no finite elements; material points "
+               "fill the section, with the stress \"" +
+               scene.value("/mpm/fill_stress"_json_pointer, "none") + "\" at the start.";
+    return "Does the section stand? Limit equilibrium alone, no runout.";
+}
+
+std::vector<std::string> asked_of(const Run& run, const json& scene) {
+    std::vector<std::string> asked{question_of(run, scene)};
+    if (phase_named(run, phases::lem.program) && phase_named(run, phases::mpm.program))
+        asked.emplace_back("Its factor of safety beside it, by limit equilibrium.");
+    if (!run.study.is_object()) return asked;
+    std::vector<std::string> names;
+    for (const json& each : run.study.value("variants", json::array()))
+        if (each.value("made_by", "").empty()) names.push_back(each.at("name"));
+    constexpr std::size_t most = 12;
+    if (names.size() > 1)
+        asked.push_back(std::to_string(names.size()) + " variants" +
+                        (names.size() <= most ? ": " + joined(names) : "") +
+                        ". What each changes stands in the chapter of variants.");
+    if (const int draws = run.study.value("draws", 1); draws > 1)
+        asked.push_back("Each on " + std::to_string(draws) + " lattices of material points.");
+    std::vector<std::string> changes;
+    for (const json& each : run.study.value("overrides", json::array())) changes.push_back(each);
+    if (!changes.empty())
+        asked.push_back("The study changes the scene throughout: " + joined(changes, "; ") + ".");
+    return asked;
+}
+
+// ---------------------------------------------------------------- what comes out
+
+std::vector<const PhaseFolder*> ended_runouts(const Run& run) {
+    std::vector<const PhaseFolder*> found;
+    for (const std::string& variant : variants_of(run))
+        for (const PhaseFolder* each : runouts_of(run, variant)) found.push_back(each);
+    return found;
+}
+
+/// "3 to 12.5 (8 of 9)": least and largest of a fact over the phases that have it; a lower bound
+/// where the largest is one.
+std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::string& pointer,
+                     bool grows) {
+    const PhaseFolder *least = nullptr, *largest = nullptr;
+    std::size_t count = 0;
+    const json::json_pointer at(pointer);
+    for (const PhaseFolder* each : phases) {
+        if (!each->result.is_object() || !each->result.contains(at) ||
+            !each->result.at(at).is_number())
+            continue;
+        ++count;
+        const auto value = [&](const PhaseFolder* one) { return one->result.at(at).get<double>(); };
+        if (!least || value(each) < value(least)) least = each;
+        if (!largest || value(each) > value(largest)) largest = each;
+    }
+    const std::string counted =
+        " (" + std::to_string(count) + " of " + std::to_string(phases.size()) + ")";
+    if (count == 0) return "-" + counted;
+    const auto text = [&](const PhaseFolder* one) {
+        const std::string value = rounded(one->result.at(at).get<double>(), 4);
+        return grows ? bounded(*one, value) : value;
+    };
+    return count == 1 ? text(least) + counted : text(least) + " to " + text(largest) + counted;
+}
+
+std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
+    const json::json_pointer at(pointer);
+    if (!phase.result.contains(at) || !phase.result.at(at).is_number()) return "-";
+    return rounded(phase.result.at(at).get<double>(), 4);
+}
+
+/// How far the number is to be believed: what is known of its error, and its result's doubts.
+std::string worth_of(const PhaseFolder& mpm) {
+    std::string text = mpm.runout_error ? "\u00b1 " + rounded(*mpm.runout_error, 2) +
+                                              " m: " + mpm.runout_error_from
+                                        : "its error is not known: no accuracy study, no draws";
+    if (const std::string end = how_it_ended(mpm); end != "well") text += "; " + end;
+    return text;
+}
+
+std::string rest_of(const PhaseFolder& mpm) {
+    const json rests = mpm.result.value("at_rest", json());
+    if (!rests.is_boolean()) return "not known";
+    const std::string end = " " + brief_fact(mpm, "/end_time") + " s";
+    return rests.get<bool>() ? "yes, after" + end : "no: cut off at" + end;
+}
+
+/// Of draws: the largest of the means.
+void add_mean(const Run& run, Table& table) {
+    const json* largest = nullptr;
+    for (const json& each : run.means)
+        if (each.at("runout").is_number() &&
+            (!largest || each.at("runout").get<double>() > largest->at("runout").get<double>()))
+            largest = &each;
+    if (!largest) return;
+    const json error = largest->value("runout_error", json());
+    const std::string variant = largest->at("variant");
+    const std::string doubt =
+        largest->value("missing_draws", "") + largest->value("questionable_draws", "");
+    table.rows.push_back(
+        {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " draws" +
+             (variant.empty() ? "" : ", " + variant) + " [m]",
+         rounded(largest->at("runout").get<double>(), 4), "-",
+         (error.is_number() ? "\u00b1 " + rounded(error.get<double>(), 2) + " m (nine of ten)"
+                            : std::string("its error is not known")) +
+             (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
+}
+
+/// Of each gauge, as far as the page has room: when it came, how deep, how fast.
+void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolder*>& all,
+                    Table& table) {
+    const json gauges = shown.scene.value("/mpm/gauges"_json_pointer, json::array());
+    for (std::size_t i = 0; i < std::min(gauges.size(), most_gauges); ++i) {
+        const std::string name = gauges[i].at("name"), at = "/gauges/" + name;
+        if (!shown.result.contains(json::json_pointer(at))) continue;
+        const std::string arrival = brief_fact(shown, at + "/arrival_time");
+        const auto largest = [&](const char* of) {
+            return bounded(shown, brief_fact(shown, at + of));
+        };
+        table.rows.push_back(
+            {"Gauge " + name + " (x = " + short_number(gauges[i].at("x")) +
+                 " m): arrival [s]; largest depth [m]; velocity [m/s]",
+             arrival + "; " + largest("/largest_depth") + "; " + largest("/largest_velocity"),
+             range_of(all, at + "/arrival_time", false) + "; " +
+                 range_of(all, at + "/largest_depth", true) + "; " +
+                 range_of(all, at + "/largest_velocity", true),
+             arrival == "-" ? "the flow was not there by the end"
+                            : "arrival since the soil was let go"});
+    }
+    if (gauges.size() > most_gauges)
+        table.rows.push_back({"Further gauges", std::to_string(gauges.size() - most_gauges), "-",
+                              "in the chapter \"Flow and deposit\""});
+}
+
+void add_runouts(const Run& run, Table& table) {
+    const auto asked = phases_named(run, phases::mpm.program);
+    if (asked.empty()) return;
+    const auto ended = ended_runouts(run);
+    if (ended.empty()) {
+        table.rows.push_back({"Runout [m]", "no result", "0 of " + std::to_string(asked.size()),
+                              asked.front()->fault});
+        return;
+    }
+    const PhaseFolder& shown = **std::ranges::max_element(ended, {}, runout_of);
+    add_mean(run, table);
+    table.rows.push_back({"Runout: 99 % of the mobile soil, from the toe [m]",
+                          bounded(shown, rounded(runout_of(&shown), 4)),
+                          range_of(asked, "/runout", true), worth_of(shown)});
+    table.rows.push_back({"Of what passed the toe, 99 % [m]",
+                          bounded(shown, brief_fact(shown, "/runout_beyond_toe")),
+                          range_of(asked, "/runout_beyond_toe", true),
+                          runout_of(&shown) > 0.0 ? "" : "99 % of the soil stays before the toe"});
+    table.rows.push_back({"Deposit beyond the toe [m3 per m of width]",
+                          bounded(shown, brief_fact(shown, "/area_beyond_toe")),
+                          range_of(asked, "/area_beyond_toe", true), ""});
+    const auto at_rest = std::ranges::count_if(ended, [](const PhaseFolder* each) {
+        return each->result.value("at_rest", json()) == json(true);
+    });
+    table.rows.push_back({"At rest", rest_of(shown),
+                          std::to_string(at_rest) + " of " + std::to_string(asked.size()),
+                          still_moves(shown) ? "distances and volumes are lower bounds" : ""});
+    add_gauge_rows(shown, asked, table);
+    table.caption = "Here: the largest runout of all (" + of_transfer(shown) +
+                    "). In the whole run: least to largest, and how many have a result. "
+                    "\u2265: a lower bound, the soil still moved.";
+}
+
+void add_factors(const Run& run, Table& table) {
+    const auto all = phases_named(run, phases::lem.program);
+    if (all.empty()) return;
+    const auto has_factor = [](const PhaseFolder* each) {
+        return each->result.is_object() && each->result.contains("factor_of_safety");
+    };
+    const auto least = std::ranges::min_element(all, {}, [&](const PhaseFolder* each) {
+        return has_factor(each) ? each->result.at("factor_of_safety").get<double>() : 1e300;
+    });
+    if (!has_factor(*least)) {
+        table.rows.push_back({"Factor of safety", "no result", "0 of " + std::to_string(all.size()),
+                              (*least)->fault});
+        return;
+    }
+    std::string worth = "simplified Bishop";
+    if (const std::string spencer = brief_fact(**least, "/spencer/factor_of_safety");
+        spencer != "-")
+        worth += "; Spencer " + spencer;
+    if (!(*least)->variant.empty()) worth += "; the least, " + (*least)->variant;
+    if (const std::string end = how_it_ended(**least); end != "well") worth += "; " + end;
+    table.rows.push_back({"Factor of safety", brief_fact(**least, "/factor_of_safety"),
+                          range_of(all, "/factor_of_safety", false), worth});
+    if ((*least)->result.contains("critical_depth"))
+        table.rows.push_back({"Critical liquefied depth [m]",
+                              brief_fact(**least, "/critical_depth"),
+                              range_of(all, "/critical_depth", false), ""});
+}
+
+void add_fems(const Run& run, Table& table) {
+    for (const PhaseFolder* each : phases_named(run, phases::fem.program)) {
+        const std::string of = each->variant.empty() ? "" : " (" + each->variant + ")";
+        const std::string end = how_it_ended(*each);
+        table.rows.push_back(
+            {"Finite elements end" + of,
+             each->result.is_object() ? brief_fact(*each, "/end_time") + " s" : "no result", "-",
+             end == "well"
+                 ? "largest displacement " + brief_fact(*each, "/largest_displacement") + " m"
+                 : end});
+    }
+}
+
+// ---------------------------------------------------------------- limits
+
+std::vector<std::string> limits_of(const Run& run, const json& scene) {
+    std::vector<std::string> limits{
+        "Plane strain: the section goes on sideways for ever, and volumes are per metre of width. "
+        "A breach of finite width spreads and drains otherwise."};
+    if (!phase_named(run, phases::fem.program) && !phase_named(run, phases::mpm.program))
+        limits.emplace_back(
+            "Limit equilibrium: no deformation, and no surface but those that were searched.");
+    if (!asks_for_runouts(run)) return limits;
+    limits.emplace_back("No mixing with water: nothing is diluted, and no free water flows along.");
+    limits.emplace_back(
+        "Total stress in the runout: strength is what the soil had when it was let go, but for "
+        "what strain softens; no pore pressure builds or drains.");
+    if (!phase_named(run, phases::fem.program))
+        limits.emplace_back("Static: whether and when the section fails is not asked.");
+    else if (scene.value("/mpm/shaking"_json_pointer, "off") == "on")
+        limits.emplace_back("Nothing liquefies after the transfer; the ground shakes on.");
+    else
+        limits.emplace_back("Nothing liquefies after the transfer, and the shaking ends with it.");
+    return limits;
+}
+
+/// "2026-11-22T13:15:02.123Z" -> "2026-11-22 13:15 UTC"
+std::string moment_of(const std::string& time) {
+    return time.size() < 16 ? time : time.substr(0, 10) + " " + time.substr(11, 5) + " UTC";
+}
+
+/// "Run 01, flow-slope; scene flow_slope; breachline 0.9.0; finished 2026-11-22 13:15 UTC."
+std::string identity_of(const Run& run) {
+    std::string text = "Scene " + run.scene.at("name").get<std::string>();
+    if (!run.id.empty()) text = "Run " + run.id + ", " + run.name + ". " + text;
+    for (const PhaseFolder& each : run.phases) {
+        if (!each.result.is_object()) continue;
+        const std::string version =
+            each.result.value("/provenance/version"_json_pointer, json()).is_string()
+                ? each.result.at("/provenance/version"_json_pointer).get<std::string>()
+                : "";
+        if (version.empty()) continue;
+        text += ", computed by Breachline " + version;
+        break;
+    }
+    if (!run.finished.empty()) text += ", finished " + moment_of(run.finished);
+    return text + ".";
+}
+
+}  // namespace
+
+Front front_of(const Run& run) {
+    const json& scene = asked_scene(run);
+    Table found{
+        "found", "What comes out", {"quantity", "here", "in the whole run", "to be known"}, {}};
+    add_runouts(run, found);
+    add_factors(run, found);
+    add_fems(run, found);
+    return {identity_of(run), asked_of(run, scene), std::move(found), limits_of(run, scene)};
+}
+
+}  // namespace breach::report
