@@ -303,6 +303,17 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
                                      " fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.1\""),
                                std::string("FEM: ") + held.meaning});
     }
+    if (fem.base) {
+        const scene::Box soil = check::extent(scene);
+        const double below = 14.0 / canvas.panel.scale();
+        canvas.svg << shape(path_of(canvas.panel, {{soil.low.x(), soil.low.y() - below},
+                                                   {soil.high.x(), soil.low.y() - below}}),
+                            stroke("#777", 3, "class=\"base\" stroke-dasharray=\"2 5\""));
+        canvas.keys.push_back(line_key("#777",
+                                       "FEM: elastic half-space below, V_s = " +
+                                           short_number(fem.base->V_s) + " m/s",
+                                       " stroke-dasharray=\"2 5\""));
+    }
     draw_loads(canvas, scene, fem.surcharge, "FEM");
     const Vec2 crest = canvas.panel.at(canvas.panel.inside(fem.crest));
     canvas.over << "<path class=\"crest\" d=\"M" << px(crest.x()) << " " << px(crest.y())

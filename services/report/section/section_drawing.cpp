@@ -156,7 +156,8 @@ double depth_inside(const scene::Polygon& polygon, const Vec2& place) {
     return scene::contains(polygon, place) ? least : -least;
 }
 
-/// Lattice places of the region's box on the page, the deepest inside the polygon first [px].
+/// Lattice places of the region's box on the page: the deepest inside the polygon first, of those that
+/// are deep enough the nearest to its middle [px].
 std::vector<Vec2> places_inside(const scene::Polygon& polygon, const Panel& panel) {
     constexpr int columns = 24, rows = 10;
     const scene::Box box = scene::bounding_box(polygon);
@@ -166,7 +167,10 @@ std::vector<Vec2> places_inside(const scene::Polygon& polygon, const Panel& pane
             const Vec2 share(static_cast<double>(i) / columns, static_cast<double>(j) / rows);
             const Vec2 place = box.low + (box.high - box.low).cwiseProduct(share);
             const double depth = depth_inside(polygon, place);
-            if (depth > 0.0) places.emplace_back(depth, panel.at(place));
+            if (depth <= 0.0) continue;
+            const double enough = std::min(depth * panel.scale(), 24.0);  // px
+            const double off = (share - Vec2(0.5, 0.5)).norm();
+            places.emplace_back(enough - off, panel.at(place));
         }
     std::ranges::stable_sort(places, std::greater<>(), [](const auto& each) { return each.first; });
     std::vector<Vec2> sorted;
@@ -194,7 +198,8 @@ void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& 
                             << px(centre.x()) << " " << px(end) << "\" stroke=\"#333\"/>\n"
                             << "<circle cx=\"" << px(anchor.x()) << "\" cy=\"" << px(anchor.y())
                             << "\" r=\"2\" fill=\"#333\"/>\n";
-                canvas.labels.write(canvas.over, centre, name, "#111");
+                canvas.labels.write(canvas.over, centre, name, "#111",
+                                    "paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"");
                 return;
             }
 }
@@ -401,8 +406,7 @@ BaseScene base_scene_of(const json& document) {
     return base;
 }
 
-Draft draft_of(BaseScene base, const std::filesystem::path& folder) {
-    check::Checked checked = check::checked_text(base.scene.dump(), "scene", folder, base.overrides);
+Draft draft_of(BaseScene base, check::Checked checked) {
     for (const std::string& each : base.overrides) scene::apply_override(base.scene, each);
     return {std::move(base), std::move(checked.scene), std::move(checked.faults)};
 }

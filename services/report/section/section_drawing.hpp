@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -31,8 +30,8 @@ struct Draft {
     scene::Scene scene;
     std::vector<fault::Fault> faults;  ///< pointers are those of the scene
 };
-/// Relative paths in it are taken from `folder`. Throws BadInput where it is no JSON object.
-Draft draft_of(BaseScene base, const std::filesystem::path& folder);
+/// `checked`: base.scene with base.overrides, read and checked by whoever knows its files.
+Draft draft_of(BaseScene base, check::Checked checked);
 
 /// A FEM's mesh, as far as it is seen.
 struct DrawnMesh {
