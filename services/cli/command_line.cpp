@@ -337,10 +337,13 @@ class CommandLine {
         CLI::App* draw_ = add("draw", "the section of a scene or a study, and what it will cost",
                               "scene.json --output section.svg",
                               [this](Server& s, const Console& c) { return draw(s, a_.draw, c); });
-        draw_->add_option("SCENE|STUDY", a_.draw.document, "scene or study file (JSON)")->required();
-        draw_->add_option("--output", a_.draw.picture, "the picture (SVG); without it only the cost");
-        draw_->add_option("--set", a_.draw.overrides,
-                          "/json/pointer=value, changes the scene; repeatable")
+        draw_->add_option("SCENE|STUDY", a_.draw.document, "scene or study file (JSON)")
+            ->required();
+        draw_->add_option("--output", a_.draw.picture,
+                          "the picture (SVG); without it only the cost");
+        draw_
+            ->add_option("--set", a_.draw.overrides,
+                         "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         draw_->add_flag("--mesh", a_.draw.mesh, "draw the FEM's mesh, too; made once and kept");
     }

@@ -15,14 +15,14 @@ using nlohmann::json;
 
 namespace {
 
-// CPU seconds and bytes per piece of work, measured with release builds of 0.x on two cores of a server
-// of 2021 (column, slope, Mochikoshi on 4 m; services/estimate/README.md has the runs). Another
+// CPU seconds and bytes per piece of work: fits to the runs of README.md, in this folder. Another
 // machine is within the factor of two that all ranges have, or `learn` says how far it is off.
 constexpr double start_up = 0.01;                 // a program's own [s]
 constexpr double per_surface_and_slice = 6.8e-8;  // [s]
-constexpr double per_element_step = 2.5e-6;       // laws without memory, iterations included [s]
+constexpr double per_element_step = 2.5e-6;       // iterations included [s]
+constexpr double softening_elements = 1200;       // with more of them bands need more iterations
 constexpr double per_element_step_with_memory = 8e-6;  // PM4Sand with its pore water [s]
-constexpr double per_transferred_point = 1.1e-5;       // [s]
+constexpr double per_transferred_point = 4e-6;         // [s]
 constexpr double per_point_step = 5e-8;                // [s]
 constexpr double bytes_per_element = 600;              // of a snapshot
 constexpr double bytes_per_point = 210;                // of a frame
@@ -42,11 +42,28 @@ PhaseCost lem_cost(const scene::Lem& lem) {
             ""};
 }
 
-bool remembers(const scene::Scene& scene, const scene::Region& region) {
-    if (region.material >= scene.materials.size()) return false;
+bool remembers(const materials::Law& law) {
     return std::visit(
-        [](const auto& law) { return materials::Remembers<std::decay_t<decltype(law)>>; },
-        scene.materials[region.material].law);
+        [](const auto& each) { return materials::Remembers<std::decay_t<decltype(each)>>; }, law);
+}
+
+/// Of a step and an element of the mean kind [s]. Bands of softening soil cost the whole mesh
+/// iterations, and each of them a factorisation.
+double rate_of(const scene::Scene& scene, const MeshCounts& mesh) {
+    const std::vector<double> elements = elements_of(scene);
+    double all = 0.0, with_memory = 0.0;
+    bool softens = false;
+    for (std::size_t r = 0; r < elements.size(); ++r) {
+        const std::size_t material = scene.section.regions[r].material;
+        if (material >= scene.materials.size()) continue;
+        const materials::Law& law = scene.materials[material].law;
+        all += elements[r];
+        if (remembers(law)) with_memory += elements[r];
+        if (materials::softening(law) != nullptr) softens = true;
+    }
+    const double share = all > 0.0 ? with_memory / all : 0.0;
+    const double bands = softens ? std::max(1.0, mesh.elements / softening_elements) : 1.0;
+    return share * per_element_step_with_memory + (1.0 - share) * bands * per_element_step;
 }
 
 MeshCounts mesh_of(const scene::Scene& scene) {
@@ -57,14 +74,6 @@ MeshCounts mesh_of(const scene::Scene& scene) {
 
 PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool counted) {
     const scene::Fem& fem = *scene.fem;
-    const std::vector<double> elements = elements_of(scene);
-    double all = 0.0, with_memory = 0.0;
-    for (std::size_t r = 0; r < elements.size(); ++r) {
-        all += elements[r];
-        if (remembers(scene, scene.section.regions[r])) with_memory += elements[r];
-    }
-    const double share = all > 0.0 ? with_memory / all : 0.0;
-    const double rate = share * per_element_step_with_memory + (1.0 - share) * per_element_step;
     const FemSteps steps = steps_of(fem);
     const double lines =
         fem.telemetry_interval > 0.0 ? steps.duration / fem.telemetry_interval : steps.steps;
@@ -73,7 +82,7 @@ PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool count
             {{counted ? "elements" : "elements, about", mesh.elements},
              {"unknowns, about", unknowns},
              {"steps", steps.steps}},
-            around(start_up + rate * mesh.elements * steps.steps),
+            around(start_up + rate_of(scene, mesh) * mesh.elements * steps.steps),
             around(bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
                    bytes_per_fem_line * lines),
             ""};
@@ -82,7 +91,7 @@ PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool count
 PhaseCost transfer_cost(double points) {
     return {phases::transfer.program,
             {{"points, about", points}},
-            around(start_up + per_transferred_point * points),
+            around(2.0 * start_up + per_transferred_point * points),
             around(0.5 * bytes_beside + bytes_per_point * points),
             ""};
 }
@@ -91,9 +100,9 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
     const scene::Mpm& mpm = *scene.mpm;
     const double duration = runout_duration(scene);
     const double steps = duration / runout_step(scene);
-    const double frames = 3.0 + (mpm.snapshot_interval > 0.0 ? duration / mpm.snapshot_interval : 0.0);
-    const double lines =
-        mpm.telemetry_interval > 0.0 ? duration / mpm.telemetry_interval : steps;
+    const double frames =
+        3.0 + (mpm.snapshot_interval > 0.0 ? duration / mpm.snapshot_interval : 0.0);
+    const double lines = mpm.telemetry_interval > 0.0 ? duration / mpm.telemetry_interval : steps;
     return {phases::mpm.program,
             {{"points, about", points},
              {"steps, about", steps},
@@ -168,7 +177,9 @@ double length_of(const json& times) {
         if (!times.contains(each) || !times.at(each).is_number()) return 1.0;
     const double step = times.at("step");
     if (step <= 0.0) return 1.0;
-    return std::floor((times.at("to").get<double>() - times.at("from").get<double>()) / step + 1e-9) + 1.0;
+    return std::floor((times.at("to").get<double>() - times.at("from").get<double>()) / step +
+                      1e-9) +
+           1.0;
 }
 
 }  // namespace
@@ -244,8 +255,7 @@ std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Rep
     if (costs.empty()) return {"Cost: the scene asks for no phase"};
     const Sum sum = sum_of(costs, repeats);
     std::string all = "All";
-    if (repeats.runouts > 1.0)
-        all += ", with " + counted(repeats.runouts) + " runouts";
+    if (repeats.runouts > 1.0) all += ", with " + counted(repeats.runouts) + " runouts";
     lines.push_back(all + ": " + time_of(sum.cpu_seconds) + ", " + disk_of(sum.bytes));
     return lines;
 }

@@ -23,7 +23,7 @@ double snapshots_of(const scene::Fem& fem);
 /// Of the transfer, or of the filled section where there is no FEM.
 double points_of(const scene::Scene& scene, double elements);
 
-/// Seconds that the runout is followed, where it ends at rest: 7 sqrt(H / g), and 60 sqrt(H / g) where
+/// Seconds that the runout is followed, where it ends at rest: 7 sqrt(H / g), and 75 sqrt(H / g) where
 /// soil without friction can flow, at least the earliest rest and at most the longest duration.
 double runout_duration(const scene::Scene& scene);
 /// By the Courant number and the fastest wave of all soils [s].

@@ -13,7 +13,7 @@ namespace {
 using estimate::Earlier;
 using Found = std::optional<Earlier>;  // none: the task says nothing
 
-constexpr std::size_t newest_runs = 12, tasks_of_a_phase = 2;
+constexpr std::size_t newest_runs = 8, first_tasks = 24, tasks_of_a_phase = 2;
 
 double bytes_of(const Store& store, const std::string& task) {
     double sum = 0.0;
@@ -69,7 +69,7 @@ std::vector<Earlier> earlier_costs(const Store& store) {
         const auto run_scene = store.scene_of(run.id);
         if (!run_scene) continue;
         std::map<std::string, std::size_t> taken;
-        for (const Task& task : store.tasks_of(run.id)) {
+        for (const Task& task : store.tasks_of(run.id, "", first_tasks)) {
             if (task.state != TaskState::succeeded || taken[task.phase] >= tasks_of_a_phase)
                 continue;
             if (const Found found = memory.of(store, task, *run_scene)) {

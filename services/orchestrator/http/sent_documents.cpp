@@ -6,7 +6,6 @@
 #include <array>
 
 #include "core/scene/file_paths.hpp"
-#include "services/orchestrator/study/checked_scene.hpp"
 
 namespace breach::orchestrator {
 
@@ -38,15 +37,6 @@ bool is_about_a_missing_file(const Fault& fault) {
            fault.cause.find("does not exist") != std::string::npos;
 }
 
-/// With the remedy for a missing file that fits a sender who may sit elsewhere.
-std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
-    for (Fault& each : faults)
-        if (is_about_a_missing_file(each))
-            each.remedy = "files are looked for on " + this_machine() +
-                          ": copy it there and give its absolute path there";
-    return faults;
-}
-
 template <class Read>
 auto read_here(Read read) {
     try {
@@ -57,6 +47,14 @@ auto read_here(Read read) {
 }
 
 }  // namespace
+
+std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
+    for (Fault& each : faults)
+        if (is_about_a_missing_file(each))
+            each.remedy = "files are looked for on " + this_machine() +
+                          ": copy it there and give its absolute path there";
+    return faults;
+}
 
 Study sent_study(const std::string& body) {
     if (is_a("scene", json::parse(body, nullptr, false), "section")) {
@@ -75,13 +73,6 @@ json sent_scene(const std::string& body) {
                                   "give the scene that it holds or names in \"scene\""}});
     }
     return read_here([&] { return read_whole_scene(body); });
-}
-
-report::Draft sent_draft(const json& document) {
-    report::BaseScene base = report::base_scene_of(document);
-    check::Checked checked = checked_scene(base.scene, base.overrides);
-    checked.faults = seen_from_here(std::move(checked.faults));
-    return report::draft_of(std::move(base), std::move(checked));
 }
 
 }  // namespace breach::orchestrator

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "services/orchestrator/study/study.hpp"
-#include "services/report/section/section_drawing.hpp"
 
 namespace breach::orchestrator {
 
@@ -17,8 +16,7 @@ Study sent_study(const std::string& body);
 /// read_whole_scene.
 nlohmann::json sent_scene(const std::string& body);
 
-/// A scene, or the base scene of a study, with all that is wrong with it. Throws BadInput only where
-/// there is no scene in it.
-report::Draft sent_draft(const nlohmann::json& document);
+/// The faults with the remedy for a missing file that fits a sender who may sit elsewhere.
+std::vector<fault::Fault> seen_from_here(std::vector<fault::Fault> faults);
 
 }  // namespace breach::orchestrator

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,10 +20,11 @@ using Pointer = json::json_pointer;
 namespace {
 
 // Entries of a scene whose pairs of numbers are points, and those that are abscissae.
-constexpr std::array<std::string_view, 11> points{
-    "polygon", "corners", "from", "to", "crest", "toe", "line", "phreatic_line", "terrain", "floor",
-    "given"};
-constexpr std::array<std::string_view, 7> abscissae{"x", "entry", "exit", "domain_x", "left_of", "right_of", "center"};
+constexpr std::array<std::string_view, 11> points{"polygon", "corners", "from", "to",
+                                                  "crest",   "toe",     "line", "phreatic_line",
+                                                  "terrain", "floor",   "given"};
+constexpr std::array<std::string_view, 7> abscissae{"x",       "entry",    "exit",  "domain_x",
+                                                    "left_of", "right_of", "center"};
 
 template <class Names>
 bool is_one_of(const std::string& name, const Names& names) {
@@ -38,22 +40,6 @@ bool is_pair(const json& value) {
 
 Vec2 point_of(const json& pair) { return {pair.at(0).get<double>(), pair.at(1).get<double>()}; }
 
-/// Pairs of numbers written "(3, -4.5)" in a text.
-std::vector<Trace> told_in(const std::string& text) {
-    std::vector<Trace> told;
-    for (std::size_t at = text.find('('); at != std::string::npos; at = text.find('(', at + 1)) {
-        char* after = nullptr;
-        const char* first = text.c_str() + at + 1;
-        const double x = std::strtod(first, &after);
-        if (after == first || *after != ',') continue;
-        const char* second = after + 1;
-        const double y = std::strtod(second, &after);
-        if (after == second || *after != ')' || !std::isfinite(x) || !std::isfinite(y)) continue;
-        told.push_back({Vec2(x, y)});
-    }
-    return told;
-}
-
 double ground_at(const scene::Scene& scene, double x) {
     const double aside = 1e-6 * std::max(1.0, std::abs(x));  // borders themselves are at no stratum
     for (const double each : {x + aside, x - aside}) {
@@ -64,6 +50,31 @@ double ground_at(const scene::Scene& scene, double x) {
     for (const scene::Region& each : scene.section.regions)
         for (const Vec2& vertex : each.polygon) lowest = std::min(lowest, vertex.y());
     return lowest;
+}
+
+/// A number at this place of a text, and where it ends; empty: there is none.
+std::optional<double> number_at(const char* text, const char** end) {
+    char* after = nullptr;
+    const double value = std::strtod(text, &after);
+    *end = after;
+    return after != text && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// What a text tells as "(3, -4.5)", else as "x = 3": on the ground there.
+std::vector<Trace> told_in(const std::string& text, const scene::Scene& scene) {
+    std::vector<Trace> told;
+    const char* end = nullptr;
+    for (std::size_t at = text.find('('); at != std::string::npos; at = text.find('(', at + 1)) {
+        const auto x = number_at(text.c_str() + at + 1, &end);
+        if (!x || *end != ',') continue;
+        const auto y = number_at(end + 1, &end);
+        if (y && *end == ')') told.push_back({Vec2(*x, *y)});
+    }
+    if (!told.empty()) return told;
+    if (const std::size_t at = text.find("x = "); at != std::string::npos)
+        if (const auto x = number_at(text.c_str() + at + 4, &end))
+            told.push_back({Vec2(*x, ground_at(scene, *x))});
+    return told;
 }
 
 class Collector {
@@ -168,7 +179,7 @@ std::vector<Trace> of_material(const std::string& name, const json& document,
 
 std::vector<Trace> places_of(const fault::Fault& fault, const json& document,
                              const scene::Scene& scene) try {
-    if (auto told = told_in(fault.cause); !told.empty()) return told;
+    if (auto told = told_in(fault.cause, scene); !told.empty()) return told;
     const Pointer pointer(fault.pointer);
     if (fault.pointer.rfind("/materials/", 0) == 0) {
         Pointer material = pointer;

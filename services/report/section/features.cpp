@@ -30,8 +30,8 @@ std::string shape(const std::string& path, const std::string& look) {
 }
 
 /// A line on white, so that it is seen on every fill.
-void draw_line(Canvas& canvas, const std::string& name, const Line& line,
-               const std::string& colour, const std::string& dashes = "") {
+void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
+               const std::string& dashes = "") {
     const std::string path = path_of(canvas.panel, line);
     canvas.svg << shape(path, stroke("#fff", 4, "stroke-opacity=\"0.7\""))
                << shape(path, stroke(colour, 2, "class=\"" + name + "\"" + dashes));
@@ -41,7 +41,9 @@ Key line_key(const std::string& colour, const std::string& text, const std::stri
     return {shape("M0 6h24", stroke(colour, 2, dashes)), text};
 }
 
-std::string place(const Vec2& at) { return "(" + short_number(at.x()) + ", " + short_number(at.y()) + ")"; }
+std::string place(const Vec2& at) {
+    return "(" + short_number(at.x()) + ", " + short_number(at.y()) + ")";
+}
 
 /// The line over the whole panel, as it goes on beyond its ends.
 Line across(const Panel& panel, const Line& line, check::Level level) {
@@ -95,7 +97,8 @@ std::vector<Line> ground_between(const scene::Scene& scene, double from, double 
         const auto right = check::strata_at(scene, xs[i + 1] - aside);
         if (left.empty() || right.empty()) continue;
         const Vec2 a(xs[i], left.front().top), b(xs[i + 1], right.front().top);
-        if (pieces.empty() || (pieces.back().back() - a).norm() > 1e3 * aside) pieces.push_back({a});
+        if (pieces.empty() || (pieces.back().back() - a).norm() > 1e3 * aside)
+            pieces.push_back({a});
         pieces.back().push_back(b);
     }
     return pieces;
@@ -163,18 +166,17 @@ void draw_loads(Canvas& canvas, const scene::Scene& scene,
             std::string path;
             for (int i = 0; i <= arrows; ++i) {
                 const double x = a.x() + (b.x() - a.x()) * i / arrows;
-                const double y = canvas.panel
-                                     .at({0.0, check::level_at(
-                                                   ground, canvas.panel.back({x, 0.0}).x())})
-                                     .y();
+                const double y =
+                    canvas.panel.at({0.0, check::level_at(ground, canvas.panel.back({x, 0.0}).x())})
+                        .y();
                 path += "M" + px(x) + " " + px(y - 16) + "V" + px(y - 2) + "m-3 -4l3 4l3 -4";
             }
             canvas.svg << shape(path, stroke(violet, 1.2, "class=\"load\""));
         }
-        canvas.keys.push_back({shape("M6 0v10m-3 -4l3 4l3 -4M16 0v10m-3 -4l3 4l3 -4", stroke(violet, 1.2)),
-                               of + ": surcharge of " + short_number(each.pressure / 1e3) +
-                                   " kPa, x = " + short_number(each.from) + " to " +
-                                   short_number(each.to) + " m"});
+        canvas.keys.push_back(
+            {shape("M6 0v10m-3 -4l3 4l3 -4M16 0v10m-3 -4l3 4l3 -4", stroke(violet, 1.2)),
+             of + ": surcharge of " + short_number(each.pressure / 1e3) +
+                 " kPa, x = " + short_number(each.from) + " to " + short_number(each.to) + " m"});
     }
 }
 
@@ -191,8 +193,8 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
             const double y = *lem.search->lowest_level;
             const std::string dash = " stroke-dasharray=\"2 4\"";
             draw_line(canvas, "search", {{world.low.x(), y}, {world.high.x(), y}}, violet, dash);
-            canvas.keys.push_back(line_key(
-                violet, "LEM: no surface below y = " + short_number(y) + " m", dash));
+            canvas.keys.push_back(
+                line_key(violet, "LEM: no surface below y = " + short_number(y) + " m", dash));
         }
     }
     if (lem.circle) {
@@ -264,7 +266,8 @@ void draw_support(Canvas& canvas, const scene::Scene& scene, const scene::Suppor
         signs += sign_of(support, a + (b - a) * ((i + 0.5) / count), out);
     canvas.over << shape("M" + px(a.x()) + " " + px(a.y()) + "L" + px(b.x()) + " " + px(b.y()),
                          stroke("#111", 2.2))
-                << shape(signs, " class=\"support\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.1\"");
+                << shape(signs,
+                         " class=\"support\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.1\"");
 }
 
 void draw_free_field(Canvas& canvas, const scene::Scene& scene) {
@@ -274,17 +277,21 @@ void draw_free_field(Canvas& canvas, const scene::Scene& scene) {
         const auto strata = check::strata_at(scene, edge - direction * 1e-6);
         if (strata.empty()) return;
         const double far = edge + direction * std::min(columns.width, 24.0 / canvas.panel.scale());
-        const Line ring{{edge, strata.back().bottom}, {far, strata.back().bottom}, {far, strata.front().top}, {edge, strata.front().top}};
+        const Line ring{{edge, strata.back().bottom},
+                        {far, strata.back().bottom},
+                        {far, strata.front().top},
+                        {edge, strata.front().top}};
         canvas.svg << shape(path_of(canvas.panel, ring) + "Z",
                             " class=\"free-field\" fill=\"#ddd\" stroke=\"#444\" "
                             "stroke-dasharray=\"3 2\"");
     };
     if (columns.sides != scene::FreeFieldSides::right) column(soil.low.x(), -1.0);
     if (columns.sides != scene::FreeFieldSides::left) column(soil.high.x(), 1.0);
-    canvas.keys.push_back({"<rect x=\"6\" width=\"12\" height=\"12\" fill=\"#ddd\" stroke=\"#444\" "
-                           "stroke-dasharray=\"3 2\"/>\n",
-                           "FEM: free-field column, " + short_number(columns.width) +
-                               " m wide (at most 24 px are drawn)"});
+    canvas.keys.push_back(
+        {"<rect x=\"6\" width=\"12\" height=\"12\" fill=\"#ddd\" stroke=\"#444\" "
+         "stroke-dasharray=\"3 2\"/>\n",
+         "FEM: free-field column, " + short_number(columns.width) +
+             " m wide (at most 24 px are drawn)"});
 }
 
 }  // namespace
@@ -309,10 +316,9 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
         canvas.svg << shape(path_of(canvas.panel, {{soil.low.x(), soil.low.y() - below},
                                                    {soil.high.x(), soil.low.y() - below}}),
                             stroke("#777", 3, "class=\"base\" stroke-dasharray=\"2 5\""));
-        canvas.keys.push_back(line_key("#777",
-                                       "FEM: elastic half-space below, V_s = " +
-                                           short_number(fem.base->V_s) + " m/s",
-                                       " stroke-dasharray=\"2 5\""));
+        canvas.keys.push_back(line_key(
+            "#777", "FEM: elastic half-space below, V_s = " + short_number(fem.base->V_s) + " m/s",
+            " stroke-dasharray=\"2 5\""));
     }
     draw_loads(canvas, scene, fem.surcharge, "FEM");
     const Vec2 crest = canvas.panel.at(canvas.panel.inside(fem.crest));
@@ -352,15 +358,19 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
     const scene::Mpm& mpm = *scene.mpm;
     const auto [left, right] = mpm.domain_x;
     const auto [low, high] = mpm.domain_y;
-    canvas.svg << shape(path_of(canvas.panel, {{left, low}, {right, low}, {right, high}, {left, high}}) + "Z",
-                        stroke("#111", 1.4, "class=\"grid\" stroke-dasharray=\"7 3\""));
+    canvas.svg << shape(
+        path_of(canvas.panel, {{left, low}, {right, low}, {right, high}, {left, high}}) + "Z",
+        stroke("#111", 1.4, "class=\"mpm-grid\" stroke-dasharray=\"7 3\""));
     const double cells_x = std::round((right - left) / mpm.cell_size);
     const double cells_y = std::round((high - low) / mpm.cell_size);
-    canvas.keys.push_back(line_key("#111", "MPM: grid of " + short_number(cells_x) + " x " + short_number(cells_y) +
-                                               " cells of " + short_number(mpm.cell_size) + " m",
+    canvas.keys.push_back(line_key("#111",
+                                   "MPM: grid of " + short_number(cells_x) + " x " +
+                                       short_number(cells_y) + " cells of " +
+                                       short_number(mpm.cell_size) + " m",
                                    " stroke-dasharray=\"7 3\""));
     if (!mpm.terrain.empty()) {
-        draw_line(canvas, "terrain", across(canvas.panel, mpm.terrain, check::straight_level_at), brown);
+        draw_line(canvas, "terrain", across(canvas.panel, mpm.terrain, check::straight_level_at),
+                  brown);
         canvas.keys.push_back(line_key(brown, "MPM: terrain"));
     } else {
         draw_line(canvas, "floor", {{left, mpm.floor.level}, {right, mpm.floor.level}}, brown);
@@ -369,8 +379,8 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
     }
     std::string friction;
     for (const scene::FrictionZone& each : mpm.floor.friction)
-        friction += (friction.empty() ? "" : "; ") + short_number(each.coefficient) + " from x = " +
-                    short_number(each.from) + " to " + short_number(each.to);
+        friction += (friction.empty() ? "" : "; ") + short_number(each.coefficient) +
+                    " from x = " + short_number(each.from) + " to " + short_number(each.to);
     canvas.keys.push_back({"", friction.empty() ? "MPM: nothing slips on the ground"
                                                 : "MPM: friction of the ground " + friction});
 }

@@ -58,7 +58,7 @@ scene::Box world_of(const scene::Scene& scene, const std::vector<MarkedFault>& m
         for (const Trace& trace : each.places) places.push_back(&trace);
     std::optional<scene::Box> box = box_around(polygons);
     if (!box) return box_around(places).value();
-    const Vec2 near = Vec2::Constant(0.5 * (box->high - box->low).maxCoeff());
+    const Vec2 near = Vec2::Constant(0.25 * (box->high - box->low).maxCoeff());
     const scene::Box limit{box->low - near, box->high + near};
     for (const Trace* trace : places)
         for (const Vec2& each : *trace)
@@ -90,11 +90,13 @@ std::size_t colour_index(const std::vector<std::size_t>& used, std::size_t mater
 }
 
 std::string material_name(const scene::Scene& scene, std::size_t material) {
-    return material < scene.materials.size() ? scene.materials[material].name : "unknown material";
+    return material < scene.materials.size() ? scene.materials[material].name
+                                             : "a material that cannot be read";
 }
 
 void draw_hatch_patterns(std::ostream& svg) {
-    svg << "<defs>\n<pattern id=\"hatch-1\" width=\"9\" height=\"9\" patternUnits=\"userSpaceOnUse\">"
+    svg << "<defs>\n<pattern id=\"hatch-1\" width=\"9\" height=\"9\" "
+           "patternUnits=\"userSpaceOnUse\">"
            "<path d=\"M0 9L9 0\" stroke=\"#000\" stroke-opacity=\"0.45\"/></pattern>\n"
            "<pattern id=\"hatch-2\" width=\"9\" height=\"9\" patternUnits=\"userSpaceOnUse\">"
            "<path d=\"M0 9L9 0M0 0L9 9\" stroke=\"#000\" stroke-opacity=\"0.45\"/></pattern>\n"
@@ -239,10 +241,11 @@ void draw_mesh(Canvas& canvas, const DrawnMesh& mesh) {
         canvas.svg << path_of(canvas.panel, {node(from), node(to)});
     }
     canvas.svg << "\"/>\n";
-    canvas.keys.push_back({"<path d=\"M0 1h24M0 6h24M0 11h24M4 0v12M12 0v12M20 0v12\" "
-                           "stroke=\"#000\" stroke-opacity=\"0.5\"/>\n",
-                           "FEM: mesh of " + std::to_string(mesh.quads.size()) + " elements, " +
-                               std::to_string(mesh.nodes.size()) + " nodes"});
+    canvas.keys.push_back(
+        {"<path d=\"M0 1h24M0 6h24M0 11h24M4 0v12M12 0v12M20 0v12\" "
+         "stroke=\"#000\" stroke-opacity=\"0.5\"/>\n",
+         "FEM: mesh of " + std::to_string(mesh.quads.size()) + " elements, " +
+             std::to_string(mesh.nodes.size()) + " nodes"});
 }
 
 void draw_mark(Canvas& canvas, std::size_t number, const std::string& pointer, const Trace& trace) {
@@ -253,14 +256,12 @@ void draw_mark(Canvas& canvas, std::size_t number, const std::string& pointer, c
     if (seen.empty()) return;
     canvas.over << "<g class=\"fault\" data-pointer=\"" << escaped(pointer) << "\">\n";
     if (seen.size() > 1) {
-        Trace ring = seen;
-        if (seen.size() > 2) ring.push_back(seen.front());
-        canvas.over << "<path d=\"" << path_of(panel, ring) << "\" fill=\"none\" stroke=\"" << red
+        canvas.over << "<path d=\"" << path_of(panel, seen) << "\" fill=\"none\" stroke=\"" << red
                     << "\" stroke-width=\"2.5\" stroke-dasharray=\"6 3\"/>\n";
     }
     const Vec2 at = panel.at(seen.front());
-    canvas.over << "<circle cx=\"" << px(at.x()) << "\" cy=\"" << px(at.y())
-                << "\" r=\"9\" fill=\"" << red << "\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n"
+    canvas.over << "<circle cx=\"" << px(at.x()) << "\" cy=\"" << px(at.y()) << "\" r=\"9\" fill=\""
+                << red << "\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n"
                 << text_at(at.x(), at.y() + 4, std::to_string(number),
                            "text-anchor=\"middle\" font-size=\"11\" font-weight=\"bold\" "
                            "fill=\"#fff\"")
@@ -293,7 +294,7 @@ std::string line_at(double x, double y, const std::string& text, const std::stri
 /// Keys one after the other, from left to right; returns where they end.
 double draw_keys(std::ostream& svg, const std::vector<Key>& keys, double y) {
     double x = left;
-    svg << "<g class=\"legend\">\n";
+    svg << "<g class=\"keys\">\n";
     for (const Key& key : keys) {
         const std::vector<std::string> lines = broken(key.text, text_width - 40);
         double widest = 0.0;
@@ -335,7 +336,8 @@ double list_faults(std::ostream& svg, const std::vector<MarkedFault>& marks,
         const std::string text = std::to_string(i + 1) + "  " + (pointer.empty() ? "/" : pointer) +
                                  " " + fault.cause +
                                  (fault.remedy.empty() ? "" : ": " + fault.remedy);
-        for (const std::string& each : broken(text, text_width)) svg << line_at(left, y += 17, each);
+        for (const std::string& each : broken(text, text_width))
+            svg << line_at(left, y += 17, each);
         svg << "</g>\n";
     }
     if (marks.size() > most_faults)
@@ -347,11 +349,11 @@ double list_faults(std::ostream& svg, const std::vector<MarkedFault>& marks,
 /// Writes a finished panel: its picture cut off at its border, marks and writing above.
 void put(std::ostream& svg, const Canvas& canvas, const std::string& name) {
     const Room room = canvas.panel.room();
-    svg << "<clipPath id=\"" << name << "\"><rect x=\"" << px(room.left) << "\" y=\""
+    svg << "<clipPath id=\"drawn-" << name << "\"><rect x=\"" << px(room.left) << "\" y=\""
         << px(room.top) << "\" width=\"" << px(room.right - room.left) << "\" height=\""
         << px(room.bottom - room.top) << "\"/></clipPath>\n";
     draw_axes(svg, canvas.panel);
-    svg << "<g class=\"" << name << "\" clip-path=\"url(#" << name << ")\">\n"
+    svg << "<g class=\"" << name << "\" clip-path=\"url(#drawn-" << name << ")\">\n"
         << canvas.svg.str() << "</g>\n"
         << canvas.over.str();
 }
@@ -412,12 +414,11 @@ Draft draft_of(BaseScene base, check::Checked checked) {
 }
 
 bool can_be_drawn(const Draft& draft) {
-    const bool soil = std::ranges::any_of(draft.scene.section.regions, [](const scene::Region& each) {
-        return !each.polygon.empty();
-    });
-    return soil || std::ranges::any_of(marked(draft), [](const MarkedFault& each) {
-               return !each.places.empty();
-           });
+    const bool soil =
+        std::ranges::any_of(draft.scene.section.regions,
+                            [](const scene::Region& each) { return !each.polygon.empty(); });
+    return soil || std::ranges::any_of(
+                       marked(draft), [](const MarkedFault& each) { return !each.places.empty(); });
 }
 
 std::string as_svg(const Draft& draft, const Additions& additions) {
@@ -441,6 +442,7 @@ std::string as_svg(const Draft& draft, const Additions& additions) {
     y = draw_keys(svg, keys, y);
     std::vector<std::string> foot;
     if (auto motion = motion_line(draft.scene)) foot.push_back(std::move(*motion));
+    if (!additions.foot.empty()) foot.push_back("One run of each phase will take about:");
     foot.insert(foot.end(), additions.foot.begin(), additions.foot.end());
     y = draw_foot(svg, foot, y);
     y = list_faults(svg, marks, draft.base.pointer, y);
@@ -448,8 +450,11 @@ std::string as_svg(const Draft& draft, const Additions& additions) {
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(page_width) + " " +
            px(y + 20) + "\" width=\"" + size +
            "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n"
-           "<title>" + escaped(title_of(draft)) + "</title>\n"
-           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + svg.str() + "</svg>\n";
+           "<title>" +
+           escaped(title_of(draft)) +
+           "</title>\n"
+           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
+           svg.str() + "</svg>\n";
 }
 
 }  // namespace breach::report

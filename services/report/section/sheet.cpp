@@ -16,9 +16,11 @@ constexpr double beside = 28, above = 46, below = 24;  // free border [px]
 
 }  // namespace
 
-Panel::Panel(const scene::Box& world, double top, double most_height) : left_(page_left), top_(top) {
+Panel::Panel(const scene::Box& world, double top, double most_height)
+    : left_(page_left), top_(top) {
     const Vec2 size = (world.high - world.low).cwiseMax(1e-6);
-    scale_ = std::min((most_width - 2 * beside) / size.x(), (most_height - above - below) / size.y());
+    scale_ =
+        std::min((most_width - 2 * beside) / size.x(), (most_height - above - below) / size.y());
     width_ = std::max(size.x() * scale_ + 2 * beside, least_width);
     height_ = size.y() * scale_ + above + below;
     const double free = 0.5 * (width_ - size.x() * scale_);
@@ -81,7 +83,7 @@ void draw_axes(std::ostream& svg, const Panel& panel) {
 }
 
 double Labels::width_of(const std::string& text) {
-    return report::width_of(text) * size / 14.0 + 4.0;
+    return 1.1 * report::width_of(text) * size / 14.0 + 4.0;  // the widest of the usual fonts
 }
 
 Room Labels::around(const Vec2& centre, const std::string& text) {
@@ -98,18 +100,18 @@ bool Labels::is_free(const Room& room) const {
 void Labels::write(std::ostream& svg, const Vec2& centre, const std::string& text,
                    const std::string& colour, const std::string& more) {
     take(around(centre, text));
-    svg << text_at(centre.x(), centre.y() + 4, text,
-                   "class=\"label\" text-anchor=\"middle\" font-size=\"12\" fill=\"" + colour +
-                       "\" " + more);
+    svg << text_at(
+        centre.x(), centre.y() + 4, text,
+        "class=\"label\" text-anchor=\"middle\" font-size=\"12\" fill=\"" + colour + "\" " + more);
 }
 
 bool Labels::beside(std::ostream& svg, const Vec2& point, const std::string& text,
                     const std::string& colour) {
     const double aside = 0.5 * width_of(text) + 8;
     for (const double far : {0.0, 14.0, 28.0}) {
-        const std::array<Vec2, 6> around_it{Vec2(0, -14 - far), Vec2(aside, -10 - far),
+        const std::array<Vec2, 6> around_it{Vec2(0, -14 - far),      Vec2(aside, -10 - far),
                                             Vec2(-aside, -10 - far), Vec2(aside, far),
-                                            Vec2(-aside, far), Vec2(0, 16 + far)};
+                                            Vec2(-aside, far),       Vec2(0, 16 + far)};
         for (const Vec2& each : around_it) {
             if (!is_free(around(point + each, text))) continue;
             write(svg, point + each, text, colour,

@@ -83,7 +83,9 @@ export const results_csv = (run, means) => path_of("runs", run, "results") + (me
 export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);
 /// The section of a study or a scene as SVG text.
-export const draw_document = async (text, signal) => body_of(await request("/v1/draw", { ...json_body(text), signal }), "text");
+export async function draw_document(text, with_mesh, signal) {
+    return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
+}
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
 /// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the

@@ -13,6 +13,7 @@ export class LiveDrawing {
             const mark = event.target.closest("[data-pointer]");
             if (mark) point_to(mark.dataset.pointer);
         });
+        by_id("drawing-mesh").addEventListener("change", () => this.changed(by_id("study").value));
     }
 
     /// The text is another one.
@@ -37,7 +38,7 @@ export class LiveDrawing {
         }
         this.asked = new AbortController();
         try {
-            this.show(await api.draw_document(text, this.asked.signal));
+            this.show(await api.draw_document(text, by_id("drawing-mesh").checked, this.asked.signal));
         } catch (fault) {
             if (fault.name !== "AbortError") this.keep(fault.message, fault.faults ?? []);
         }

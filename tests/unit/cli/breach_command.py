@@ -220,6 +220,23 @@ class Breach(unittest.TestCase):
                   if each.get("class") == "fault"]
         self.assertEqual(set(marked), {"/scene/fem/crest"})
 
+    def test_draw_meshes_once(self):
+        scene = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/scenes/slope.json"
+        picture, caches = self.here / "section.svg", self.here / "caches"
+        made = []
+        for _ in range(2):
+            done = call("http://127.0.0.1:9", "draw", scene, "--mesh", "--output", picture, XDG_CACHE_HOME=str(caches))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("mesh of 1215 elements, 1327 nodes", picture.read_text())
+            self.assertIn("1,215 elements", done.stdout)
+            made.append([(file.name, file.stat().st_mtime_ns) for file in (caches / "breachline/meshes").iterdir()])
+        self.assertEqual(len(made[0]), 1)
+        self.assertEqual(made[0], made[1])
+        other = call("http://127.0.0.1:9", "draw", scene, "--mesh", "--set", "/section/regions/1/mesh/divisions=[45,16]",
+                     XDG_CACHE_HOME=str(caches))
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertEqual(len(list((caches / "breachline/meshes").iterdir())), 2)
+
     def test_draw_of_nothing_is_65_and_leaves_no_picture(self):
         for text in ("{", "[]", '{"name": "a scene"}'):
             (self.here / "scene.json").write_text(text)

@@ -50,7 +50,8 @@ TEST(Counts, SoilWithoutFrictionFlowsLonger) {
 
 TEST(Cost, HasThePhasesOfTheScene) {
     std::vector<std::string> phases;
-    for (const PhaseCost& each : cost_of(shipped("mochikoshi_runout"))) phases.push_back(each.phase);
+    for (const PhaseCost& each : cost_of(shipped("mochikoshi_runout")))
+        phases.push_back(each.phase);
     EXPECT_EQ(phases, std::vector<std::string>{"mpm_solver"});
     EXPECT_EQ(cost_of(shipped("mochikoshi")).size(), 4u);
 }
@@ -60,7 +61,8 @@ TEST(Cost, GrowsWithTheWork) {
     const auto fine = cost_of(shipped("slope", {"/section/regions/0/mesh/divisions=[180,12]",
                                                 "/section/regions/1/mesh/divisions=[90,30]"}));
     for (const char* phase : {"fem_solver", "transfer_tool", "mpm_solver"}) {
-        EXPECT_GT(of(fine, phase).cpu_seconds.low, 1.5 * of(coarse, phase).cpu_seconds.low) << phase;
+        EXPECT_GT(of(fine, phase).cpu_seconds.low, 1.5 * of(coarse, phase).cpu_seconds.low)
+            << phase;
         EXPECT_GT(of(fine, phase).bytes.low, 1.5 * of(coarse, phase).bytes.low) << phase;
     }
     EXPECT_EQ(of(fine, "lem_tool").cpu_seconds.low, of(coarse, "lem_tool").cpu_seconds.low);
@@ -68,14 +70,17 @@ TEST(Cost, GrowsWithTheWork) {
 
 TEST(Cost, AMeshThatIsThereIsCounted) {
     const auto costs = cost_of(shipped("mochikoshi"), MeshCounts{5494, 5700});
-    EXPECT_EQ(of(costs, "fem_solver").counts.at(0), (std::pair<std::string, double>{"elements", 5494}));
+    EXPECT_EQ(of(costs, "fem_solver").counts.at(0),
+              (std::pair<std::string, double>{"elements", 5494}));
 }
 
 TEST(Cost, LearnsFromRunsOfItsOwnSceneFirst) {
     auto costs = cost_of(shipped("slope"));
     const PhaseCost before = of(costs, "fem_solver");
-    learn(costs, "slope", {{"fem_solver", "slope", 3.0, 2.0}, {"fem_solver", "slope", 4.0, 2.0},
-                           {"fem_solver", "other", 100.0, 100.0}});
+    learn(costs, "slope",
+          {{"fem_solver", "slope", 3.0, 2.0},
+           {"fem_solver", "slope", 4.0, 2.0},
+           {"fem_solver", "other", 100.0, 100.0}});
     const PhaseCost& after = of(costs, "fem_solver");
     EXPECT_NEAR(after.cpu_seconds.low, before.cpu_seconds.middle() * 3.0 / 1.25, 1e-9);
     EXPECT_NEAR(after.cpu_seconds.high, before.cpu_seconds.middle() * 4.0 * 1.25, 1e-9);
@@ -105,8 +110,9 @@ TEST(Cost, AStudyRepeatsItsRunouts) {
 }
 
 TEST(Cost, SurvivesStudiesThatAreNone) {
-    for (const char* text : {"1", "[]", R"({"scene":1,"transfer_times":{"from":1},"variants":7,"draws":"x"})",
-                             R"({"scene":{},"transfer_times":{"from":1,"to":2,"step":0}})"})
+    for (const char* text :
+         {"1", "[]", R"({"scene":1,"transfer_times":{"from":1},"variants":7,"draws":"x"})",
+          R"({"scene":{},"transfer_times":{"from":1,"to":2,"step":0}})"})
         EXPECT_EQ(repeats_of(nlohmann::json::parse(text)).runouts, 1.0) << text;
 }
 

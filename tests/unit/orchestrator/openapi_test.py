@@ -122,6 +122,7 @@ class Described(unittest.TestCase):
         for body in (study([0.5]), study([0.5])["scene"]):
             self.assertTrue(post("/v1/draw", "/v1/draw", 200, body).startswith(b"<svg "))
             post("/v1/cost", "/v1/cost", 200, body)
+        post("/v1/draw", "/v1/draw?mesh=2", 400, study([0.5]))
         post("/v1/draw", "/v1/draw", 422, {"scene": 1})
         post("/v1/cost", "/v1/cost", 422, {"scene": {}})
         post("/v1/runs", "/v1/runs", 202, study([0.25]))

@@ -115,7 +115,8 @@ TEST(SectionDrawing, LabelsDoNotLieOnEachOther) {
     for (const char* name : {"column", "slope", "mochikoshi"}) {
         std::vector<Box> boxes;
         for (const auto& each :
-             all(drawn(name), "<text x=\"([^\"]*)\" y=\"([^\"]*)\" class=\"label\"[^>]*>([^<]*)<")) {
+             all(drawn(name),
+                 "<text x=\"([^\"]*)\" y=\"([^\"]*)\" class=\"label\"[^>]*>([^<]*)<")) {
             const double x = std::stod(each[1]), half = 3.2 * static_cast<double>(each[3].size());
             boxes.push_back({x - half, x + half, std::stod(each[2]), each[3]});
         }
@@ -137,7 +138,7 @@ TEST(SectionDrawing, ShowsWhatTheSceneHasAndNothingElse) {
         EXPECT_EQ(count(column, name), 0u) << name;
     }
     for (const std::string* each : {&dam, &column})
-        for (const char* name : {"support", "crest", "toe", "grid"})
+        for (const char* name : {"support", "crest", "toe", "mpm-grid"})
             EXPECT_GT(count(*each, name), 0u) << name;
     EXPECT_NE(dam.find("PGA 0.3 g"), std::string::npos);
     EXPECT_NE(dam.find("Arias intensity 1.33 m/s"), std::string::npos);
@@ -145,12 +146,14 @@ TEST(SectionDrawing, ShowsWhatTheSceneHasAndNothingElse) {
     json only_soil = shipped("column");
     for (const char* part : {"fem", "transfer", "mpm"}) only_soil.erase(part);
     const std::string soil = as_svg(draft_of_scene(only_soil), {});
-    for (const char* name : {"support", "crest", "toe", "grid"}) EXPECT_EQ(count(soil, name), 0u);
+    for (const char* name : {"support", "crest", "toe", "mpm-grid"})
+        EXPECT_EQ(count(soil, name), 0u);
     EXPECT_EQ(count(soil, "region"), 1u);
 }
 
 TEST(SectionDrawing, WaterAboveTheGroundIsSeen) {
-    const std::string ponded = drawn("mochikoshi", {"/lem/water/line=[[-40,32],[60,32],[100,25],[280,0]]"});
+    const std::string ponded =
+        drawn("mochikoshi", {"/lem/water/line=[[-40,32],[60,32],[100,25],[280,0]]"});
     EXPECT_EQ(count(drawn("slope"), "water"), 0u);
     EXPECT_GT(count(ponded, "water"), 0u);
 }
@@ -167,16 +170,16 @@ TEST(SectionDrawing, DrawsAMeshOnceItIsThere) {
 std::map<std::string, mechanics::Vec2> marks_of(const std::string& svg) {
     std::map<std::string, mechanics::Vec2> marks;
     for (const auto& each :
-         all(svg, "<g class=\"fault\" data-pointer=\"([^\"]*)\">\n(?:<path[^>]*>\n)?<circle "
-                  "cx=\"([^\"]*)\" cy=\"([^\"]*)\""))
+         all(svg,
+             "<g class=\"fault\" data-pointer=\"([^\"]*)\">\n(?:<path[^>]*>\n)?<circle "
+             "cx=\"([^\"]*)\" cy=\"([^\"]*)\""))
         marks[each[1]] = {std::stod(each[2]), std::stod(each[3])};
     return marks;
 }
 
 TEST(SectionDrawing, FaultsAreMarkedWhereTheyAreAndListed) {
     const Draft draft = draft_of_scene(
-        shipped("slope"), {"/fem/crest=[70,12]", "/materials/slope_soil/density=-5",
-                           "/mpm/cfl=7"});
+        shipped("slope"), {"/fem/crest=[70,12]", "/materials/slope_soil/density=-5", "/mpm/cfl=7"});
     ASSERT_EQ(draft.faults.size(), 3u);
     const std::string svg = as_svg(draft, {});
     const auto marks = marks_of(svg);
@@ -255,10 +258,14 @@ constexpr Matrix deuteranope{{{0.367322, 0.860646, -0.227968},
 Triple oklab(const Triple& rgb, const Matrix& eye) {
     Triple seen{};
     for (std::size_t i = 0; i < 3; ++i)
-        seen[i] = std::clamp(eye[i][0] * rgb[0] + eye[i][1] * rgb[1] + eye[i][2] * rgb[2], 0.0, 1.0);
-    const double l = std::cbrt(0.4122214708 * seen[0] + 0.5363325363 * seen[1] + 0.0514459929 * seen[2]);
-    const double m = std::cbrt(0.2119034982 * seen[0] + 0.6806995451 * seen[1] + 0.1073969566 * seen[2]);
-    const double s = std::cbrt(0.0883024619 * seen[0] + 0.2817188376 * seen[1] + 0.6299787005 * seen[2]);
+        seen[i] =
+            std::clamp(eye[i][0] * rgb[0] + eye[i][1] * rgb[1] + eye[i][2] * rgb[2], 0.0, 1.0);
+    const double l =
+        std::cbrt(0.4122214708 * seen[0] + 0.5363325363 * seen[1] + 0.0514459929 * seen[2]);
+    const double m =
+        std::cbrt(0.2119034982 * seen[0] + 0.6806995451 * seen[1] + 0.1073969566 * seen[2]);
+    const double s =
+        std::cbrt(0.0883024619 * seen[0] + 0.2817188376 * seen[1] + 0.6299787005 * seen[2]);
     return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
             1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
             0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
