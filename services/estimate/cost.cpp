@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <variant>
 
 #include "core/phases/phases.hpp"
 #include "services/estimate/counts.hpp"
@@ -42,11 +41,6 @@ PhaseCost lem_cost(const scene::Lem& lem) {
             ""};
 }
 
-bool remembers(const materials::Law& law) {
-    return std::visit(
-        [](const auto& each) { return materials::Remembers<std::decay_t<decltype(each)>>; }, law);
-}
-
 /// Of a step and an element of the mean kind [s]. Bands of softening soil cost the whole mesh
 /// iterations, and each of them a factorisation.
 double rate_of(const scene::Scene& scene, const MeshCounts& mesh) {
@@ -58,7 +52,7 @@ double rate_of(const scene::Scene& scene, const MeshCounts& mesh) {
         if (material >= scene.materials.size()) continue;
         const materials::Law& law = scene.materials[material].law;
         all += elements[r];
-        if (remembers(law)) with_memory += elements[r];
+        if (materials::remembers(law)) with_memory += elements[r];
         if (materials::softening(law) != nullptr) softens = true;
     }
     const double share = all > 0.0 ? with_memory / all : 0.0;
