@@ -321,23 +321,33 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
             " stroke-dasharray=\"2 5\""));
     }
     draw_loads(canvas, scene, fem.surcharge, "FEM");
-    const Vec2 crest = canvas.panel.at(canvas.panel.inside(fem.crest));
+    canvas.keys.push_back({"<path d=\"M12 11l-6 -10h12z\" fill=\"" + std::string(green) + "\"/>\n",
+                           "FEM: monitored crest " + place(fem.crest)});
+    if (!canvas.panel.shows(fem.crest)) return;
+    const Vec2 crest = canvas.panel.at(fem.crest);
     canvas.over << "<path class=\"crest\" d=\"M" << px(crest.x()) << " " << px(crest.y())
                 << "l-6 -10h12z\" fill=\"" << green << "\" stroke=\"#fff\"/>\n";
     canvas.labels.take({crest.x() - 6, crest.y() - 10, crest.x() + 6, crest.y()});
     canvas.labels.beside(canvas.over, crest + Vec2(0, -5), "crest", green);
-    canvas.keys.push_back({"<path d=\"M12 11l-6 -10h12z\" fill=\"" + std::string(green) + "\"/>\n",
-                           "FEM: monitored crest " + place(fem.crest)});
 }
 
-void draw_runout_marks(Canvas& canvas, const scene::Scene& scene) {
-    if (!scene.mpm) return;
-    const scene::Mpm& mpm = *scene.mpm;
-    const Vec2 toe = canvas.panel.at(canvas.panel.inside(mpm.runout.toe));
+namespace {
+
+void draw_toe(Canvas& canvas, const Vec2& place) {
+    if (!canvas.panel.shows(place)) return;
+    const Vec2 toe = canvas.panel.at(place);
     canvas.over << "<path class=\"toe\" d=\"M" << px(toe.x()) << " " << px(toe.y())
                 << "l-6 10h12z\" fill=\"#b3261e\" stroke=\"#fff\"/>\n";
     canvas.labels.take({toe.x() - 6, toe.y(), toe.x() + 6, toe.y() + 10});
     canvas.labels.beside(canvas.over, toe + Vec2(0, 5), "toe", "#b3261e");
+}
+
+}  // namespace
+
+void draw_runout_marks(Canvas& canvas, const scene::Scene& scene) {
+    if (!scene.mpm) return;
+    const scene::Mpm& mpm = *scene.mpm;
+    draw_toe(canvas, mpm.runout.toe);
     canvas.keys.push_back({"<path d=\"M12 1l-6 10h12z\" fill=\"#b3261e\"/>\n",
                            "MPM: toe, runout counts from " + place(mpm.runout.toe)});
     if (mpm.gauges.empty()) return;

@@ -23,13 +23,13 @@ inline constexpr std::array<Fill, 12> fills{{{"#ae8543", false},
                                              {"#def2bf", false},
                                              {"#5f753e", true},
                                              {"#a4a4ed", false},
-                                             {"#38879a", true},
+                                             {"#38879a", false},
                                              {"#9ac77d", false},
                                              {"#6f303c", true},
                                              {"#71ebff", false},
                                              {"#41536e", true}}};
 
-/// Of the n-th material; the thirteenth has the first one's, and how_hatched tells them apart.
+/// Of the n-th material; the thirteenth has the first one's, and hatchings_of tells them apart.
 inline const Fill& fill_of(std::size_t material) { return fills[material % fills.size()]; }
 /// How many sets of lines lie on the fill: none, strokes one way, strokes both ways.
 inline std::size_t hatchings_of(std::size_t material) { return material / fills.size() % 3; }

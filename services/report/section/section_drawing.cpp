@@ -260,6 +260,11 @@ void draw_mark(Canvas& canvas, std::size_t number, const std::string& pointer, c
                     << "\" stroke-width=\"2.5\" stroke-dasharray=\"6 3\"/>\n";
     }
     const Vec2 at = panel.at(seen.front());
+    if (const Vec2 out = panel.at(trace.front()) - at; out.norm() > 1.0 && out.allFinite()) {
+        const Vec2 end = at + 18.0 * out.normalized();  // it lies farther away
+        canvas.over << "<path d=\"M" << px(at.x()) << " " << px(at.y()) << "L" << px(end.x()) << " "
+                    << px(end.y()) << "\" stroke=\"" << red << "\" stroke-width=\"4\"/>\n";
+    }
     canvas.over << "<circle cx=\"" << px(at.x()) << "\" cy=\"" << px(at.y()) << "\" r=\"9\" fill=\""
                 << red << "\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n"
                 << text_at(at.x(), at.y() + 4, std::to_string(number),

@@ -37,6 +37,9 @@ class Panel {
     Vec2 back(const Vec2& pixel) const;
     /// The world that the panel shows [m].
     scene::Box world() const;
+    bool shows(const Vec2& place) const {
+        return room().holds({at(place).x(), at(place).y(), at(place).x(), at(place).y()});
+    }
     /// The nearest place that the panel shows well [m].
     Vec2 inside(const Vec2& place) const;
 

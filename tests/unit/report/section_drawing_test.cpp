@@ -171,7 +171,7 @@ std::map<std::string, mechanics::Vec2> marks_of(const std::string& svg) {
     std::map<std::string, mechanics::Vec2> marks;
     for (const auto& each :
          all(svg,
-             "<g class=\"fault\" data-pointer=\"([^\"]*)\">\n(?:<path[^>]*>\n)?<circle "
+             "<g class=\"fault\" data-pointer=\"([^\"]*)\">\n(?:<path[^>]*>\n)*<circle "
              "cx=\"([^\"]*)\" cy=\"([^\"]*)\""))
         marks[each[1]] = {std::stod(each[2]), std::stod(each[3])};
     return marks;
