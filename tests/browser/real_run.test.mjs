@@ -47,6 +47,8 @@ test("the section is drawn while one types, with what is wrong at its place", as
     const region = () => page.locator("#drawing-picture path.region").count();
     const type = (document) => page.fill("#study", typeof document === "string" ? document : JSON.stringify(document, null, 4));
     await page.click("nav [data-opens=submit]");
+    await type("");
+    await until("what was typed before is gone", () => page.isHidden("#drawing"));
     await type(study);
     await until("the section", async () => (await region()) === study.scene.section.regions.length);
     assert.equal(await page.locator("#drawing-faults li").count(), 0);
@@ -58,7 +60,7 @@ test("the section is drawn while one types, with what is wrong at its place", as
     await type(wrong);
     await until("a red mark", async () => (await page.locator("#drawing-picture g.fault circle").count()) === 1);
     assert.deepEqual(await page.locator("#drawing-faults code").allTextContents(), ["/scene/mpm/runout/toe"]);
-    await page.locator("#drawing-picture g.fault circle").first().click();
+    await page.click("#drawing-picture g.fault circle + text");
     assert.match(await page.evaluate(() => getSelection().toString()), /1000/);
     await screenshot(page, "live_drawing_fault");
 
