@@ -100,7 +100,7 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
     return {phases::mpm.program,
             {{"points, about", points},
              {"steps, about", steps},
-             {"seconds until rest, about", duration}},
+             {mpm.until_rest ? "seconds until rest, about" : "seconds of flow", duration}},
             around(start_up + per_point_step * points * steps),
             around(bytes_beside + bytes_per_point * points * frames + bytes_per_mpm_line * lines),
             ""};
@@ -203,7 +203,7 @@ void learn(std::vector<PhaseCost>& costs, const std::string& scene,
         }
         const std::vector<const Earlier*>& used = same.empty() ? all : same;
         if (used.empty()) continue;
-        const double widening = used.size() > 1 ? 1.25 : 1.5;
+        const double widening = same.empty() ? fold : used.size() > 1 ? 1.25 : 1.5;
         const auto moved = [&](const Range& range, double Earlier::*ratio) {
             const auto [low, high] =
                 std::ranges::minmax(used, {}, [&](const Earlier* each) { return each->*ratio; });

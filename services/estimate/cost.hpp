@@ -45,9 +45,9 @@ struct Earlier {
     double bytes_ratio;
 };
 
-/// Moves the ranges to what earlier runs took, those of a scene of the same name where there are
-/// any: from their least to their largest ratio, widened by a quarter, at least by half for one run
-/// alone. Phases that have not run stay as they are.
+/// Moves the ranges to what earlier runs took, from their least to their largest ratio: of a scene of
+/// the same name where there are any, widened by a quarter, or by half for one run alone; else of
+/// others, widened by the factor of two that they know no better. Phases that have not run stay.
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier);
 
