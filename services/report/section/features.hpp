@@ -16,7 +16,7 @@ struct Key {
     std::string text;
 };
 
-/// A panel being drawn on. What lies beyond it is cut off where `clip` is open.
+/// A panel being drawn on.
 struct Canvas {
     Panel panel;
     Labels labels;
