@@ -24,7 +24,7 @@ struct Sent {
 Sent sent(const std::string& body) {
     json document = scene::parse_json(body, "document");
     report::BaseScene base = report::base_scene_of(document);
-    check::Checked checked = checked_scene(base.scene, base.overrides);
+    check::Checked checked = check_sent_scene(base.scene, base.overrides);
     checked.faults = seen_from_here(std::move(checked.faults));
     return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
 }

@@ -10,8 +10,8 @@
 namespace breach::orchestrator {
 
 /// check::checked_text, and a fault for each file that is not named by an absolute path: what is sent
-/// has no folder. Throws BadInput only where the document is no object.
-check::Checked checked_scene(const nlohmann::json& document,
-                             const std::vector<std::string>& overrides);
+/// has no folder. As read_study checks its scene. Throws BadInput only where it is no object.
+check::Checked check_sent_scene(const nlohmann::json& document,
+                                const std::vector<std::string>& overrides);
 
 }  // namespace breach::orchestrator

@@ -5,6 +5,7 @@
 
 #include "core/check/check.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/scene/file_paths.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -91,6 +92,34 @@ void need_part(const json& scene, const std::string& part, std::vector<Fault>& f
     if (scene.contains(part)) return;
     faults.push_back({"/scene/" + part, "a study needs this part of the scene, and it is missing",
                       "add \"" + part + "\" to the scene"});
+}
+
+/// A scene that was sent has no folder: its files are named by absolute paths, in overrides too.
+void need_absolute_files(json scene, const std::vector<std::string>& overrides,
+                         std::vector<Fault>& faults) {
+    for (const std::string& each : overrides) scene::apply_override(scene, each);
+    for (const std::string& key : scene::file_entries) {
+        const json::json_pointer at(key);
+        if (!scene.contains(at) || !scene[at].is_string() ||
+            scene[at].get_ref<const std::string&>().starts_with('/'))
+            continue;
+        faults.push_back({key,
+                          "the path is relative, but a scene sent to the service has no folder",
+                          "give the absolute path of the file on the service's machine"});
+    }
+}
+
+/// The scene's own check; what it could read, and everything that is wrong.
+check::Checked checked_scene(const json& document, const std::vector<std::string>& overrides) {
+    std::vector<Fault> faults;
+    need_absolute_files(document, overrides, faults);
+    check::Checked checked = check::checked_text(document.dump(), "scene", "/", overrides);
+    // A relative path was looked for below the root: one fault is enough.
+    std::erase_if(checked.faults, [&](const Fault& each) {
+        return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
+    });
+    checked.faults.insert(checked.faults.begin(), faults.begin(), faults.end());
+    return checked;
 }
 
 /// The faults with their pointers moved below `prefix`.
@@ -455,6 +484,10 @@ json read_whole_scene(std::string_view text) {
     const check::Checked checked = checked_scene(scene::parse_json(text, "scene"), {});
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return json::parse(checked.scene.completed);
+}
+
+check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides) {
+    return checked_scene(document, overrides);
 }
 
 }  // namespace breach::orchestrator
