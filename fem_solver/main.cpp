@@ -3,6 +3,7 @@
 #include "core/phases/phases.hpp"
 #include "core/process/phase.hpp"
 #include "fem_solver/element_bench/run.hpp"
+#include "fem_solver/mesh_alone.hpp"
 #include "fem_solver/run.hpp"
 #include "fem_solver/solve/profile.hpp"
 
@@ -16,11 +17,13 @@ int main(int argc, char** argv) {
         return breach::process::run_phase(argc - 1, argv + 1,
                                           breach::element_bench::calibrate_phase());
     }
+    if (command == "mesh")
+        return breach::process::run_phase(argc - 1, argv + 1, breach::fem::mesh_phase());
     breach::process::Phase phase{
         .name = breach::phases::fem.program,
         .purpose =
             "Dynamic finite elements: from geostatic stress to the failing slope. "
-            "Also: fem_solver element-test, fem_solver calibrate",
+            "Also: fem_solver mesh, fem_solver element-test, fem_solver calibrate",
         .inputs = {0, 0, "takes no input beside the scene"},
         .plan = breach::fem::plan,
         .run = breach::fem::run,

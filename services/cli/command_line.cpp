@@ -10,6 +10,7 @@
 
 #include "core/version/version.hpp"
 #include "services/cli/commands.hpp"
+#include "services/cli/draw.hpp"
 #include "services/cli/export_run.hpp"
 #include "services/cli/logs.hpp"
 #include "services/cli/table.hpp"
@@ -42,6 +43,7 @@ struct Arguments {
     TelemetryWish telemetry;
     std::filesystem::path folder;
     std::filesystem::path scene;
+    DrawWish draw;
 };
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
@@ -81,6 +83,7 @@ class CommandLine {
         add_accuracy_command();
         add_task_commands();
         add_file_commands();
+        add_drawing();
     }
 
     /// Throws CLI::ParseError.
@@ -329,6 +332,21 @@ class CommandLine {
             add("plan", "what a scene needs of each phase, what it leaves out, and why",
                 "scene.json", [this](Server& s, const Console& c) { return plan(s, a_.scene, c); });
         plan_->add_option("SCENE", a_.scene, "scene file (JSON)")->required();
+    }
+
+    void add_drawing() {
+        CLI::App* draw_ = add("draw", "the section of a scene or a study, and what it will cost",
+                              "scene.json --output section.svg",
+                              [this](Server& s, const Console& c) { return draw(s, a_.draw, c); });
+        draw_->add_option("SCENE|STUDY", a_.draw.document, "scene or study file (JSON)")
+            ->required();
+        draw_->add_option("--output", a_.draw.picture,
+                          "the picture (SVG); without it only the cost");
+        draw_
+            ->add_option("--set", a_.draw.overrides,
+                         "/json/pointer=value, changes the scene; repeatable")
+            ->allow_extra_args(false);
+        draw_->add_flag("--mesh", a_.draw.mesh, "draw the FEM's mesh, too; made once and kept");
     }
 
     void take_run(CLI::App* sub) { sub->add_option("RUN", a_.id, "which run")->required(); }

@@ -40,6 +40,11 @@ json read_scene_document(const std::filesystem::path& file) {
     return document;
 }
 
+bool names_a_scene(const std::filesystem::path& file) {
+    const json document = read_json(file);
+    return document.is_object() && document.contains("scene");
+}
+
 json read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     json study = read_json(file);
     if (!study.is_object()) return study;

@@ -20,6 +20,9 @@ nlohmann::json read_study(const std::filesystem::path& file,
 nlohmann::json study_around(const std::filesystem::path& scene,
                             const std::vector<std::string>& overrides);
 
+/// The file holds a study: a scene is in it, or named by it. Throws as read_study.
+bool names_a_scene(const std::filesystem::path& file);
+
 /// A scene with its mesh's path resolved.
 nlohmann::json read_scene_document(const std::filesystem::path& file);
 

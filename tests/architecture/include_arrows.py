@@ -36,9 +36,10 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
-    "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
-    "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
+    "services/estimate": {"core/materials", "core/phases", "core/scene"},
+    "services/orchestrator": {"services/estimate", "services/report", "core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
+    "services/cli": {"services/estimate", "services/report", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version"},
+    "services/report": {"core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.
@@ -47,8 +48,10 @@ floors = {
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
     "services/orchestrator": [{"records"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"triggers"}, {"dispatch", "accuracy"},
                               {"http"}],
-    "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
+    "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
 }
+# room -> what of it others may include: the rest is its own affair
+doors = {"services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question"]}
 # units that are one thing in several files: a door that its own parts include
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
@@ -141,6 +144,8 @@ def main():
                     other = room_of(target)
                     if other != room and other not in arrows[room]:
                         faults.append(f"{name}:{number}: {room} must not include {other}")
+                    if other != room and other in doors and target.rsplit(".", 1)[0] not in doors[other]:
+                        faults.append(f"{name}:{number}: {target} is no door of {other}")
                     if other == room and room in floors:
                         fault = floor_fault(room, name, target)
                         if fault:

@@ -91,6 +91,41 @@ test("a study with faults is refused with the places at fault", async () => {
     assert.deepEqual((await answer_of("/v1/runs")).runs, []);
 });
 
+test("the section is drawn while one types, with what is wrong at its place", async () => {
+    const region = () => page.locator("#drawing-picture path.region").count();
+    const type = (document) => page.fill("#study", typeof document === "string" ? document : JSON.stringify(document, null, 4));
+    await page.click("nav [data-opens=submit]");
+    await type("");
+    await until("what was typed before is gone", () => page.isHidden("#drawing"));
+    await type(study);
+    await until("the section", async () => (await region()) === study.scene.section.regions.length);
+    assert.equal(await page.locator("#drawing-faults li").count(), 0);
+    assert.match(await text_of("#drawing-picture"), /mpm_solver: about .* CPU/);
+    await screenshot(page, "live_drawing");
+
+    const wrong = structuredClone(study);
+    wrong.scene.mpm.runout.toe = [1000, 0];
+    await type(wrong);
+    await until("a red mark", async () => (await page.locator("#drawing-picture g.fault circle").count()) === 1);
+    assert.deepEqual(await page.locator("#drawing-faults code").allTextContents(), ["/scene/mpm/runout/toe"]);
+    await page.click("#drawing-picture g.fault circle + text");
+    assert.match(await page.evaluate(() => getSelection().toString()), /1000/);
+    await screenshot(page, "live_drawing_fault");
+
+    await type(JSON.stringify(study).slice(0, -1));
+    await until("the reason", async () => /not JSON yet.*last drawing/.test(await text_of("#drawing-note")));
+    assert.equal(await region(), study.scene.section.regions.length);
+    assert.ok(await page.locator("#drawing-picture.stale").count(), "the last drawing is pale");
+    await type({ ...study, scene: { format: "breachline-scene/1", name: "empty" } });
+    await until("the server's faults", async () => (await page.locator("#drawing-faults li").count()) > 1);
+    assert.ok(await page.locator("#drawing-picture.stale").count());
+    await type(study);
+    await until("fresh again", async () => (await page.locator("#drawing-picture.stale").count()) === 0);
+    await type("");
+    await until("nothing", () => page.isHidden("#drawing"));
+    await page.keyboard.press("Escape");
+});
+
 test("the plan of a scene is shown before anything runs", async () => {
     await page.click("nav [data-opens=submit]");
     await page.fill("#study", JSON.stringify(study, null, 4));

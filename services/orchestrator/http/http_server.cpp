@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "services/orchestrator/http/http_drawing.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
 namespace breach::orchestrator {
@@ -82,6 +83,7 @@ class HttpServer::Implementation {
         add_example_routes(router_, service);
         add_metric_routes(router_, service);
         add_page_routes(router_, service);
+        add_drawing_routes(router_, service);
         set_limits();
         set_doors();
         bind();

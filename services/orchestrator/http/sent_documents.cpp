@@ -37,22 +37,24 @@ bool is_about_a_missing_file(const Fault& fault) {
            fault.cause.find("does not exist") != std::string::npos;
 }
 
-/// `read`, with the remedy for a missing file that fits a sender who may sit elsewhere.
 template <class Read>
 auto read_here(Read read) {
     try {
         return read();
     } catch (const BadInput& error) {
-        std::vector<Fault> faults = error.faults();
-        for (Fault& each : faults)
-            if (is_about_a_missing_file(each))
-                each.remedy = "files are looked for on " + this_machine() +
-                              ": copy it there and give its absolute path there";
-        throw BadInput(error.file(), std::move(faults));
+        throw BadInput(error.file(), seen_from_here(error.faults()));
     }
 }
 
 }  // namespace
+
+std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
+    for (Fault& each : faults)
+        if (is_about_a_missing_file(each))
+            each.remedy = "files are looked for on " + this_machine() +
+                          ": copy it there and give its absolute path there";
+    return faults;
+}
 
 Study sent_study(const std::string& body) {
     if (is_a("scene", json::parse(body, nullptr, false), "section")) {

@@ -16,4 +16,7 @@ Study sent_study(const std::string& body);
 /// read_whole_scene.
 nlohmann::json sent_scene(const std::string& body);
 
+/// The faults with the remedy for a missing file that fits a sender who may sit elsewhere.
+std::vector<fault::Fault> seen_from_here(std::vector<fault::Fault> faults);
+
 }  // namespace breach::orchestrator

@@ -9,6 +9,7 @@
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 
 namespace breach::orchestrator {
@@ -516,6 +517,10 @@ json read_whole_scene(std::string_view text) {
     const check::Checked checked = checked_scene(scene::parse_json(text, "scene"), {});
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return json::parse(checked.scene.completed);
+}
+
+check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides) {
+    return checked_scene(document, overrides);
 }
 
 }  // namespace breach::orchestrator

@@ -55,9 +55,8 @@ async function body_of(response, kind) {
 
 const get_json = async (path, options) => body_of(await request(path, options), "json");
 
-function post_json(path, text) {
-    return get_json(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: text });
-}
+const json_body = (text) => ({ method: "POST", headers: { "Content-Type": "application/json" }, body: text });
+const post_json = (path, text) => get_json(path, json_body(text));
 
 const path_of = (...parts) => "/v1/" + parts.map(encodeURIComponent).join("/");
 
@@ -83,6 +82,10 @@ export const results_csv = (run, means) => path_of("runs", run, "results") + (me
 /// A file of the server as a Blob.
 export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);
+/// The section of a study or a scene as SVG text.
+export async function draw_document(text, with_mesh, signal) {
+    return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
+}
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
 /// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the

@@ -3,12 +3,14 @@
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
 import { find_pointer } from "./json_pointer.js";
+import { LiveDrawing } from "./live_drawing.js";
 
 export class SubmitDialog {
     /// submitted(run): the server took it.
     constructor(submitted) {
         this.submitted = submitted;
         this.dialog = by_id("submit-dialog");
+        this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {
             button.addEventListener("click", () => this.open());
         }
@@ -16,6 +18,7 @@ export class SubmitDialog {
         by_id("submit").addEventListener("click", () => this.submit());
         by_id("show-plan").addEventListener("click", () => this.show_plan());
         by_id("submit-close").addEventListener("click", () => this.dialog.close());
+        by_id("study").addEventListener("input", (event) => this.drawing.changed(event.target.value));
         by_id("study").addEventListener("keydown", (event) => {
             if (event.key === "Enter" && event.ctrlKey) this.submit();
         });
@@ -39,6 +42,7 @@ export class SubmitDialog {
     take_text(text) {
         by_id("study").value = text;
         this.clear();
+        this.drawing.changed(text);
     }
 
     async take_file(input) {
@@ -115,11 +119,15 @@ export class SubmitDialog {
         const faults = fault.faults ?? [];
         const count = faults.length === 1 ? "1 fault" : `${faults.length} faults`;
         set_text(by_id("fault-title"), faults.length && !/\d fault/.test(fault.message) ? `${fault.message} (${count})` : fault.message);
-        by_id("fault-list").replaceChildren(...faults.map((one) => element("li", {},
-            this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause}`, one.remedy ? element("span", { class: "remedy" }, one.remedy) : null)));
+        by_id("fault-list").replaceChildren(...faults.map((one) => this.fault_item(one)));
         by_id("faults").hidden = false;
         by_id("study").setAttribute("aria-invalid", "true");
         by_id("fault-title").focus();
+    }
+
+    fault_item(one) {
+        return element("li", {}, this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause}`,
+                       one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
     /// Selects the text that the pointer names.

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import fake_service
 from fake_service import Service, run_id
@@ -187,6 +188,62 @@ class Breach(unittest.TestCase):
     def test_plan(self):
         self.study()
         self.assertIn("the scene is dry", call(self.serve(), "plan", self.here / "scene.json").stdout)
+
+    def test_draw_needs_no_server(self):
+        scenes = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/scenes"
+        picture = self.here / "section.svg"
+        nowhere = "http://127.0.0.1:9"
+        done = call(nowhere, "draw", scenes / "mochikoshi.json", "--output", picture)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        root = xml.etree.ElementTree.parse(picture).getroot()
+        regions = [each.get("data-region") for each in root.iter() if each.get("class") == "region"]
+        self.assertEqual(regions, ["foundation", "tailings", "lower_dam", "upper_dam"])
+        for phase in ("lem_tool: ", "fem_solver: ", "transfer_tool: ", "mpm_solver: ", "All: "):
+            self.assertIn(f"\n{phase}", "\n" + done.stdout)
+            self.assertIn(phase, "".join(root.itertext()))
+        alone = call(nowhere, "draw", scenes / "slope.json", "--set", "/mpm/cell_size=0.5", "--json")
+        self.assertEqual([each["phase"] for each in json.loads(alone.stdout)["phases"]],
+                         ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"])
+
+    def test_draw_takes_a_study_and_marks_what_is_wrong(self):
+        scenes = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/scenes"
+        picture, study = self.here / "section.svg", self.here / "study.json"
+        (self.here / "dam.json").write_text((scenes / "slope.json").read_text())
+        study.write_text(json.dumps({"name": "s", "scene": "dam.json", "transfer_times": [0.5, 1, 1.5, 2]}))
+        done = call("http://127.0.0.1:9", "draw", study, "--output", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("All, with 4 runouts: ", done.stdout)
+        done = call("http://127.0.0.1:9", "draw", study, "--output", picture, "--set", "/fem/crest=[70,12]")
+        self.assertEqual((done.returncode, done.stdout), (65, ""))
+        self.assertIn("/scene/fem/crest: ", done.stderr)
+        marked = [each.get("data-pointer") for each in xml.etree.ElementTree.parse(picture).getroot().iter()
+                  if each.get("class") == "fault"]
+        self.assertEqual(set(marked), {"/scene/fem/crest"})
+
+    def test_draw_meshes_once(self):
+        scene = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/scenes/slope.json"
+        picture, caches = self.here / "section.svg", self.here / "caches"
+        made = []
+        for _ in range(2):
+            done = call("http://127.0.0.1:9", "draw", scene, "--mesh", "--output", picture, XDG_CACHE_HOME=str(caches))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("mesh of 1215 elements, 1327 nodes", picture.read_text())
+            self.assertIn("1,215 elements", done.stdout)
+            made.append([(file.name, file.stat().st_mtime_ns) for file in (caches / "breachline/meshes").iterdir()])
+        self.assertEqual(len(made[0]), 1)
+        self.assertEqual(made[0], made[1])
+        other = call("http://127.0.0.1:9", "draw", scene, "--mesh", "--set", "/section/regions/1/mesh/divisions=[45,16]",
+                     XDG_CACHE_HOME=str(caches))
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertEqual(len(list((caches / "breachline/meshes").iterdir())), 2)
+
+    def test_draw_of_nothing_is_65_and_leaves_no_picture(self):
+        for text in ("{", "[]", '{"name": "a scene"}'):
+            (self.here / "scene.json").write_text(text)
+            done = call("http://127.0.0.1:9", "draw", self.here / "scene.json", "--output", self.here / "none.svg")
+            self.assertEqual((done.returncode, done.stdout), (65, ""), text)
+            self.assertFalse((self.here / "none.svg").exists())
+        self.assertEqual(call("http://127.0.0.1:9", "draw", self.here / "nobody.json").returncode, 74)
 
     def test_export_holds_everything_verified(self):
         service, out = self.serve(looks=0), self.here / "out"

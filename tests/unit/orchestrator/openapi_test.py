@@ -119,6 +119,12 @@ class Described(unittest.TestCase):
         example = json.loads(get("/v1/examples", "/v1/examples"))["examples"][0]["name"]
         get("/v1/examples/{name}", f"/v1/examples/{example}")
         post("/v1/scenes/plan", "/v1/scenes/plan", 200, study([0.5])["scene"])
+        for body in (study([0.5]), study([0.5])["scene"]):
+            self.assertTrue(post("/v1/draw", "/v1/draw", 200, body).startswith(b"<svg "))
+            post("/v1/cost", "/v1/cost", 200, body)
+        post("/v1/draw", "/v1/draw?mesh=2", 400, study([0.5]))
+        post("/v1/draw", "/v1/draw", 422, {"scene": 1})
+        post("/v1/cost", "/v1/cost", 422, {"scene": {}})
         post("/v1/runs", "/v1/runs", 202, study([0.25]))
         post("/v1/sweeps", "/v1/sweeps", 202, study([0.25, 0.75]))
         get("/v1/runs/{id}", f"/v1/runs/{run}")

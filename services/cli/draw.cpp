@@ -1,0 +1,95 @@
+#include "services/cli/draw.hpp"
+
+#include <cstdlib>
+
+#include "core/exchange/publish.hpp"
+#include "core/phases/phases.hpp"
+#include "services/cli/study_file.hpp"
+#include "services/estimate/cost.hpp"
+#include "services/report/section/mesh_question.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using nlohmann::json;
+
+namespace {
+
+/// A scene is put into a study, so that overrides are read alike.
+json study_of(const DrawWish& wish, bool is_study) {
+    return is_study ? read_study(wish.document, wish.overrides)
+                    : study_around(wish.document, wish.overrides);
+}
+
+/// The fem_solver that was installed with this program; meshes are kept where caches are.
+report::Mesher mesher_here() {
+    const auto value = [](const char* name) {
+        const char* found = std::getenv(name);
+        return std::filesystem::path(found ? found : "");
+    };
+    std::filesystem::path caches = value("XDG_CACHE_HOME");
+    if (caches.empty()) caches = value("HOME").empty() ? "" : value("HOME") / ".cache";
+    if (caches.empty()) caches = std::filesystem::temp_directory_path();
+    return {std::filesystem::read_symlink("/proc/self/exe").parent_path() / phases::fem.program,
+            caches / "breachline" / "meshes"};
+}
+
+std::optional<report::DrawnMesh> wanted_mesh(const report::Draft& draft, const DrawWish& wish) {
+    const auto& fem = draft.scene.fem;
+    if (!draft.faults.empty() || !fem || (!wish.mesh && !fem->mesh.msh_file)) return std::nullopt;
+    return report::mesh_of(draft, mesher_here());
+}
+
+std::optional<estimate::MeshCounts> counts_of(const std::optional<report::DrawnMesh>& mesh) {
+    if (!mesh) return std::nullopt;
+    return estimate::MeshCounts{static_cast<double>(mesh->quads.size()),
+                                static_cast<double>(mesh->nodes.size())};
+}
+
+/// A server knows what earlier runs took; where none answers, or not to this, the scene alone counts.
+json cost_of(Server& server, const json& study, const scene::Scene& scene,
+             const std::optional<estimate::MeshCounts>& mesh) {
+    try {
+        return server.post("/v1/cost", study);
+    } catch (const Unreachable&) {
+    } catch (const Refused&) {
+    }
+    const auto costs = estimate::cost_of(scene, mesh);
+    const estimate::Repeats repeats = estimate::repeats_of(study);
+    json cost = estimate::as_json(costs, repeats);
+    cost["lines"] = estimate::lines_of(costs, repeats);
+    return cost;
+}
+
+}  // namespace
+
+ExitCode draw(Server& server, const DrawWish& wish, const Console& console) {
+    const bool is_study = names_a_scene(wish.document);
+    const json study = study_of(wish, is_study);
+    report::BaseScene base = report::base_scene_of(study);
+    if (!is_study) base.pointer = "";
+    check::Checked checked = check::checked_text(base.scene.dump(), wish.document.string(),
+                                                 wish.document.parent_path(), base.overrides);
+    const report::Draft draft = report::draft_of(std::move(base), std::move(checked));
+    std::vector<fault::Fault> faults = draft.faults;
+    for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
+    if (!report::can_be_drawn(draft)) throw fault::BadInput(wish.document.string(), faults);
+    report::Additions additions{.mesh = wanted_mesh(draft, wish)};
+    if (faults.empty()) {
+        const json cost = cost_of(server, study, draft.scene, counts_of(additions.mesh));
+        additions.foot = cost.at("lines");
+        if (console.style == Style::json) {
+            console.out << cost.dump(2) << "\n";
+        } else {
+            for (const std::string& each : additions.foot) console.out << each << "\n";
+        }
+    }
+    if (!wish.picture.empty())
+        exchange::publish_text(wish.picture, report::as_svg(draft, additions));
+    if (faults.empty()) return ExitCode::done;
+    console.notes << "breach: " << fault::BadInput(wish.document.string(), std::move(faults)).what()
+                  << "\n";
+    return ExitCode::bad_input;
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,19 @@
+#include "services/orchestrator/http/http_drawing.hpp"
+
+#include "services/orchestrator/http/preview.hpp"
+
+namespace breach::orchestrator {
+
+void add_drawing_routes(Router& router, Service& service) {
+    router.post("/v1/draw", [&](Call& call) {
+        call.allow_parameters({"mesh"});
+        const auto mesh = call.whole_number("mesh", 0, 0, 1) == 1 ? MeshDrawn::yes : MeshDrawn::no;
+        call.response.set_content(picture_of(service, call.json_body(), mesh), "image/svg+xml");
+    });
+    router.post("/v1/cost", [&](Call& call) {
+        call.allow_parameters({});
+        reply(call.response, cost_of(service, call.json_body()));
+    });
+}
+
+}  // namespace breach::orchestrator

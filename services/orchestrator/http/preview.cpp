@@ -1,0 +1,86 @@
+#include "services/orchestrator/http/preview.hpp"
+
+#include <optional>
+
+#include "core/phases/phases.hpp"
+#include "core/scene/schema.hpp"
+#include "services/estimate/cost.hpp"
+#include "services/orchestrator/accuracy/earlier_costs.hpp"
+#include "services/orchestrator/http/sent_documents.hpp"
+#include "services/orchestrator/study/checked_scene.hpp"
+#include "services/report/section/mesh_question.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+struct Sent {
+    json document;
+    report::Draft draft;
+};
+
+Sent sent(const std::string& body) {
+    json document = scene::parse_json(body, "document");
+    report::BaseScene base = report::base_scene_of(document);
+    check::Checked checked = check_sent_scene(base.scene, base.overrides);
+    checked.faults = seen_from_here(std::move(checked.faults));
+    return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
+}
+
+fault::BadInput refusal_of(const report::Draft& draft) {
+    std::vector<fault::Fault> faults = draft.faults;
+    for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
+    return {draft.base.pointer.empty() ? "scene" : "study", std::move(faults)};
+}
+
+std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::Scene& scene,
+                                           const std::optional<estimate::MeshCounts>& mesh = {}) {
+    std::vector<estimate::PhaseCost> costs = estimate::cost_of(scene, mesh);
+    estimate::learn(costs, scene.name, earlier_costs(service.store));
+    return costs;
+}
+
+report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) {
+    constexpr double most_elements = 2e5;  // a request is no place for hours of gmsh
+    for (const estimate::PhaseCost& each : estimate::cost_of(draft.scene))
+        if (each.phase == phases::fem.program && each.counts.at(0).second > most_elements)
+            throw fault::BadInput("scene",
+                                  {{draft.base.pointer + "/section",
+                                    "asks for more elements than are meshed for a picture",
+                                    "draw it without its mesh, or use breach draw --mesh"}});
+    return report::mesh_of(draft,
+                           {service.bin / phases::fem.program, service.data.scratch() / "meshes"});
+}
+
+}  // namespace
+
+std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh) {
+    const auto [document, draft] = sent(body);
+    if (!report::can_be_drawn(draft)) throw refusal_of(draft);
+    report::Additions additions;
+    if (draft.faults.empty()) {
+        std::optional<estimate::MeshCounts> counts;
+        if (mesh == MeshDrawn::yes && draft.scene.fem) {
+            additions.mesh = mesh_here(service, draft);
+            counts = {static_cast<double>(additions.mesh->quads.size()),
+                      static_cast<double>(additions.mesh->nodes.size())};
+        }
+        additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
+                                            estimate::repeats_of(document));
+    }
+    return report::as_svg(draft, additions);
+}
+
+json cost_of(const Service& service, const std::string& body) {
+    const auto [document, draft] = sent(body);
+    if (!draft.faults.empty()) throw refusal_of(draft);
+    const auto costs = cost_here(service, draft.scene);
+    const estimate::Repeats repeats = estimate::repeats_of(document);
+    json answer = estimate::as_json(costs, repeats);
+    answer["lines"] = estimate::lines_of(costs, repeats);
+    return answer;
+}
+
+}  // namespace breach::orchestrator

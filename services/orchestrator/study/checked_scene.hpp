@@ -1,0 +1,17 @@
+// A scene that came over the network, checked: what it could read, and everything that is wrong.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/check/check.hpp"
+
+namespace breach::orchestrator {
+
+/// check::checked_text, and a fault for each file that is not named by an absolute path: what is sent
+/// has no folder. As read_study checks its scene. Throws BadInput only where it is no object.
+check::Checked check_sent_scene(const nlohmann::json& document,
+                                const std::vector<std::string>& overrides);
+
+}  // namespace breach::orchestrator

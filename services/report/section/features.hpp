@@ -1,0 +1,46 @@
+// What is drawn over the regions of a section, part by part of the scene. Private to the section's
+// drawing.
+#pragma once
+
+#include <optional>
+#include <sstream>
+
+#include "core/scene/scene.hpp"
+#include "services/report/section/sheet.hpp"
+
+namespace breach::report {
+
+/// A line of the legend: a picture 24 px wide and 12 high, and what it means.
+struct Key {
+    std::string symbol;
+    std::string text;
+};
+
+/// A panel being drawn on.
+struct Canvas {
+    Panel panel;
+    Labels labels;
+    std::vector<Key> keys = {};
+    std::ostringstream svg = {};   ///< cut off at the panel
+    std::ostringstream over = {};  ///< marks and writing above it
+};
+
+/// The ground's line over [from, to], piece by piece where soil lies [m].
+std::vector<std::vector<Vec2>> ground_between(const scene::Scene& scene, double from, double to);
+
+/// Phreatic and piezometric lines of all phases, each line once; standing water.
+void draw_water(Canvas& canvas, const scene::Scene& scene);
+/// Search ranges, given surfaces, floor, loads.
+void draw_stability(Canvas& canvas, const scene::Scene& scene);
+/// Supports, free-field columns, crest.
+void draw_supports(Canvas& canvas, const scene::Scene& scene);
+/// Toe and gauges.
+void draw_runout_marks(Canvas& canvas, const scene::Scene& scene);
+/// The grid's border, floor with its friction, terrain.
+void draw_grid(Canvas& canvas, const scene::Scene& scene);
+
+/// "motion synthetic.csv: PGA 0.3 g, ...", with the Arias intensity of an acceleration; none: the
+/// scene has no motion that can be read.
+std::optional<std::string> motion_line(const scene::Scene& scene);
+
+}  // namespace breach::report

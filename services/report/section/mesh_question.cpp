@@ -1,0 +1,110 @@
+#include "services/report/section/mesh_question.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/exchange/publish.hpp"
+#include "core/phases/files.hpp"
+
+namespace breach::report {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that goes away with its files.
+class Scratch {
+  public:
+    explicit Scratch(const fs::path& in) {
+        std::string name = (in / "meshing-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw fault::IoError(name + ": cannot be made");
+        path_ = name;
+    }
+    ~Scratch() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+/// All that a mesh hangs on: what it is made of, and by which program.
+std::string key_of(const Draft& draft, const fs::path& program) {
+    const json completed = json::parse(draft.scene.completed);
+    const auto& file = draft.scene.fem->mesh.msh_file;
+    std::error_code error;
+    const auto built = fs::last_write_time(program, error).time_since_epoch().count();
+    return exchange::sha256_of_text(completed.at("section").dump() +
+                                    (file ? exchange::sha256_of_file(*file) : "") +
+                                    program.string() + std::to_string(built));
+}
+
+/// Says nothing on our own streams; the exit code, or nothing where it was killed.
+std::optional<int> exit_code_of(std::vector<std::string> words) {
+    std::vector<char*> arguments;
+    for (std::string& each : words) arguments.push_back(each.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t quiet;
+    posix_spawn_file_actions_init(&quiet);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    const int error =
+        posix_spawnp(&child, arguments[0], &quiet, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&quiet);
+    if (error != 0) throw fault::IoError(words[0] + ": cannot be started");
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
+}
+
+/// What the phase left behind instead of a result.
+[[noreturn]] void tell_fault(const fs::path& folder, const std::string& prefix) {
+    std::ifstream stream(folder / phases::files::fault);
+    const json told = json::parse(stream, nullptr, false);
+    std::vector<fault::Fault> faults;
+    if (told.is_object())
+        for (const json& each : told.value("faults", json::array()))
+            faults.push_back({prefix + each.value("pointer", ""), each.value("cause", ""),
+                              each.value("remedy", "")});
+    if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
+    throw fault::IoError("the mesh: " + (told.is_object()
+                                             ? told.value("summary", "fem_solver failed")
+                                             : std::string("fem_solver mesh does not answer")));
+}
+
+void make(const Draft& draft, const Mesher& mesher, const fs::path& file) {
+    const Scratch scratch(mesher.cache);
+    const fs::path scene = scratch.path() / "scene.json", output = scratch.path() / "mesh";
+    exchange::publish_text(scene, draft.base.scene.dump());
+    const auto code = exit_code_of({mesher.fem_solver.string(), "mesh", scene.string(), "--output",
+                                    output.string(), "--progress", "none"});
+    if (code != 0) tell_fault(output, draft.base.pointer);
+    fs::rename(output / phases::files::snapshot_name(0.0), file);
+}
+
+}  // namespace
+
+DrawnMesh mesh_of(const Draft& draft, const Mesher& mesher) {
+    std::error_code error;
+    fs::create_directories(mesher.cache, error);
+    if (error) throw fault::IoError(mesher.cache.string() + ": cannot be made: " + error.message());
+    const fs::path file = mesher.cache / (key_of(draft, mesher.fem_solver) + ".vtkhdf");
+    if (!fs::exists(file)) make(draft, mesher, file);
+    const exchange::MeshSnapshot mesh = exchange::read_mesh_snapshot(file).snapshot;
+    return {mesh.position_0, mesh.quads};
+}
+
+}  // namespace breach::report

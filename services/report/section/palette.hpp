@@ -1,0 +1,37 @@
+// Colours for materials. They differ in lightness, so that they stay apart in a black-and-white print
+// and for eyes without red or green cones. Knows nothing of scenes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace breach::report {
+
+/// A fill as "#rrggbb", and whether writing on it is to be white.
+struct Fill {
+    const char* colour;
+    bool dark;
+};
+
+/// Any two differ by at least 5 of CIE L* (from 93 to 29), and by at least 0.05 in OKLab for
+/// trichromats, protanopes and deuteranopes (Machado et al. 2009); neighbours in the list by far
+/// more.
+inline constexpr std::array<Fill, 12> fills{{{"#ae8543", false},
+                                             {"#b3d3ad", false},
+                                             {"#3f618f", true},
+                                             {"#bd9087", false},
+                                             {"#def2bf", false},
+                                             {"#5f753e", true},
+                                             {"#a4a4ed", false},
+                                             {"#38879a", false},
+                                             {"#9ac77d", false},
+                                             {"#6f303c", true},
+                                             {"#71ebff", false},
+                                             {"#41536e", true}}};
+
+/// Of the n-th material; the thirteenth has the first one's, and hatchings_of tells them apart.
+inline const Fill& fill_of(std::size_t material) { return fills[material % fills.size()]; }
+/// How many sets of lines lie on the fill: none, strokes one way, strokes both ways.
+inline std::size_t hatchings_of(std::size_t material) { return material / fills.size() % 3; }
+
+}  // namespace breach::report

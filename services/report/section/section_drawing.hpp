@@ -1,0 +1,55 @@
+// A scene's cross-section as a picture, before anything has run: regions and materials, water,
+// supports, loads, the motion, where the LEM searches, where the MPM's grid and terrain lie, and what
+// is wrong at its place. What a run has found is drawn elsewhere (figures/).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/check/check.hpp"
+
+namespace breach::report {
+
+/// The scene of a document: the document itself, or what a study holds, with the study's overrides
+/// for all of its variants.
+struct BaseScene {
+    nlohmann::json scene;
+    std::vector<std::string> overrides;
+    std::string pointer;  ///< of the scene in the document: "" or "/scene"
+};
+/// Throws BadInput for a study without its scene inside.
+BaseScene base_scene_of(const nlohmann::json& document);
+
+/// A scene that was read and checked, whatever is wrong with it.
+struct Draft {
+    BaseScene base;  ///< with the overrides applied
+    scene::Scene scene;
+    std::vector<fault::Fault> faults;  ///< pointers are those of the scene
+};
+/// `checked`: base.scene with base.overrides, read and checked by whoever knows its files.
+Draft draft_of(BaseScene base, check::Checked checked);
+
+/// A FEM's mesh, as far as it is seen.
+struct DrawnMesh {
+    std::vector<mechanics::Vec2> nodes;  ///< [m]
+    std::vector<std::array<std::int32_t, 4>> quads;
+};
+
+struct Additions {
+    std::optional<DrawnMesh> mesh = {};
+    std::vector<std::string> foot = {};  ///< lines below the picture: what it will cost
+};
+
+/// A region with a polygon, or a fault with a place.
+bool can_be_drawn(const Draft& draft);
+
+/// One SVG without script or style sheet, white below. Each region is one path of class "region"; each
+/// fault is marked in red at its places and listed, with its pointer in the document in the
+/// attribute data-pointer. The draft can be drawn.
+std::string as_svg(const Draft& draft, const Additions& additions);
+
+}  // namespace breach::report

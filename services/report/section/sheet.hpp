@@ -1,0 +1,83 @@
+// Where metres and labels stand on a drawing: a panel of true aspect ratio, and the room that labels
+// take from each other. Private to the section's drawing; knows nothing of scenes.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/scene/polygon.hpp"
+
+namespace breach::report {
+
+using mechanics::Vec2;
+
+/// A rectangle of the page [px], y downwards.
+struct Room {
+    double left, top, right, bottom;
+    bool meets(const Room& other) const {
+        return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+    }
+    bool holds(const Room& other) const {
+        return left <= other.left && other.right <= right && top <= other.top &&
+               other.bottom <= bottom;
+    }
+};
+
+/// A window on the world with the same scale in x and y, and a border of free pixels.
+class Panel {
+  public:
+    /// As large as fits into the given pixels, at least `least_width` wide; its top is at `top`.
+    Panel(const scene::Box& world, double top, double most_height);
+
+    Room room() const { return {left_, top_, left_ + width_, top_ + height_}; }
+    double scale() const { return scale_; }  ///< [px/m]
+    /// On the page [px].
+    Vec2 at(const Vec2& place) const;
+    Vec2 back(const Vec2& pixel) const;
+    /// The world that the panel shows [m].
+    scene::Box world() const;
+    bool shows(const Vec2& place) const {
+        return room().holds({at(place).x(), at(place).y(), at(place).x(), at(place).y()});
+    }
+    /// The nearest place that the panel shows well [m].
+    Vec2 inside(const Vec2& place) const;
+
+  private:
+    double left_, top_, width_, height_, scale_;
+    Vec2 low_;  ///< world at the panel's lower left corner [m]
+};
+
+/// One decimal: a tenth of a pixel is enough.
+std::string px(double value);
+/// "M0 1L2 3", a closed ring with "Z".
+std::string path_of(const Panel& panel, const std::vector<Vec2>& line);
+
+/// Metres along both sides.
+void draw_axes(std::ostream& svg, const Panel& panel);
+
+/// Labels that do not lie on each other.
+class Labels {
+  public:
+    explicit Labels(const Room& page) : page_(page) {}
+    static constexpr double size = 12.0;    ///< font [px]
+    static constexpr double height = 14.0;  ///< of a line [px]
+    static double width_of(const std::string& text);
+    /// The text's room when it is centred here [px].
+    static Room around(const Vec2& centre, const std::string& text);
+    bool is_free(const Room& room) const;
+    void take(const Room& room) { taken_.push_back(room); }
+    /// The first free place around a point, beginning with the nearest; false: there is none, and
+    /// nothing is drawn.
+    bool beside(std::ostream& svg, const Vec2& point, const std::string& text,
+                const std::string& colour);
+    /// Takes the room and writes.
+    void write(std::ostream& svg, const Vec2& centre, const std::string& text,
+               const std::string& colour, const std::string& more = "");
+
+  private:
+    Room page_;
+    std::vector<Room> taken_;
+};
+
+}  // namespace breach::report

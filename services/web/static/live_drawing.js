@@ -1,0 +1,73 @@
+// The section of what stands in the editor, drawn by the server while one types. What cannot be drawn leaves the last
+// drawing, paler, and says why.
+import * as api from "./api.js";
+import { by_id, set_text } from "./dom.js";
+
+const pause = 300; // ms without a key before the server is asked
+
+export class LiveDrawing {
+    /// fault_item(fault): a list item that leads to the fault's place; point_to(pointer): goes there.
+    constructor(fault_item, point_to) {
+        this.fault_item = fault_item;
+        by_id("drawing-picture").addEventListener("click", (event) => {
+            const mark = event.target.closest("[data-pointer]");
+            if (mark) point_to(mark.dataset.pointer);
+        });
+        by_id("drawing-mesh").addEventListener("change", () => this.changed(by_id("study").value));
+    }
+
+    /// The text is another one.
+    changed(text) {
+        clearTimeout(this.timer);
+        this.asked?.abort();
+        if (text.trim() === "") return this.forget();
+        this.timer = setTimeout(() => this.draw(text), pause);
+    }
+
+    forget() {
+        by_id("drawing-picture").replaceChildren();
+        this.tell("", []);
+        by_id("drawing").hidden = true;
+    }
+
+    async draw(text) {
+        try {
+            JSON.parse(text);
+        } catch (fault) {
+            return this.keep(`This is not JSON yet: ${fault.message}`, []);
+        }
+        this.asked = new AbortController();
+        try {
+            this.show(await api.draw_document(text, by_id("drawing-mesh").checked, this.asked.signal));
+        } catch (fault) {
+            if (fault.name !== "AbortError") this.keep(fault.message, fault.faults ?? []);
+        }
+    }
+
+    show(text) {
+        const drawn = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+        if (drawn.localName !== "svg") return this.keep("The server's drawing cannot be read", []);
+        const title = drawn.querySelector("title")?.textContent ?? "";
+        drawn.setAttribute("role", "img");
+        drawn.setAttribute("aria-label", `Section: ${title}`);
+        for (const size of ["width", "height"]) drawn.removeAttribute(size); // as wide as the page has room
+        by_id("drawing-picture").replaceChildren(document.importNode(drawn, true));
+        const faults = [...drawn.querySelectorAll("[data-cause]")].map(({ dataset }) => (
+            { pointer: dataset.pointer, cause: dataset.cause, remedy: dataset.remedy }));
+        const count = faults.length === 1 ? "1 fault, marked" : `${faults.length} faults, marked`;
+        this.tell(faults.length === 0 ? "" : `${count} in red where it has a place`, faults);
+        by_id("drawing-picture").classList.remove("stale");
+    }
+
+    keep(why, faults) {
+        const something = by_id("drawing-picture").firstElementChild !== null;
+        by_id("drawing-picture").classList.add("stale");
+        this.tell(something ? `${why}. This is the last drawing that was possible.` : why, faults);
+    }
+
+    tell(note, faults) {
+        set_text(by_id("drawing-note"), note);
+        by_id("drawing-faults").replaceChildren(...faults.map((one) => this.fault_item(one)));
+        by_id("drawing").hidden = false;
+    }
+}

@@ -1,0 +1,120 @@
+// What is counted before anything runs against what the phases count themselves, and what estimates
+// learn from runs. That the seconds are right is measured, not tested: services/estimate/README.md.
+#include "services/estimate/cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "services/estimate/counts.hpp"
+
+namespace breach::estimate {
+namespace {
+
+scene::Scene shipped(const std::string& name, const std::vector<std::string>& overrides = {}) {
+    return scene::read_scene(BREACH_ROOT "/workflows/scenes/" + name + ".json", overrides);
+}
+
+double elements(const scene::Scene& scene) {
+    double sum = 0.0;
+    for (const double each : elements_of(scene)) sum += each;
+    return sum;
+}
+
+const PhaseCost& of(const std::vector<PhaseCost>& costs, const std::string& phase) {
+    for (const PhaseCost& each : costs)
+        if (each.phase == phase) return each;
+    throw std::runtime_error("no " + phase);
+}
+
+TEST(Counts, AreThoseOfThePhases) {
+    EXPECT_EQ(elements(shipped("column")), 200.0);
+    EXPECT_EQ(elements(shipped("slope")), 1215.0);
+    // gmsh makes 5,494 elements of 1 m and 528 of 4 m of it
+    EXPECT_NEAR(elements(shipped("mochikoshi")), 5494.0, 5494.0 / 4);
+    EXPECT_NEAR(elements(shipped("mochikoshi", {"/section/element_size=4"})), 528.0, 528.0 / 4);
+    EXPECT_EQ(steps_of(*shipped("slope").fem).steps, 281.0);
+    EXPECT_EQ(points_of(shipped("slope"), 1215.0), 4860.0);
+    EXPECT_NEAR(searches_of(*shipped("slope").lem).surfaces, 18424.0, 1842.0);
+    EXPECT_NEAR(runout_step(shipped("column")), 9.1 / 3168, 0.3 * 9.1 / 3168);
+    EXPECT_NEAR(runout_step(shipped("slope")), 5.05 / 2541, 0.3 * 5.05 / 2541);
+}
+
+TEST(Counts, SoilWithoutFrictionFlowsLonger) {
+    const double with = runout_duration(shipped("slope"));
+    const double without = runout_duration(
+        shipped("slope", {"/materials/slope_soil/law/softening/phi_residual_deg=0"}));
+    EXPECT_GT(without, 5.0 * with);
+    EXPECT_EQ(runout_duration(shipped("slope", {"/mpm/duration=3"})), 3.0);
+}
+
+TEST(Cost, HasThePhasesOfTheScene) {
+    std::vector<std::string> phases;
+    for (const PhaseCost& each : cost_of(shipped("mochikoshi_runout")))
+        phases.push_back(each.phase);
+    EXPECT_EQ(phases, std::vector<std::string>{"mpm_solver"});
+    EXPECT_EQ(cost_of(shipped("mochikoshi")).size(), 4u);
+}
+
+TEST(Cost, GrowsWithTheWork) {
+    const auto coarse = cost_of(shipped("slope"));
+    const auto fine = cost_of(shipped("slope", {"/section/regions/0/mesh/divisions=[180,12]",
+                                                "/section/regions/1/mesh/divisions=[90,30]"}));
+    for (const char* phase : {"fem_solver", "transfer_tool", "mpm_solver"}) {
+        EXPECT_GT(of(fine, phase).cpu_seconds.low, 1.5 * of(coarse, phase).cpu_seconds.low)
+            << phase;
+        EXPECT_GT(of(fine, phase).bytes.low, 1.5 * of(coarse, phase).bytes.low) << phase;
+    }
+    EXPECT_EQ(of(fine, "lem_tool").cpu_seconds.low, of(coarse, "lem_tool").cpu_seconds.low);
+}
+
+TEST(Cost, AMeshThatIsThereIsCounted) {
+    const auto costs = cost_of(shipped("mochikoshi"), MeshCounts{5494, 5700});
+    EXPECT_EQ(of(costs, "fem_solver").counts.at(0),
+              (std::pair<std::string, double>{"elements", 5494}));
+}
+
+TEST(Cost, LearnsFromRunsOfItsOwnSceneFirst) {
+    auto costs = cost_of(shipped("slope"));
+    const PhaseCost before = of(costs, "fem_solver");
+    learn(costs, "slope",
+          {{"fem_solver", "slope", 3.0, 2.0},
+           {"fem_solver", "slope", 4.0, 2.0},
+           {"fem_solver", "other", 100.0, 100.0}});
+    const PhaseCost& after = of(costs, "fem_solver");
+    EXPECT_NEAR(after.cpu_seconds.low, before.cpu_seconds.middle() * 3.0 / 1.25, 1e-9);
+    EXPECT_NEAR(after.cpu_seconds.high, before.cpu_seconds.middle() * 4.0 * 1.25, 1e-9);
+    EXPECT_EQ(after.basis, "by 2 earlier runs of this scene");
+    EXPECT_EQ(of(costs, "mpm_solver").basis, "by the scene alone");
+    learn(costs, "slope", {{"mpm_solver", "other", 1.0, 1.0}});
+    EXPECT_EQ(of(costs, "mpm_solver").basis, "by 1 earlier run of other scenes");
+}
+
+TEST(Cost, AStudyRepeatsItsRunouts) {
+    const nlohmann::json scene = nlohmann::json::object();
+    EXPECT_EQ(repeats_of(scene).runouts, 1.0);
+    const Repeats repeats = repeats_of({{"scene", scene},
+                                        {"transfer_times", {{"from", 1}, {"to", 2}, {"step", 0.1}}},
+                                        {"variants", {scene, scene}},
+                                        {"draws", 3}});
+    EXPECT_EQ(repeats.runouts, 66.0);
+    const auto costs = cost_of(shipped("slope"));
+    const auto sum = as_json(costs, {4.0, 1.0});
+    const PhaseCost &lem = of(costs, "lem_tool"), &fem = of(costs, "fem_solver"),
+                    &transfer = of(costs, "transfer_tool"), &mpm = of(costs, "mpm_solver");
+    EXPECT_NEAR(sum["cpu_seconds"][0].get<double>(),
+                lem.cpu_seconds.low + fem.cpu_seconds.low +
+                    4 * (transfer.cpu_seconds.low + mpm.cpu_seconds.low),
+                1e-9);
+    EXPECT_EQ(lines_of(costs, {4.0, 1.0}).size(), 5u);
+}
+
+TEST(Cost, SurvivesStudiesThatAreNone) {
+    for (const char* text :
+         {"1", "[]", R"({"scene":1,"transfer_times":{"from":1},"variants":7,"draws":"x"})",
+          R"({"scene":{},"transfer_times":{"from":1,"to":2,"step":0}})"})
+        EXPECT_EQ(repeats_of(nlohmann::json::parse(text)).runouts, 1.0) << text;
+}
+
+}  // namespace
+}  // namespace breach::estimate
