@@ -36,7 +36,7 @@ arrows = {
     "fem_solver": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
+    "services/orchestrator": {"core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"core/fault", "core/scene", "core/exchange", "core/version"},
     "services/report": {"core/criteria", "core/exchange", "core/fault", "core/mechanics", "core/motion", "core/phases", "core/telemetry"},
 }

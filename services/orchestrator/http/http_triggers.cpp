@@ -68,7 +68,7 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     std::vector<fault::Fault> faults =
         scene::complete_and_check(entries, scene::study_schema().at("properties").at("triggers"));
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
-    const double span = span_of(json::parse(*service.store.scene_of(run)));
+    const double span = span_of(json::parse(service.store.scene_of(run).value()));
     CheckedTriggers triggers = check_triggers(entries, span, "", faults);
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
     if (triggers.live.empty())
