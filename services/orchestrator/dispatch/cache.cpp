@@ -114,6 +114,7 @@ void Cache::place_outputs(const Task& earlier, const Task& task) const {
     // A task that broke down can be tried again, which writes into its files.
     const bool may_be_written_to = earlier.state == TaskState::failed;
     fs::create_directories(folder);
+    drop_placed_outputs(data_, task);  // of a service that was killed: another candidate's
     const std::vector<Artifact> artifacts = store_.artifacts_of(earlier.id);
     json names = json::array();
     for (const Artifact& each : artifacts) names.push_back(each.name);

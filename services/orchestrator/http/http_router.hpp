@@ -37,7 +37,7 @@ struct Call {
     const httplib::Request& request;
     httplib::Response& response;
     std::vector<std::string> parts;  ///< what stands for the template's {…}, decoded
-    /// Of a path whose body is not kept in memory (HttpServer::is_streamed): reads it, once.
+    /// Of a path whose body is not kept in memory (HttpServer::answer): reads it, once.
     const httplib::ContentReader* body = nullptr;
 
     /// Unknown query parameters are 400, so that a misspelt filter is not silently ignored.
