@@ -1,8 +1,5 @@
-#include <algorithm>
-#include <fstream>
-#include <set>
-
 #include "core/check/findings.hpp"
+#include "core/check/mesh_file.hpp"
 #include "core/check/section.hpp"
 
 namespace breach::check {
@@ -37,56 +34,26 @@ void check_memory(const scene::Scene& scene, const std::string& law, Findings& f
 }
 
 constexpr const char* mesh_pointer = "/fem/msh_file";
-constexpr const char* mesh_remedy = "save the mesh as gmsh text format 4.1 or 2.2";
-
-/// Names of the physical surfaces that follow $PhysicalNames.
-std::set<std::string> surface_names(std::istream& in) {
-    std::set<std::string> names;
-    long count = 0;
-    in >> count;
-    std::string line;
-    std::getline(in, line);
-    for (long i = 0; i < count && std::getline(in, line); ++i) {
-        const auto first = line.find('"'), last = line.rfind('"');
-        if (line.starts_with("2 ") && first != std::string::npos && last > first)
-            names.insert(line.substr(first + 1, last - first - 1));
-    }
-    return names;
-}
-
 /// The head of the mesh file: its format, and a surface for every region. Nodes and elements are
 /// read when it is used.
 void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& file,
                      Findings& findings) {
-    std::ifstream in;
-    std::error_code error;  // a device or a pipe never ends
-    if (std::filesystem::is_regular_file(file, error)) in.open(file);
-    if (!in.is_open()) {
-        const bool exists = std::filesystem::exists(file, error);
-        refuse(findings, mesh_pointer,
-               (exists ? "cannot be read: " : "does not exist: ") + file.string(),
+    MeshHead head;
+    try {
+        head = read_mesh_head(file);
+    } catch (const fault::IoError& error) {
+        refuse(findings, mesh_pointer, error.what(),
                "give a path relative to the scene file, or the absolute path on the machine that "
                "computes");
         return;
-    }
-    std::string word, version;
-    in >> word >> version;
-    int binary = 0;
-    in >> binary;
-    if (word != "$MeshFormat" || (version != "2.2" && version != "4.1") || binary != 0) {
-        refuse(findings, mesh_pointer,
-               word != "$MeshFormat" ? "does not begin with $MeshFormat: " + file.string()
-               : binary != 0         ? "is a binary mesh"
-                                     : "is a mesh of format " + version,
-               mesh_remedy);
+    } catch (const fault::BadInput& error) {
+        for (const fault::Fault& each : error.faults())
+            refuse(findings, mesh_pointer, each.cause, each.remedy);
         return;
     }
-    while (in >> word && word != "$PhysicalNames" && word != "$Nodes") {
-    }
-    const auto names = word == "$PhysicalNames" ? surface_names(in) : std::set<std::string>{};
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const std::string& name = scene.section.regions[r].name;
-        if (names.contains(name)) continue;
+        if (head.surfaces.contains(name)) continue;
         refuse(findings, region_pointer(r),
                "\"" + name + "\" has no physical surface in " + file.string(),
                "add a physical surface of that name to the mesh");

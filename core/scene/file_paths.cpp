@@ -1,5 +1,6 @@
 #include "core/scene/file_paths.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace breach::scene {
@@ -10,7 +11,14 @@ const std::array<std::string, 2> file_entries{"/fem/msh_file", "/fem/motion/file
 
 namespace {
 
+constexpr std::string_view scheme = "file:sha256/";
+
 std::string absolute_in(const std::filesystem::path& folder, const std::string& file) {
+    if (file_reference(file)) {
+        const std::filesystem::path beside = file_at(folder, file);
+        std::error_code error;
+        return std::filesystem::exists(beside, error) ? beside.string() : file;
+    }
     return std::filesystem::absolute(folder / file).lexically_normal().string();
 }
 
@@ -26,6 +34,18 @@ void make_absolute(json& overrides, const std::filesystem::path& folder) {
     }
 }
 
+void collect_references(const json& value, std::vector<FileReference>& found) {
+    if (value.is_structured())
+        for (const json& each : value) collect_references(each, found);
+    if (!value.is_string()) return;
+    const std::string_view text = value.get_ref<const std::string&>();
+    const std::size_t at = text.find(scheme);
+    if (at == std::string_view::npos || (at > 0 && text[at - 1] != '=')) return;
+    const auto reference = file_reference(text.substr(at));
+    if (reference && std::ranges::find(found, reference->name, &FileReference::name) == found.end())
+        found.push_back(*reference);
+}
+
 /// Of an accuracy study: what all rungs share, and each rung.
 void make_rungs_absolute(json& accuracy, const std::filesystem::path& folder) {
     if (accuracy.contains("base")) make_absolute(accuracy["base"], folder);
@@ -36,6 +56,44 @@ void make_rungs_absolute(json& accuracy, const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+std::optional<FileReference> file_reference(std::string_view text) {
+    constexpr std::size_t digits = 64;
+    if (!text.starts_with(scheme)) return std::nullopt;
+    const std::string_view name = text.substr(scheme.size());
+    const std::string_view sha256 = name.substr(0, digits);
+    const std::string_view ending = name.substr(sha256.size());
+    const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+    const auto is_plain = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z'); };
+    const bool sound = sha256.size() == digits && std::ranges::all_of(sha256, is_hex) &&
+                       ending.size() >= 2 && ending.size() <= 8 && ending[0] == '.' &&
+                       std::ranges::all_of(ending.substr(1), is_plain);
+    if (!sound) return std::nullopt;
+    return FileReference{std::string(sha256), std::string(name)};
+}
+
+std::string reference_to(const std::string& name) { return std::string(scheme) + name; }
+
+std::vector<FileReference> references_in(const json& document) {
+    std::vector<FileReference> found;
+    collect_references(document, found);
+    return found;
+}
+
+std::filesystem::path file_at(const std::filesystem::path& folder, const std::string& entry) {
+    const auto reference = file_reference(entry);
+    return std::filesystem::absolute(reference ? folder / folder_of_references / reference->name
+                                               : folder / entry);
+}
+
+void resolve_references(json& scene, const std::filesystem::path& folder) {
+    for (const std::string& entry : file_entries) {
+        const json::json_pointer key(entry);
+        if (!scene.is_object() || !scene.contains(key) || !scene[key].is_string()) continue;
+        if (file_reference(scene[key].get_ref<const std::string&>()))
+            scene[key] = absolute_in(folder, scene[key]);
+    }
+}
 
 void make_files_absolute(json& scene, const std::filesystem::path& folder) {
     for (const std::string& entry : file_entries) {

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "core/scene/checks.hpp"
+#include "core/scene/file_paths.hpp"
 
 namespace breach::scene {
 
@@ -62,8 +63,8 @@ ElasticBase base_from(const json& base) {
 }
 
 BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) {
-    BaseMotion result{std::filesystem::absolute(folder / motion.at("file").get<std::string>()),
-                      std::nullopt, word_at<Baseline>(motion, "baseline")};
+    BaseMotion result{file_at(folder, motion.at("file").get<std::string>()), std::nullopt,
+                      word_at<Baseline>(motion, "baseline")};
     if (motion.contains("scale_to_pga_g")) {
         result.scale_to_pga_g = motion.at("scale_to_pga_g").get<double>();
     }
@@ -175,8 +176,7 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.element = word_at<ElementKind>(fem, "element");
     result.hourglass = word_at<HourglassKind>(fem, "hourglass");
     if (fem.contains("msh_file")) {
-        result.mesh.msh_file =
-            std::filesystem::absolute(folder / fem.at("msh_file").get<std::string>());
+        result.mesh.msh_file = file_at(folder, fem.at("msh_file").get<std::string>());
     }
     for (const json& each : fem.at("supports")) result.supports.push_back(support_from(each));
     for (const json& each : fem.at("stages")) result.stages.push_back(stage_from(each));

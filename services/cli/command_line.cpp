@@ -10,9 +10,11 @@
 
 #include "core/version/version.hpp"
 #include "services/cli/commands.hpp"
+#include "services/cli/completion.hpp"
 #include "services/cli/draw.hpp"
 #include "services/cli/export_run.hpp"
 #include "services/cli/logs.hpp"
+#include "services/cli/stored.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/watch.hpp"
 
@@ -29,8 +31,13 @@ struct Arguments {
     std::string server = default_server;
     std::string token_file;
     bool json = false;
+    bool quiet = false;
     bool csv = false;
     std::string id;  ///< run or task
+    std::vector<std::string> ids;
+    bool cancel_first = false;
+    std::vector<std::filesystem::path> files;
+    std::string shell;
     SubmitWish submit;
     bool watch = false;
     bool strict = false;
@@ -74,6 +81,8 @@ class CommandLine {
         app_.add_option("--token-file", a_.token_file, "file with the bearer token")
             ->envname("BREACH_TOKEN_FILE");
         app_.add_flag("--json", a_.json, "the server's answer as JSON");
+        app_.add_flag("-q,--quiet", a_.quiet,
+                      "only what was asked for, and faults; no progress, no remarks");
         app_.footer(
             "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed "
             "(with\n"
@@ -84,6 +93,8 @@ class CommandLine {
         add_task_commands();
         add_file_commands();
         add_drawing();
+        add_storage_commands();
+        add_completion();
     }
 
     /// Throws CLI::ParseError.
@@ -110,8 +121,11 @@ class CommandLine {
     ExitCode execute() {
         Server server(*address_from(a_.server), read_token(a_.token_file));
         const Style style = a_.json ? Style::json : a_.csv ? Style::csv : Style::people;
-        const Screen screen = isatty(STDOUT_FILENO) == 1 ? Screen::terminal : Screen::plain;
-        return command_(server, {std::cout, std::cerr, style, screen});
+        const Screen screen = a_.quiet                     ? Screen::quiet
+                              : isatty(STDOUT_FILENO) == 1 ? Screen::terminal
+                                                           : Screen::plain;
+        std::ostream nowhere(nullptr);
+        return command_(server, {std::cout, a_.quiet ? nowhere : std::cerr, style, screen});
     }
 
   private:
@@ -150,6 +164,13 @@ class CommandLine {
         sub->add_option("--key", a_.submit.idempotency_key,
                         "submitting again with the same key makes no second run");
         sub->add_flag("--watch", a_.watch, "watch the run until it ends");
+        take_sending(sub);
+    }
+
+    void take_sending(CLI::App* sub) {
+        sub->add_flag("--send-files", a_.submit.send_files,
+                      "send motions and meshes even to a server on this machine, which then keeps "
+                      "them as they are now");
     }
 
     void take_strict(CLI::App* sub) {
@@ -281,6 +302,8 @@ class CommandLine {
         add_order("pause", "start nothing new of a run; what runs goes on");
         add_order("resume", "go on with a run that was paused");
         add_order("retry", "try what failed, was skipped or cancelled once more");
+        add_order("pin", "keep a run whatever the server is told to remove");
+        add_order("unpin", "let a pinned run be removed again");
         CLI::App* priority_ = add(
             "priority", "which of the waiting tasks go first", "latest 10",
             [this](Server& s, const Console& c) { return set_priority(s, a_.id, a_.priority, c); });
@@ -347,6 +370,37 @@ class CommandLine {
                          "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         draw_->add_flag("--mesh", a_.draw.mesh, "draw the FEM's mesh, too; made once and kept");
+    }
+
+    void add_storage_commands() {
+        CLI::App* rm = add("rm", "remove runs, or files that were sent, from the server's disk",
+                           "latest --cancel", [this](Server& s, const Console& c) {
+                               const IfItRuns wish =
+                                   a_.cancel_first ? IfItRuns::cancel_first : IfItRuns::refuse;
+                               return remove_all(s, a_.ids, wish, c);
+                           });
+        rm->add_option("RUN|FILE", a_.ids, "runs, or files as file:sha256/...")->required();
+        rm->add_flag("--cancel", a_.cancel_first, "cancel what still goes on, then remove it");
+        add("du", "what holds the server's disk, and what removing each run would free", "--json",
+            [](Server& s, const Console& c) { return disk_use(s, c); });
+        CLI::App* files =
+            add("files", "the motions and meshes that were sent; with FILE: send it", "motion.csv",
+                [this](Server& s, const Console& c) {
+                    return a_.files.empty() ? list_files(s, c) : send_files(s, a_.files, c);
+                });
+        files->add_option("FILE", a_.files, "send these, print how a scene names them");
+        take_run(add("open", "print the dashboard's address of a run", "latest",
+                     [this](Server& s, const Console& c) { return open_page(s, a_.id, c); }));
+    }
+
+    void add_completion() {
+        CLI::App* sub = add("completion", "print a script that completes words in a shell",
+                            "bash > ~/.local/share/bash-completion/completions/breach",
+                            [this](Server&, const Console& c) {
+                                c.out << bash_completion(app_);
+                                return ExitCode::done;
+                            });
+        sub->add_option("SHELL", a_.shell, "bash")->required()->check(CLI::IsMember({"bash"}));
     }
 
     void take_run(CLI::App* sub) { sub->add_option("RUN", a_.id, "which run")->required(); }

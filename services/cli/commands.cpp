@@ -4,6 +4,7 @@
 
 #include "core/exchange/csv.hpp"
 #include "services/cli/accuracy_view.hpp"
+#include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/views.hpp"
@@ -50,7 +51,8 @@ std::string submit(Server& server, const SubmitWish& wish, const Console& consol
     if (!wish.transfer_times.empty()) study["transfer_times"] = wish.transfer_times;
     Headers headers;
     if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
-    const json run = server.post(wish.door, study, headers);
+    const json run = post_study(server, wish.door, std::move(study), headers,
+                                wish.send_files ? Sending::always : Sending::where_needed, console);
     if (console.style == Style::json) {
         show_json(run, console);
     } else {

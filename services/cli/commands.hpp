@@ -9,20 +9,10 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
+#include "services/cli/console.hpp"
 #include "services/cli/http/server.hpp"
 
 namespace breach::cli {
-
-enum class Style { people, json, csv };
-enum class Screen { terminal, plain };
-
-/// Where the answer goes (out: only what was asked for) and what is said on the side (notes).
-struct Console {
-    std::ostream& out;
-    std::ostream& notes;
-    Style style;
-    Screen screen;
-};
 
 struct SubmitWish {
     std::filesystem::path study;
@@ -31,6 +21,7 @@ struct SubmitWish {
     std::string idempotency_key;              ///< empty: none
     std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: as it says
     std::string door = "/v1/runs";            ///< or "/v1/sweeps"
+    bool send_files = false;                  ///< even to a server on this machine
 };
 
 /// Prints the new run's id, and returns it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "core/scene/file_paths.hpp"
 #include "services/cli/address.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/views.hpp"
@@ -92,6 +93,12 @@ json Crate::inputs_of(const json& provenance) const {
     if (!provenance.is_object() || !provenance.contains("inputs")) return inputs;
     for (const json& each : provenance["inputs"]) {
         const auto found = first_with_hash_.find(each.value("sha256", std::string()));
+        if (found != first_with_hash_.end()) inputs.push_back(reference(found->second));
+    }
+    if (provenance.value("phase", "") != "fem_solver")
+        return inputs;  // the only one that reads them
+    for (const auto& each : scene::references_in(provenance)) {
+        const auto found = first_with_hash_.find(each.sha256);
         if (found != first_with_hash_.end()) inputs.push_back(reference(found->second));
     }
     return inputs;

@@ -4,6 +4,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/scene/file_paths.hpp"
 #include "services/cli/crate.hpp"
 #include "services/cli/logs.hpp"
 #include "services/cli/table.hpp"
@@ -40,12 +41,11 @@ void write_json(const fs::path& file, const json& content) {
 }
 
 /// True when the file had to be fetched.
-bool fetch(Server& server, const json& artifact, const fs::path& file) {
-    const std::string promised = artifact.at("sha256");
+bool fetch(Server& server, const char* kind, const std::string& promised, const fs::path& file) {
     if (fs::is_regular_file(file) && exchange::sha256_of_file(file) == promised) return false;
     make_folder(file.parent_path());
     exchange::publish(file, [&](const fs::path& temporary) {
-        server.download(path_of({"artifacts", promised}), temporary);
+        server.download(path_of({kind, promised}), temporary);
         const std::string found = exchange::sha256_of_file(temporary);
         if (found != promised)
             throw IoError(file.string() + ": its SHA-256 is " + found + " instead of " + promised +
@@ -64,6 +64,7 @@ class Export {
         claim(folder_, id);
         const json tasks = run.at("tasks");
         const json study = run.at("study");
+        for (const json& each : run.value("files", json::array())) sent_file(each);
         run.erase("tasks");
         run.erase("study");
         keep_json("run.json", run, "the run");
@@ -87,6 +88,16 @@ class Export {
     }
 
   private:
+    /// Where a scene beside it finds what it names by its content.
+    void sent_file(const json& file) {
+        const auto reference = scene::file_reference(file.at("reference").get<std::string>());
+        if (!reference) throw IoError("the server names a file in a way that is not known here");
+        const std::string name = std::string(scene::folder_of_references) + "/" + reference->name;
+        if (fetch(server_, "files", reference->sha256, path_below(folder_, name))) ++fetched_;
+        ++kept_;
+        note(name, file.at("kind").get<std::string>() + " " + file.at("name").get<std::string>());
+    }
+
     void task(const std::string& id) {
         const json task = server_.get(path_of({"tasks", id}));
         const std::string name = "tasks/" + task.at("label").get<std::string>() + "/";
@@ -100,7 +111,8 @@ class Export {
         std::vector<std::string> outputs;
         for (const json& artifact : task.at("artifacts")) {
             const std::string file = name + artifact.at("name").get<std::string>();
-            if (fetch(server_, artifact, path_below(folder_, file))) ++fetched_;
+            if (fetch(server_, "artifacts", artifact.at("sha256"), path_below(folder_, file)))
+                ++fetched_;
             ++kept_;
             crate_.add_file({.path = file,
                              .description = "",

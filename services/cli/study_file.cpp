@@ -53,6 +53,8 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
         const auto scene = file.parent_path() / study["scene"].get<std::string>();
         scene_folder = scene.parent_path();
         study["scene"] = read_scene_document(scene);
+    } else if (study.contains("scene")) {
+        scene::resolve_references(study["scene"], scene_folder);  // as an export has them
     }
     add_overrides(study, overrides, scene_folder);
     return study;

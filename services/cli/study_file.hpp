@@ -10,7 +10,8 @@ namespace breach::cli {
 
 /// The study with its scene inline; paths of a scene (relative to the study), of a mesh
 /// and of a motion (relative to the scene, in overrides too) are resolved here, because what is
-/// sent has no folder. `overrides` are added to the study's own. What the study says is not judged:
+/// sent has no folder; so are references whose
+/// files lie beside the study, as in an export. `overrides` are added to the study's own. What the study says is not judged:
 /// that is the server's work. Throws IoError, BadInput (not JSON).
 nlohmann::json read_study(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides);

@@ -141,7 +141,7 @@ class Onlooker {
             for (const json& event : news) console_.out << event.dump() << std::endl;
         } else if (console_.screen == Screen::terminal) {
             picture_.draw(run);
-        } else {
+        } else if (console_.screen == Screen::plain) {
             diary_.write(run);
         }
         return run;
@@ -175,7 +175,7 @@ ExitCode watch(Server& server, const std::string& name, Doubt doubt, const Conso
                     run.erase("study");
                     console.out << json{{"run", run}}.dump() << std::endl;
                 } else {
-                    if (console.screen == Screen::plain)
+                    if (console.screen != Screen::terminal)
                         console.out << as_progress_line(run) << "\n";
                     for (const json& task : run.at("tasks"))
                         if (console.screen == Screen::terminal && task.at("state") == "failed")

@@ -53,8 +53,18 @@ int serve(const ServeSettings& settings) {
     const std::unique_ptr<Executor> executor = executor_of(settings);
     FrameReader frames;
     Dispatcher dispatcher(store, data, *executor, board, settings.dispatch);
-    Service service{store,    data,         dispatcher,        board, frames, settings.dispatch.bin,
-                    numerics, settings.web, settings.workflows};
+    Retention retention(store, data, settings.retention);
+    Service service{store,
+                    data,
+                    dispatcher,
+                    retention,
+                    board,
+                    frames,
+                    settings.dispatch.bin,
+                    numerics,
+                    settings.web,
+                    settings.workflows,
+                    settings.largest_file_mb << 20};
     HttpServer server(service, settings.http);
 
     std::jthread answering([&] { server.serve(); });

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "services/orchestrator/dispatch/dispatcher.hpp"
+#include "services/orchestrator/dispatch/retention.hpp"
 #include "services/orchestrator/executors/slurm_executor.hpp"
 #include "services/orchestrator/http/http_server.hpp"
 
@@ -20,6 +21,8 @@ struct ServeSettings {
     Place place = Place::local;
     SlurmSettings slurm;
     DispatchSettings dispatch;
+    RetentionSettings retention;
+    std::size_t largest_file_mb = 256;  ///< of the files that are sent
     HttpSettings http;
 };
 

@@ -69,6 +69,8 @@ CLI::App* ServeOptions::add_to(CLI::App& program) {
     serving->add_option("--web", settings_.web, "folder of the dashboard")->capture_default_str();
     add_door(*serving);
     add_dispatch(*serving);
+    add_files(*serving);
+    add_retention(*serving);
     add_slurm(*serving);
     return serving;
 }
@@ -104,6 +106,26 @@ void ServeOptions::add_dispatch(CLI::App& serving) {
         .add_option("--retry-delay", retry_seconds_,
                     "seconds before the first retry; doubled each time")
         ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
+}
+
+void ServeOptions::add_retention(CLI::App& serving) {
+    serving
+        .add_option("--keep-days", settings_.retention.keep_days,
+                    "remove runs that ended more days ago and are not pinned; not given: never")
+        ->check(CLI::NonNegativeNumber);
+    serving
+        .add_option("--keep-gb", settings_.retention.keep_gb,
+                    "remove the runs that ended first, not pinned ones, when the data folder holds "
+                    "more GB; not given: never")
+        ->check(CLI::NonNegativeNumber);
+}
+
+void ServeOptions::add_files(CLI::App& serving) {
+    serving
+        .add_option("--largest-file", settings_.largest_file_mb,
+                    "MB that a motion or a mesh which is sent may have")
+        ->check(CLI::Range(1, 65536))
         ->capture_default_str();
 }
 

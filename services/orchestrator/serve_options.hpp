@@ -22,6 +22,8 @@ class ServeOptions {
   private:
     void add_door(CLI::App& serving);
     void add_dispatch(CLI::App& serving);
+    void add_files(CLI::App& serving);
+    void add_retention(CLI::App& serving);
     void add_slurm(CLI::App& serving);
 
     ServeSettings settings_;

@@ -37,7 +37,7 @@ arrows = {
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
     "services/estimate": {"core/materials", "core/phases", "core/scene"},
-    "services/orchestrator": {"services/estimate", "services/report", "core/check", "core/criteria", "core/fault", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
+    "services/orchestrator": {"services/estimate", "services/report", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/report", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version"},
     "services/report": {"core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
 }

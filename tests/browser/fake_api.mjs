@@ -169,7 +169,7 @@ class FakeRun {
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
-                 tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused),
+                 tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused), pinned: Boolean(this.pinned),
                  message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
                  seconds_left: over || this.paused ? null : this.pace - this.age() };
     }
@@ -329,7 +329,12 @@ export class FakeApi {
         }
         const run = this.runs.find((candidate) => candidate.id === id);
         if (kind !== "runs" || !run) return problem(response, 404, "there is no such thing");
-        if (["cancel", "pause", "resume", "retry"].includes(rest[0])) return this.command(run, rest[0], response);
+        if (request.method === "DELETE") {
+            this.runs = this.runs.filter((each) => each !== run);
+            this.tell(run.id, "remove");
+            return json(response, { id: run.id, freed_bytes: 1000 }, 202);
+        }
+        if (["cancel", "pause", "resume", "retry", "pin", "unpin"].includes(rest[0])) return this.command(run, rest[0], response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
         if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means() });
         if (rest[0] === "telemetry") {
@@ -351,6 +356,7 @@ export class FakeApi {
     command(run, order, response) {
         if (order === "cancel") run.cancelled_at ??= Date.now();
         if (order === "pause") run.paused = true;
+        if (order.endsWith("pin")) run.pinned = order === "pin";
         if (order === "resume") run.paused = false;
         if (order === "retry") Object.assign(run, { began: Date.now(), pace: 600, cancelled_at: null });
         this.tell(run.id, order);

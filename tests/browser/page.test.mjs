@@ -326,6 +326,24 @@ test("cancelling asks first", async () => {
     assert.equal(asked("retry"), 1);
 });
 
+test("a run that is over is pinned, or removed when asked twice", async () => {
+    const run = api.add_run({ ...study, name: "to-remove" }, { pace: 1e-3 });
+    await open_run(run.id);
+    await page.click("#pin");
+    await until("it is pinned", async () => (await text_of("#pin")) === "Unpin" && await page.isHidden("#remove"));
+    await page.click("#pin");
+    await until("it is not", () => page.isVisible("#remove"));
+    await page.click("#remove");
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), "Keep it");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#remove-dialog:not([open])", { state: "attached" });
+    assert.ok(!api.requests.includes(`DELETE /v1/runs/${run.id}`));
+    await page.click("#remove");
+    await page.click("#remove-dialog .danger");
+    await until("it is gone from the list", async () => !/to-remove/.test(await text_of("#run-list")));
+    assert.ok(api.requests.includes(`DELETE /v1/runs/${run.id}`));
+});
+
 test("a run is paused and resumed, and says how long it will take", async () => {
     await open_run(api.add_run({ ...study, name: "to-pause" }, { pace: 600 }).id);
     await until("time left", async () => /about 9 min \d+ s left/.test(await text_of("#run-summary")));

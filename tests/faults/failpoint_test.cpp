@@ -19,7 +19,8 @@ std::vector<std::string> places() {
     std::vector<std::string> found;
     for (const std::string_view each : orchestrator::failpoint_names) {
         const bool elsewhere = each.starts_with("firing") || each.starts_with("migration") ||
-                               each.starts_with("sbatch");
+                               each.starts_with("sbatch") || each.starts_with("reuse") ||
+                               each.starts_with("removal") || each.starts_with("upload");
         if (!elsewhere) found.emplace_back(each);
     }
     return found;

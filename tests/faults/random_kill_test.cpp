@@ -38,7 +38,7 @@ class Campaign {
     explicit Campaign(int seed) : random_(static_cast<std::mt19937::result_type>(seed)) {
         for (const std::string_view each : orchestrator::failpoint_names) {
             const bool elsewhere = each.starts_with("firing") || each.starts_with("migration") ||
-                                   each.starts_with("sbatch");
+                                   each.starts_with("sbatch") || each.starts_with("upload");
             if (!elsewhere) places_.emplace_back(each);
         }
     }
@@ -48,14 +48,20 @@ class Campaign {
         std::cout << kills_ << " kills: " << kills_of_service_ << " of the service ("
                   << kills_at_failpoints_ << " at failpoints), " << kills_of_supervisors_
                   << " of supervisors, " << kills_of_phases_ << " of phases; "
-                  << acknowledged_.size() << " runs acknowledged\n";
+                  << acknowledged_.size() << " runs acknowledged, " << removed_.size()
+                  << " of them removed\n";
     }
 
     void settle_and_check() {
         {
             Service service(sandbox_, arguments());
             ASSERT_TRUE(service.valid()) << service.complaint();
+            for (const auto& [run, certain] : removed_) {
+                const int status = service.get("/v1/runs/" + run).status;
+                EXPECT_TRUE(status == 404 || (!certain && status == 200)) << run << " " << status;
+            }
             for (const auto& [key, run] : acknowledged_) {
+                if (removed_.contains(run)) continue;
                 const json end = service.wait_for_end(run, 120);
                 ASSERT_TRUE(end.is_object()) << key << " was acknowledged as " << run;
                 const bool cancelled = cancelled_.contains(run);
@@ -65,11 +71,21 @@ class Campaign {
                 if (end.at("state") == "succeeded") check_table(service, run);
                 EXPECT_EQ(run_of(service, key), run) << "one key, one run";
             }
+            expect_only_what_is_known(service);
         }
         expect_sound_history(sandbox_);
     }
 
   private:
+    /// Nothing piles up: every folder belongs to a run, and nothing waits for its removal.
+    void expect_only_what_is_known(Service& service) const {
+        EXPECT_TRUE(
+            eventually([&] { return service.get("/v1/storage").body.value("removing", -1) == 0; }));
+        for (const auto& entry : std::filesystem::directory_iterator(sandbox_.data() / "runs"))
+            EXPECT_EQ(service.get("/v1/runs/" + entry.path().filename().string()).status, 200)
+                << entry.path();
+    }
+
     static std::vector<std::string> arguments() {
         return {"--tries", "100", "--retry-delay", "0.01"};
     }
@@ -100,6 +116,7 @@ class Campaign {
             submit(service);
             wait_a_moment(60);
             if (below(8) == 0) cancel_one(service);
+            if (below(3) == 0) remove_one(service);
             if (below(3) == 0) kill_a_phase();
             if (below(4) == 0) kill_a_supervisor();
             if (service.get("/healthz").status == 0) {
@@ -118,7 +135,7 @@ class Campaign {
 
     static Answer post(Service& service, const std::string& key) {
         json wanted = study("fem_steps=3 mpm_steps=3", {0.25, 0.5});
-        wanted["reuse"] = false;
+        wanted["reuse"] = std::hash<std::string>()(key) % 2 == 0;
         return service.post("/v1/runs", wanted.dump(), "application/json",
                             {{"Idempotency-Key", key}});
     }
@@ -143,6 +160,16 @@ class Campaign {
         std::advance(chosen, below(static_cast<int>(acknowledged_.size())));
         cancelled_.insert(chosen->second);  // even if the answer is lost
         service.post("/v1/runs/" + chosen->second + "/cancel", "");
+    }
+
+    /// What still goes on is refused. An answer that was lost may have meant either.
+    void remove_one(Service& service) {
+        if (acknowledged_.empty()) return;
+        auto chosen = acknowledged_.begin();
+        std::advance(chosen, below(static_cast<int>(acknowledged_.size())));
+        const int status = service.ask("DELETE", "/v1/runs/" + chosen->second).status;
+        if (status == 202) removed_[chosen->second] = true;
+        if (status == 0) removed_.try_emplace(chosen->second, false);
     }
 
     std::vector<pid_t> all_phases() const {
@@ -190,6 +217,7 @@ class Campaign {
     std::map<std::string, std::string> acknowledged_;  ///< run, by key
     std::string unanswered_;                           ///< key whose answer was lost
     std::set<std::string> cancelled_;
+    std::map<std::string, bool> removed_;  ///< true: acknowledged
 };
 
 TEST(RandomKills, LeaveASoundHistoryAndLoseNothing) {

@@ -76,9 +76,11 @@ class Stand : public httplib::Server {
         : data_(folder_.path()),
           store_(data_.database()),
           dispatcher_(store_, data_, executor_, board_, without_slots(folder_.path())),
+          retention_(store_, data_, {}),
           service_{store_,
                    data_,
                    dispatcher_,
+                   retention_,
                    board_,
                    frames_,
                    folder_.path(),
@@ -90,6 +92,8 @@ class Stand : public httplib::Server {
         add_run_routes(router_, service_);
         add_trigger_routes(router_, service_);
         add_output_routes(router_, service_);
+        add_storage_routes(router_, service_);
+        add_file_routes(router_, service_);
         add_event_routes(router_, service_, stopping_);
         add_example_routes(router_, service_);
         add_metric_routes(router_, service_);
@@ -115,6 +119,7 @@ class Stand : public httplib::Server {
     NoExecutor executor_;
     FrameReader frames_;
     Dispatcher dispatcher_;
+    Retention retention_;
     Service service_;
     Router router_;
     std::atomic<bool> stopping_ = true;  // a stream of events ends at once

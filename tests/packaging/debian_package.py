@@ -103,6 +103,8 @@ class DebianPackage(unittest.TestCase):
         self.assertEqual(files_below(share / "web"), files_below(source / "services/web/static"))
         for room in ("schema", "scenes", "studies"):
             self.assertEqual(files_below(share / room), files_below(source / "workflows" / room))
+        completion = (self.root / "usr/share/bash-completion/completions/breach").read_text()
+        self.assertIn("submit) options=", completion)
         control = (self.root / "DEBIAN/control").read_text()
         for library in ("libhdf5", "libcpp-httplib", "libsqlite3", "libssl3", "sqlite3", "adduser"):
             self.assertIn(library, control)

@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace breach::cli {
@@ -44,7 +45,7 @@ std::vector<fault::Fault> faults_of(const json& problem) {
     const std::string detail = text_or(problem, "detail", "");
     const std::string summary = detail.empty() ? title : title + ": " + detail;
     if (status == 429 || status >= 500) throw Unreachable(summary);
-    throw Refused(status, summary, faults_of(problem));
+    throw Refused(status, summary, faults_of(problem), text_or(problem, "type", ""));
 }
 
 json parsed(const std::string& body) {
@@ -98,6 +99,37 @@ json Server::post(const std::string& path, const json& body, const Headers& head
         connection_->client.Post(connection_->prefix + path, sent, body.dump(), "application/json");
     return parsed(good(result, connection_->origin).body);
 }
+
+json Server::remove(const std::string& path) {
+    const auto result = connection_->client.Delete(connection_->prefix + path);
+    return parsed(good(result, connection_->origin).body);
+}
+
+std::string Server::reference_of(const std::string& path) {
+    const auto result = connection_->client.Head(connection_->prefix + path);
+    if (result && result->status == 404) return {};
+    return good(result, connection_->origin).get_header_value("X-File-Reference");
+}
+
+json Server::upload(const std::string& path, const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    if (!in || error) throw fault::IoError(file.string() + ": cannot be read");
+    const auto result = connection_->client.Post(
+        connection_->prefix + path, size,
+        [&](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            std::vector<char> part(std::min<std::size_t>(length, 1 << 16));
+            in.seekg(static_cast<std::streamoff>(offset));
+            in.read(part.data(), static_cast<std::streamsize>(part.size()));
+            const auto count = static_cast<std::size_t>(in.gcount());
+            return count > 0 && sink.write(part.data(), count);
+        },
+        "application/octet-stream");
+    return parsed(good(result, connection_->origin).body);
+}
+
+std::string Server::origin() const { return connection_->origin + connection_->prefix; }
 
 void Server::download(const std::string& path, const std::filesystem::path& file) {
     std::ofstream out(file, std::ios::binary | std::ios::trunc);

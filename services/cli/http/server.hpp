@@ -25,14 +25,21 @@ class Unreachable : public std::runtime_error {
 /// The server answered no (4xx): problem+json, RFC 9457.
 class Refused : public std::runtime_error {
   public:
-    Refused(int status, const std::string& summary, std::vector<fault::Fault> faults)
-        : std::runtime_error(summary), status_(status), faults_(std::move(faults)) {}
+    Refused(int status, const std::string& summary, std::vector<fault::Fault> faults,
+            std::string type = {})
+        : std::runtime_error(summary),
+          status_(status),
+          faults_(std::move(faults)),
+          type_(std::move(type)) {}
     int status() const { return status_; }
+    /// "/problems/..."; empty: the server did not say.
+    const std::string& type() const { return type_; }
     const std::vector<fault::Fault>& faults() const { return faults_; }
 
   private:
     int status_;
     std::vector<fault::Fault> faults_;
+    std::string type_;
 };
 
 struct TextAnswer {
@@ -54,6 +61,13 @@ class Server {
     TextAnswer get_text(const std::string& path);
     nlohmann::json post(const std::string& path, const nlohmann::json& body,
                         const Headers& headers = {});
+    nlohmann::json remove(const std::string& path);
+    /// By which a scene names the file at this path; empty: the server does not have it.
+    std::string reference_of(const std::string& path);
+    /// Streams a file to the server.
+    nlohmann::json upload(const std::string& path, const std::filesystem::path& file);
+    /// "http://host:port", with the prefix.
+    std::string origin() const;
     /// Streams the answer into a file, as it may be larger than memory.
     void download(const std::string& path, const std::filesystem::path& file);
 

@@ -93,12 +93,12 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
     std::vector<std::string> overrides = plan.base;
     overrides.insert(overrides.end(), setting.begin(), setting.end());
 
-    const json of = *store.study_of(run);
+    const json of = store.study_of(run).value();
     json study{{"format", of.at("format")},
                {"name", of.at("name")},
                {"title", "Blind check of " + run + ": " + plan.ladders[row.setting.ladder].name +
                              " " + std::to_string(row.setting.step + 1)},
-               {"scene", json::parse(*store.scene_of(run))},
+               {"scene", json::parse(store.scene_of(run).value())},
                {"overrides", overrides},
                {"draws", wish.repeats * mean_of},
                {"first_draw", plan.draws},
@@ -119,7 +119,7 @@ std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data
                                       const std::string& run) {
     const auto study = store.study_of(run);
     if (!study || !study->contains("check")) return std::nullopt;
-    const json scene = json::parse(*store.scene_of(run));
+    const json scene = json::parse(store.scene_of(run).value());
     std::vector<fault::Fault> none;  // the study was checked when it was accepted
     BlindCheck check;
     check.plan = read_blind_check(study->at("check"), scene, study->at("draws"), none);

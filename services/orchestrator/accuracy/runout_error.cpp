@@ -119,11 +119,12 @@ class Studies {
         std::optional<Estimate> best;
         for (auto each = first; each != last && !(best && best->error); ++each) {
             const AccuracyRung& rung = each->second;
-            if (question_of(*store_.task(rung.mpm_task)) != question) continue;
+            const auto rung_task = store_.task(rung.mpm_task);
+            if (!rung_task || question_of(*rung_task) != question) continue;
             auto table = tables_.find(rung.run);
             if (table == tables_.end())
                 table = tables_.emplace(rung.run, accuracy_table(store_, data_, rung.run)).first;
-            if (is_runout(table->second->plan.quantity))
+            if (table->second && is_runout(table->second->plan.quantity))
                 best = estimate_of(*table->second, rung.variant, rung.run);
         }
         return best;
@@ -134,7 +135,9 @@ class Studies {
         if (!mpm.recipe) return std::nullopt;
         if (!mpm.parent) return Question{*mpm.recipe, "", ""};
         const auto transfer = store_.task(*mpm.parent);
-        return questions_.of(mpm, *transfer, *store_.task(*transfer->parent));
+        if (!transfer || !transfer->parent) return std::nullopt;  // its run was removed
+        const auto fem = store_.task(*transfer->parent);
+        return fem ? questions_.of(mpm, *transfer, *fem) : std::nullopt;
     }
 
     const Store& store_;
@@ -224,7 +227,8 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         if (known == by_variant.end()) {
             std::optional<Estimate> found;
             if (!studies.none())
-                found = studies.estimate(*store.task(value_of(row, "mpm_task").get<std::string>()));
+                found = studies.estimate(
+                    store.task(value_of(row, "mpm_task").get<std::string>()).value());
             known = by_variant.emplace(variant, std::move(found)).first;
         }
         std::optional<Estimate> estimate = known->second;
@@ -246,8 +250,9 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         auto known = by_repeated.find(place.first);
         if (const auto task = scatter.task_of(place); task && known == by_repeated.end())
             known = by_repeated
-                        .emplace(place.first, studies.none() ? std::nullopt
-                                                             : studies.estimate(*store.task(*task)))
+                        .emplace(place.first, studies.none()
+                                                  ? std::nullopt
+                                                  : studies.estimate(store.task(*task).value()))
                         .first;
         const Estimate estimate = of_mean(known == by_repeated.end() ? std::nullopt : known->second,
                                           scatter.of_mean(place));

@@ -1,28 +1,34 @@
 #include "services/orchestrator/dispatch/cache.hpp"
 
-#include <fcntl.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/exchange/provenance.hpp"
+#include "core/exchange/publish.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
+#include "services/orchestrator/files/sync_folder.hpp"
 
 namespace breach::orchestrator {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 namespace {
 
 constexpr std::size_t most_candidates = 8;
 
-/// A machine that goes down must not find the answer noted and its files gone.
-void sync_folder(const fs::path& folder) {
-    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    fsync(descriptor);
-    close(descriptor);
-}
-
 }  // namespace
+
+void drop_placed_outputs(const DataFolder& data, const Task& task) {
+    std::ifstream stream(data.reused(task));
+    if (!stream) return;
+    const json names = json::parse(stream, nullptr, false);
+    if (names.is_array())
+        for (const json& each : names) fs::remove(data.output(task) / each.get<std::string>());
+    fs::remove(data.reused(task));
+}
 
 Cache::Cache(Store& store, const DataFolder& data, std::function<void(const std::string&)> examined)
     : store_(store), data_(data), examined_(std::move(examined)), queue_([this](const Task& task) {
@@ -50,10 +56,12 @@ void Cache::look_up(const Task& task) {
             exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
     std::optional<std::string> refusal;
     for (const Task& earlier : store_.answers_to(*task.recipe, input_sha256, most_candidates)) {
-        refusal = damage_of(earlier);
-        if (refusal) continue;
-        place_outputs(earlier, task);
-        store_.write([&](Transaction& transaction) { transaction.reuse_task(task.id, earlier); });
+        const auto damage = damage_of(earlier);
+        if (damage) {
+            if (store_.task(earlier.id)) refusal = damage;  // else its run was removed meanwhile
+            continue;
+        }
+        if (!take(earlier, task)) continue;
         spdlog::info("{} ({}): the same as {}", task.id, task.label, earlier.id);
         return;
     }
@@ -61,6 +69,31 @@ void Cache::look_up(const Task& task) {
     spdlog::warn("{} ({}): {}", task.id, task.label, *refusal);
     store_.write(
         [&](Transaction& transaction) { transaction.note_cache_refusal(task.id, *refusal); });
+}
+
+/// The run of `earlier` can be removed at any moment: what was placed counts only when the store, in
+/// the same transaction, still had it.
+bool Cache::take(const Task& earlier, const Task& task) const {
+    bool taken = false;
+    try {
+        place_outputs(earlier, task);
+        reach(Failpoint::reuse_placed);
+        store_.write(
+            [&](Transaction& transaction) { taken = transaction.reuse_task(task.id, earlier); });
+    } catch (const std::exception&) {
+        // Not known to be stored is not known not to be: the disk may have refused only the answer.
+        const auto now = store_.task(task.id);
+        if (now && now->state == TaskState::ready) drop_placed_outputs(data_, task);
+        if (!store_.task(earlier.id)) return false;  // its files went while they were linked
+        throw;
+    }
+    if (taken) {
+        std::error_code error;  // what stays there is looked at only before a first attempt
+        fs::remove(data_.reused(task), error);
+    } else {
+        drop_placed_outputs(data_, task);
+    }
+    return taken;
 }
 
 std::optional<std::string> Cache::damage_of(const Task& earlier) const {
@@ -81,7 +114,12 @@ void Cache::place_outputs(const Task& earlier, const Task& task) const {
     // A task that broke down can be tried again, which writes into its files.
     const bool may_be_written_to = earlier.state == TaskState::failed;
     fs::create_directories(folder);
-    for (const Artifact& each : store_.artifacts_of(earlier.id)) {
+    drop_placed_outputs(data_, task);  // of a service that was killed: another candidate's
+    const std::vector<Artifact> artifacts = store_.artifacts_of(earlier.id);
+    json names = json::array();
+    for (const Artifact& each : artifacts) names.push_back(each.name);
+    exchange::publish_text(data_.reused(task), names.dump());
+    for (const Artifact& each : artifacts) {
         const fs::path from = data_.output(earlier) / each.name;
         const fs::path to = folder / each.name;
         fs::create_directories(to.parent_path());

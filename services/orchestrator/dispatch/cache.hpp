@@ -13,6 +13,10 @@
 
 namespace breach::orchestrator {
 
+/// A task about to run must not find, and write into, the files of an answer that was placed and not
+/// taken because the service was killed in between: they may be links to another run's.
+void drop_placed_outputs(const DataFolder& data, const Task& task);
+
 class Cache {
   public:
     /// `examined` is called on the cache's thread with each task that was looked up; its state says
@@ -29,6 +33,8 @@ class Cache {
     void look_up(const Task& task);
     /// Why the outputs of `earlier` cannot be used; nothing when they can.
     std::optional<std::string> damage_of(const Task& earlier) const;
+    /// False: `earlier` or the task is not what it was any more; nothing of it is left.
+    bool take(const Task& earlier, const Task& task) const;
     void place_outputs(const Task& earlier, const Task& task) const;
 
     Store& store_;

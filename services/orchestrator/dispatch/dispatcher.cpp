@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
+#include "core/scene/file_paths.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
@@ -267,6 +268,7 @@ bool Dispatcher::leave_to_the_cache(const Task& task) {
 /// One commit before the processes are started and one after, for all of them.
 void Dispatcher::start(const std::vector<Task>& tasks) {
     std::vector<std::int64_t> numbers;
+    for (const Task& task : tasks) drop_placed_outputs(data_, task);
     reach(Failpoint::claim_before);
     store_.write([&](Transaction& transaction) {
         numbers.clear();
@@ -302,14 +304,29 @@ void Dispatcher::note_starts(const std::vector<Live*>& started) {
     for (Live* live : started) live->submission_noted = live->start_noted = true;
 }
 
+/// The files that the run's scenes name by their content, beside its scene.
+void Dispatcher::link_files(const std::string& run) {
+    namespace fs = std::filesystem;
+    for (const StoredFile& each : store_.files_of(run)) {
+        const fs::path link = data_.run(run) / scene::folder_of_references / each.file;
+        if (fs::exists(link)) continue;
+        fs::create_directories(link.parent_path());
+        std::error_code error;
+        fs::create_hard_link(data_.files() / each.file, link, error);
+        if (error) fs::copy_file(data_.files() / each.file, link);
+    }
+}
+
 /// False: it cannot be started, which is noted.
 bool Dispatcher::hand_over(Live& live) {
     const Task& task = live.task;
     try {
         const std::filesystem::path scene = data_.scene(task.run);
-        if (!std::filesystem::exists(scene))
+        if (!std::filesystem::exists(scene)) {
+            link_files(task.run);
             exchange::publish_text(
-                scene, nlohmann::json::parse(*store_.scene_of(task.run)).dump(2) + "\n");
+                scene, nlohmann::json::parse(store_.scene_of(task.run).value()).dump(2) + "\n");
+        }
         executor_.submit(live.folder, order_for(live));
     } catch (const std::exception& error) {
         note_loss(live, std::string("it cannot be started: ") + error.what());
@@ -390,7 +407,9 @@ void Dispatcher::release_retries() {
 void Dispatcher::settle_children(const std::string& parent_id) {
     const std::vector<BlockedTask> children = store_.blocked_children(parent_id);
     if (children.empty()) return;
-    const Task parent = *store_.task(parent_id);
+    const std::optional<Task> found = store_.task(parent_id);
+    if (!found) return;  // removed meanwhile
+    const Task& parent = *found;
     const bool succeeded =
         parent.state == TaskState::succeeded || parent.state == TaskState::cached;
     // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
@@ -436,7 +455,8 @@ void Dispatcher::settle_after_registrar() {
     for (const std::string& task : looked_up) in_the_cache_.erase(task);
     for (const std::string& task : tasks) settle_children(task);
     for (const std::string& task : looked_up) {
-        if (store_.task(task)->state == TaskState::ready) {
+        const auto now = store_.task(task);
+        if (now && now->state == TaskState::ready) {
             not_cached_.insert(task);
         } else {
             settle_children(task);

@@ -93,6 +93,7 @@ class Dispatcher {
     std::vector<Task> tasks_that_fit();
     bool leave_to_the_cache(const Task& task);
     void start(const std::vector<Task>& tasks);
+    void link_files(const std::string& run);
     bool hand_over(Live& live);
     void note_starts(const std::vector<Live*>& started);
     void note_latency(const Task& task);

@@ -150,7 +150,8 @@ void Dispatcher::note_exit(Live& live) {
 }
 
 bool Dispatcher::is_over(const std::string& task) const {
-    return is_final(store_.task(task)->state);
+    const auto now = store_.task(task);
+    return now && is_final(now->state);
 }
 
 void Dispatcher::note_loss(Live& live, const std::string& why) {

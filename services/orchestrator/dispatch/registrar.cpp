@@ -85,7 +85,9 @@ void Registrar::keep_remains(const Task& task) {
 }
 
 void Registrar::finalize(const Task& task) {
-    const TaskState state = store_.task(task.id)->state;
+    const auto now = store_.task(task.id);
+    if (!now) return;  // its run was removed
+    const TaskState state = now->state;
     if (state == TaskState::failed || state == TaskState::cancelled) return keep_remains(task);
     if (state != TaskState::finalizing) return;  // handed in twice, or tried again meanwhile
     const std::filesystem::path output = data_.output(task);

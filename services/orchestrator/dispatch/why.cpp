@@ -28,6 +28,8 @@ json beside_equal_recipe(const Task& task, const Task& earlier) {
 
 json why_it_ran(const Store& store, const Task& task) {
     if (task.same_as) return because("taken from an earlier task", json::array(), *task.same_as);
+    if (task.state == TaskState::cached)
+        return because("taken from an earlier task, which was removed");
     if (!task.started) return because("has not run");
     if (!task.recipe) return because("reuse is switched off");
     if (task.cache_refusal) {

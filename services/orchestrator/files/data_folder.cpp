@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "core/fault/fault.hpp"
@@ -13,6 +14,7 @@ namespace {
 std::filesystem::path made(const std::filesystem::path& root) {
     std::error_code error;
     std::filesystem::create_directories(root / "runs", error);
+    if (!error) std::filesystem::create_directories(root / "files", error);
     if (!error) std::filesystem::create_directories(root / "scratch", error);
     if (error) throw fault::IoError(root.string() + ": cannot be made: " + error.message());
     return std::filesystem::canonical(root);
@@ -34,8 +36,17 @@ FileLock owned(const std::filesystem::path& root) {
 
 }  // namespace
 
-DataFolder::DataFolder(const std::filesystem::path& root)
-    : root_(made(root)), lock_(owned(root_)) {}
+DataFolder::DataFolder(const std::filesystem::path& root) : root_(made(root)), lock_(owned(root_)) {
+    // What a service that was killed had under way for a moment.
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(scratch(), error))
+        std::filesystem::remove_all(entry.path(), error);
+}
+
+std::filesystem::path DataFolder::run(const std::string& run) const {
+    if (run.empty()) throw std::logic_error("a run without an id has no folder");
+    return root_ / "runs" / run;
+}
 
 std::filesystem::path DataFolder::scene(const std::string& run) const {
     return root_ / "runs" / run / "scene.json";

@@ -5,6 +5,9 @@
 //     <data>/runs/<run>/scene.json     the completed scene
 //     <data>/runs/<run>/<label>/output            what the phase writes; all attempts share it
 //                                      (checkpoints)
+//     <data>/runs/<run>/<label>/reused            names of files that the cache is placing in output
+//     <data>/runs/<run>/files/         links to those of <data>/files that its scene names
+//     <data>/files/<sha256>.<ending>   what was sent, by its content
 //     <data>/runs/<run>/<label>/attempts/fence    held by the one attempt whose phase may run
 //     <data>/runs/<run>/<label>/attempts/<n>/     order.json lock heartbeat stdout.jsonl log.txt
 //                                      exit.json [stop] [slurm.json]
@@ -39,7 +42,14 @@ class DataFolder {
     explicit DataFolder(const std::filesystem::path& root);
 
     std::filesystem::path database() const { return root_ / "breachline.sqlite"; }
+    std::filesystem::path runs() const { return root_ / "runs"; }
+    /// What references of a scene are resolved against (core/scene/file_paths.hpp).
+    const std::filesystem::path& root() const { return root_; }
+    std::filesystem::path files() const { return root_ / "files"; }
+    /// Everything that a run has on the disk. `run` must not be empty.
+    std::filesystem::path run(const std::string& run) const;
     std::filesystem::path scene(const std::string& run) const;
+    std::filesystem::path reused(const Task& task) const { return this->task(task) / "reused"; }
     std::filesystem::path output(const Task& task) const;
     /// The file that a task reads, in its parent's output folder; the task reads one.
     std::filesystem::path input(const Task& task, const Task& parent) const;

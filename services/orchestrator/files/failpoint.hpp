@@ -32,9 +32,15 @@ enum class Failpoint {
     supervisor_after_record,  ///< there is
     sbatch_before,            ///< the job's name is noted, sbatch is not called
     sbatch_after,             ///< it has answered, which is not noted
+    reuse_placed,             ///< the cache's files are in the task's folder, which is not stored
+    removal_rows_gone,        ///< a run's rows are gone, its files are there
+    removal_half_way,         ///< some of its files are gone
+    removal_files_gone,       ///< all are, which is not noted
+    upload_before,            ///< a file that was sent is on the disk under a temporary name
+    upload_after,             ///< it has its name, which is not committed
 };
 
-constexpr std::array<std::string_view, 17> failpoint_names{"store_before_commit",
+constexpr std::array<std::string_view, 23> failpoint_names{"store_before_commit",
                                                            "store_after_commit",
                                                            "claim_before",
                                                            "claim_after",
@@ -50,7 +56,13 @@ constexpr std::array<std::string_view, 17> failpoint_names{"store_before_commit"
                                                            "supervisor_after_phase",
                                                            "supervisor_after_record",
                                                            "sbatch_before",
-                                                           "sbatch_after"};
+                                                           "sbatch_after",
+                                                           "reuse_placed",
+                                                           "removal_rows_gone",
+                                                           "removal_half_way",
+                                                           "removal_files_gone",
+                                                           "upload_before",
+                                                           "upload_after"};
 
 void reach(Failpoint point);
 

@@ -73,6 +73,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"tasks_done", run.tasks_done},
             {"tasks_failed", run.tasks_failed},
             {"paused", run.paused},
+            {"pinned", run.pinned},
             {"seconds_left", seconds_left(run, progress)},
             {"questionable", run.questionable},
             {"flag_counts", counts_of(run.flags)},

@@ -142,7 +142,15 @@ void artifact(const Service& service, Call& call) {
     if (!kept) throw not_found("artifact " + call.parts[0]);
     const Task task = wanted_task(service, kept->task);
     const auto file = service.data.output(task) / kept->name;
-    const std::string tag = '"' + kept->sha256 + '"';
+    send_content(call, file, kept->sha256, kept->bytes,
+                 std::filesystem::path(kept->name).filename());
+}
+
+}  // namespace
+
+void send_content(Call& call, const std::filesystem::path& file, const std::string& sha256,
+                  std::int64_t bytes, const std::string& name) {
+    const std::string tag = '"' + sha256 + '"';
     call.response.set_header("ETag", tag);
     call.response.set_header("Cache-Control", "private, max-age=31536000, immutable");
     if (call.request.get_header_value("If-None-Match") == tag) {
@@ -152,9 +160,8 @@ void artifact(const Service& service, Call& call) {
     std::error_code error;
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
     auto stream = std::make_shared<std::ifstream>(file, std::ios::binary);
-    if (error || !*stream || size != kept->bytes) throw gone(kept->name);
+    if (error || !*stream || size != bytes) throw gone(name);
     keep_valid_range(call.request, size);
-    const std::string name = std::filesystem::path(kept->name).filename();
     call.response.set_header("Content-Disposition", "attachment; filename=\"" + name + '"');
     if (size == 0) return call.response.set_content("", "application/octet-stream");
     call.response.set_content_provider(
@@ -167,8 +174,6 @@ void artifact(const Service& service, Call& call) {
             return count > 0 && sink.write(part.data(), count);
         });
 }
-
-}  // namespace
 
 void add_output_routes(Router& router, Service& service) {
     router.get("/v1/runs/{id}/telemetry", [&](Call& call) { telemetry(service, call); });

@@ -3,6 +3,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/scene/file_paths.hpp"
 #include "core/scene/schema.hpp"
 #include "core/telemetry/columns.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -113,7 +114,8 @@ void add_page_routes(Router& router, Service& service) {
     });
     router.post("/v1/scenes/plan", [&](Call& call) {
         call.allow_parameters({});
-        const json scene = sent_scene(call.json_body());
+        json scene = sent_scene(call.json_body(), service.data.root());
+        scene::resolve_references(scene, service.data.root());
         reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())}});
     });
 }

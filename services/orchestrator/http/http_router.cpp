@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "services/orchestrator/http/answers.hpp"
@@ -136,21 +137,29 @@ void Router::post(const std::string& path, Handler handler) {
     routes_.push_back({"POST", segments_of(path), std::move(handler)});
 }
 
+void Router::remove(const std::string& path, Handler handler) {
+    routes_.push_back({"DELETE", segments_of(path), std::move(handler)});
+}
+
 std::array<std::uint64_t, 6> Router::answers() const {
     std::array<std::uint64_t, 6> counts{};
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = answers_[i];
     return counts;
 }
 
-void Router::answer(const httplib::Request& request, httplib::Response& response) const {
-    answer_uncounted(request, response);
+void Router::answer(const httplib::Request& request, httplib::Response& response,
+                    const httplib::ContentReader* body) const {
+    Call call{request, response, {}, body};
+    answer_uncounted(call);
     const int status = response.status < 0 ? 200 : response.status;  // httplib's "not set yet"
     ++answers_[static_cast<std::size_t>(std::clamp(status / 100, 0, 5))];
 }
 
-void Router::answer_uncounted(const httplib::Request& request, httplib::Response& response) const {
+void Router::answer_uncounted(Call& call) const {
+    const httplib::Request& request = call.request;
+    httplib::Response& response = call.response;
     try {
-        run(request, response);
+        run(call);
     } catch (const Problem& problem) {
         refuse(response, problem);
     } catch (const fault::BadInput& error) {
@@ -163,6 +172,11 @@ void Router::answer_uncounted(const httplib::Request& request, httplib::Response
         response.set_header("Retry-After", "5");
         refuse(response,
                {503, "/problems/storage", "The database refused", "nothing was stored; try again"});
+    } catch (const std::bad_optional_access&) {
+        // Found a moment ago. A 404 would be wrong where another run was looked into beside this.
+        response.set_header("Retry-After", "1");
+        refuse(response, {503, "/problems/removed-meanwhile", "Removed meanwhile",
+                          "a run was removed while this was read; ask again"});
     } catch (const std::exception& error) {
         spdlog::error("{} {}: {}", request.method, request.path, error.what());
         refuse(response,
@@ -170,11 +184,11 @@ void Router::answer_uncounted(const httplib::Request& request, httplib::Response
     }
 }
 
-void Router::run(const httplib::Request& request, httplib::Response& response) const {
+void Router::run(Call& call) const {
+    const httplib::Request& request = call.request;
     const std::string method = request.method == "HEAD" ? "GET" : request.method;
     const std::vector<std::string> path = segments_of(request.path);
     std::string allowed;
-    Call call{request, response, {}};
     for (const Route& route : routes_) {
         if (!matches(route.segments, path, call.parts)) continue;
         if (route.method == method) {
@@ -184,7 +198,7 @@ void Router::run(const httplib::Request& request, httplib::Response& response) c
         allowed += (allowed.empty() ? "" : ", ") + route.method;
     }
     if (allowed.empty()) throw not_found("such path here");
-    response.set_header("Allow", allowed);
+    call.response.set_header("Allow", allowed);
     throw Problem{405, "/problems/method-not-allowed", "Method not allowed",
                   request.method + " is not possible here; possible: " + allowed};
 }

@@ -37,6 +37,8 @@ struct Call {
     const httplib::Request& request;
     httplib::Response& response;
     std::vector<std::string> parts;  ///< what stands for the template's {…}, decoded
+    /// Of a path whose body is not kept in memory (HttpServer::answer): reads it, once.
+    const httplib::ContentReader* body = nullptr;
 
     /// Unknown query parameters are 400, so that a misspelt filter is not silently ignored.
     void allow_parameters(const std::set<std::string>& names) const;
@@ -54,8 +56,10 @@ class Router {
   public:
     void get(const std::string& path, Handler handler);
     void post(const std::string& path, Handler handler);
+    void remove(const std::string& path, Handler handler);
     /// Finds and runs the handler; every outcome becomes an answer, nothing is thrown.
-    void answer(const httplib::Request& request, httplib::Response& response) const;
+    void answer(const httplib::Request& request, httplib::Response& response,
+                const httplib::ContentReader* body = nullptr) const;
     /// Answers so far, by class of status: [1] is 1xx, ... [5] is 5xx.
     std::array<std::uint64_t, 6> answers() const;
 
@@ -65,8 +69,8 @@ class Router {
         std::vector<std::string> segments;
         Handler handler;
     };
-    void run(const httplib::Request& request, httplib::Response& response) const;
-    void answer_uncounted(const httplib::Request& request, httplib::Response& response) const;
+    void run(Call& call) const;
+    void answer_uncounted(Call& call) const;
     std::vector<Route> routes_;
     mutable std::array<std::atomic<std::uint64_t>, 6> answers_{};
 };

@@ -16,6 +16,8 @@ void add_accuracy_routes(Router& router, Service& service);
 void add_trigger_routes(Router& router, Service& service);
 /// What the phases wrote: logs, telemetry, frames, artifacts.
 void add_output_routes(Router& router, Service& service);
+/// What lies on the disk, and its removal.
+void add_storage_routes(Router& router, Service& service);
 /// The stream of events. `stopping` ends every waiting client.
 void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping);
 /// Studies that are shipped, whole, to begin with.
@@ -25,6 +27,15 @@ void add_metric_routes(Router& router, Service& service);
 /// Schemas, plans, health, the dashboard.
 void add_page_routes(Router& router, Service& service);
 
+/// Files that were sent: motions and meshes that scenes name by their content.
+void add_file_routes(Router& router, Service& service);
+/// Those that the run's scenes name.
+nlohmann::json files_json(const Service& service, const std::string& run);
+
+/// A file that is known by its hash: with ETag, at most one range; 410 when it is not on the disk as
+/// it was stored.
+void send_content(Call& call, const std::filesystem::path& file, const std::string& sha256,
+                  std::int64_t bytes, const std::string& name);
 /// The task, or 404.
 Task wanted_task(const Service& service, const std::string& id);
 Run wanted_run(const Service& service, const std::string& id);

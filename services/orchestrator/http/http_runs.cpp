@@ -41,7 +41,7 @@ void submit(Service& service, Call& call) {
     reply(call.response, run_json(service, accepted.run), 202);
 }
 
-void list(const Service& service, Call& call) {
+void list_runs(const Service& service, Call& call) {
     call.allow_parameters({"limit", "cursor", "state", "name"});
     const RunPage page = wanted_page(service, call, RunFilter{});
     json runs = json::array();
@@ -49,13 +49,14 @@ void list(const Service& service, Call& call) {
     reply(call.response, {{"runs", runs}, {"next", page.next}});
 }
 
-void show(const Service& service, Call& call) {
+void show_run(const Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];
     json body = run_json(service, id);
-    body["study"] = *service.store.study_of(id);
-    body["study"]["scene"] = json::parse(*service.store.scene_of(id));
+    body["study"] = service.store.study_of(id).value();
+    body["study"]["scene"] = json::parse(service.store.scene_of(id).value());
     body["tasks"] = tasks_json(service, service.store.tasks_of(id));
+    body["files"] = files_json(service, id);
     reply(call.response, body);
 }
 
@@ -145,8 +146,8 @@ void results(const Service& service, Call& call) {
                                  "attachment; filename=\"" +
                                      std::string(wanted == "runs" ? "results" : "means") + ".h5\"");
         call.response.set_content(
-            as_hdf5(table, call.parts[0], *service.store.scene_of(call.parts[0]), service.frames,
-                    service.data.scratch()),
+            as_hdf5(table, call.parts[0], service.store.scene_of(call.parts[0]).value(),
+                    service.frames, service.data.scratch()),
             "application/x-hdf5");
         return;
     }
@@ -258,9 +259,9 @@ void add_run_routes(Router& router, Service& service) {
         cancel(service, call);
     });
     router.post("/v1/runs", [&](Call& call) { submit(service, call); });
-    router.get("/v1/runs", [&](Call& call) { list(service, call); });
+    router.get("/v1/runs", [&](Call& call) { list_runs(service, call); });
     router.get("/v1/runs/{id}/tasks", [&](Call& call) { list_tasks(service, call); });
-    router.get("/v1/runs/{id}", [&](Call& call) { show(service, call); });
+    router.get("/v1/runs/{id}", [&](Call& call) { show_run(service, call); });
     router.post("/v1/runs/{id}/cancel", [&](Call& call) { cancel(service, call); });
     router.post("/v1/runs/{id}/pause", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
@@ -270,6 +271,16 @@ void add_run_routes(Router& router, Service& service) {
     router.post("/v1/runs/{id}/resume", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
             return transaction.resume_run(run);
+        });
+    });
+    router.post("/v1/runs/{id}/pin", [&](Call& call) {
+        command_run(service, call, [](Transaction& transaction, const std::string& run) {
+            return transaction.pin_run(run);
+        });
+    });
+    router.post("/v1/runs/{id}/unpin", [&](Call& call) {
+        command_run(service, call, [](Transaction& transaction, const std::string& run) {
+            return transaction.unpin_run(run);
         });
     });
     router.post("/v1/runs/{id}/retry", [&](Call& call) {

@@ -49,9 +49,8 @@ bool has_doubtful_end(const httplib::Request& request) {
     return lengths > 1 || encodings > 1 || (lengths > 0 && encodings > 0);
 }
 
-/// Writes the problem and then fails on purpose, which makes httplib close the connection.
-void refuse_and_close(httplib::Response& response, const Problem& problem) {
-    refuse(response, problem);
+/// Writes the answer, a problem, and then fails on purpose, which makes httplib close the connection.
+void close_after(httplib::Response& response) {
     const std::string body = std::move(response.body);
     response.body.clear();
     response.headers.erase("Content-Type");
@@ -63,10 +62,71 @@ void refuse_and_close(httplib::Response& response, const Problem& problem) {
                                   });
 }
 
+void refuse_and_close(httplib::Response& response, const Problem& problem) {
+    refuse(response, problem);
+    close_after(response);
+}
+
+Problem too_large() {
+    return {413, "/problems/too-large", "Content too large",
+            "the body may have " + std::to_string(largest_body) + " bytes"};
+}
+
+/// The body of one request, read at most once.
+class Intake {
+  public:
+    Intake(const httplib::Request& request, const httplib::ContentReader* body) {
+        if (body == nullptr) return;
+        left_ = true;
+        const bool form = request.is_multipart_form_data();
+        reader_ = httplib::ContentReader(
+            [this, body, form](httplib::ContentReceiver receive) {
+                asked_ = true;
+                // A form's parts are nothing that any path here takes.
+                const bool whole =
+                    form ? (*body)([](const httplib::MultipartFormData&) { return true; },
+                                   [](const char*, std::size_t) { return true; })
+                         : (*body)(std::move(receive));
+                left_ = !whole;
+                return whole;
+            },
+            nullptr);
+    }
+
+    /// Throws 413. What is too much is read for a while, so that its sender hears why.
+    void keep_in(std::string& text) {
+        if (!left_) return;
+        std::size_t bytes = 0;
+        const bool whole = reader_([&](const char* data, std::size_t size) {
+            bytes += size;
+            if (bytes <= largest_body) text.append(data, size);
+            return bytes <= most_dropped;
+        });
+        if (bytes > largest_body) {
+            text.clear();
+            throw too_large();
+        }
+        if (!whole) throw bad_request("the body did not arrive whole");
+    }
+
+    const httplib::ContentReader* reader() const { return &reader_; }
+
+    bool is_at_its_end() {
+        std::size_t bytes = 0;
+        if (left_ && !asked_)
+            reader_([&](const char*, std::size_t size) { return (bytes += size) <= most_dropped; });
+        return !left_;
+    }
+
+  private:
+    static constexpr std::size_t most_dropped = 4 * largest_body;
+    bool left_ = false;  ///< something may still come
+    bool asked_ = false;
+    httplib::ContentReader reader_{nullptr, nullptr};
+};
+
 Problem problem_of(int status) {
-    if (status == 413)
-        return {413, "/problems/too-large", "Content too large",
-                "the body may have " + std::to_string(largest_body) + " bytes"};
+    if (status == 413) return too_large();
     return {status, "/problems/bad-request", "Bad request", "the request cannot be understood"};
 }
 
@@ -79,6 +139,8 @@ class HttpServer::Implementation {
         add_accuracy_routes(router_, service);
         add_trigger_routes(router_, service);
         add_output_routes(router_, service);
+        add_storage_routes(router_, service);
+        add_file_routes(router_, service);
         add_event_routes(router_, service, stopping_);
         add_example_routes(router_, service);
         add_metric_routes(router_, service);
@@ -114,7 +176,6 @@ class HttpServer::Implementation {
 
     void set_limits() {
         server_.new_task_queue = [] { return new httplib::ThreadPool(threads); };
-        server_.set_payload_max_length(largest_body);
         server_.set_keep_alive_max_count(most_requests_per_connection);
         server_.set_keep_alive_timeout(idle_seconds);
         server_.set_read_timeout(read_seconds);
@@ -130,30 +191,38 @@ class HttpServer::Implementation {
 
     void set_doors() {
         server_.set_pre_routing_handler(
-            [](const httplib::Request& request, httplib::Response& response) {
+            [this](const httplib::Request& request, httplib::Response& response) {
                 // Only artifacts come in parts; hundreds of ranges would multiply any other answer.
-                const bool parts =
-                    request.path.starts_with("/v1/artifacts/") && request.ranges.size() == 1;
+                const bool parts = (request.path.starts_with("/v1/artifacts/") ||
+                                    request.path.starts_with("/v1/files/")) &&
+                                   request.ranges.size() == 1;
                 if (!parts) const_cast<httplib::Request&>(request).ranges.clear();
-                if (!has_doubtful_end(request)) return httplib::Server::HandlerResponse::Unhandled;
-                refuse_and_close(response, bad_request("the request's length is given twice"));
+                if (has_doubtful_end(request)) {
+                    refuse_and_close(response, bad_request("the request's length is given twice"));
+                    return httplib::Server::HandlerResponse::Handled;
+                }
+                // A request that announces no body has none; httplib would wait for one.
+                const bool bodiless = request.method == "GET" || request.method == "HEAD" ||
+                                      request.method == "OPTIONS";
+                if (bodiless || request.has_header("Content-Length") ||
+                    request.has_header("Transfer-Encoding"))
+                    return httplib::Server::HandlerResponse::Unhandled;
+                answer(request, response, nullptr);
                 return httplib::Server::HandlerResponse::Handled;
             });
         const httplib::Server::Handler door = [this](const httplib::Request& request,
                                                      httplib::Response& response) {
-            try {
-                admit(request, response);
-            } catch (const Problem& problem) {
-                return refuse(response, problem);
-            }
-            router_.answer(request, response);
+            answer(request, response, nullptr);
         };
+        const httplib::Server::HandlerWithContentReader door_with_body =
+            [this](const httplib::Request& request, httplib::Response& response,
+                   const httplib::ContentReader& body) { answer(request, response, &body); };
         server_.Get(".*", door);
-        server_.Post(".*", door);
-        server_.Put(".*", door);
-        server_.Patch(".*", door);
-        server_.Delete(".*", door);
         server_.Options(".*", door);
+        server_.Post(".*", door_with_body);
+        server_.Put(".*", door_with_body);
+        server_.Patch(".*", door_with_body);
+        server_.Delete(".*", door_with_body);
         server_.set_error_handler([](const httplib::Request&, httplib::Response& response) {
             if (response.body.empty() && !response.content_provider_)
                 refuse(response, problem_of(response.status));
@@ -163,6 +232,22 @@ class HttpServer::Implementation {
             refuse(response,
                    {500, "/problems/internal", "Internal fault", "the service's log says more"});
         });
+    }
+
+    /// A body is kept in memory only where it is small. One that is not read to its end would pass for
+    /// the connection's next request: the connection is closed then.
+    void answer(const httplib::Request& request, httplib::Response& response,
+                const httplib::ContentReader* body) const {
+        Intake intake(request, body);
+        try {
+            admit(request, response);
+            const bool streamed = request.method == "POST" && request.path == "/v1/files";
+            if (!streamed) intake.keep_in(const_cast<httplib::Request&>(request).body);
+            router_.answer(request, response, streamed ? intake.reader() : nullptr);
+        } catch (const Problem& problem) {
+            refuse(response, problem);
+        }
+        if (!intake.is_at_its_end()) close_after(response);
     }
 
     /// Who may ask at all.

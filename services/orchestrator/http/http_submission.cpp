@@ -6,6 +6,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/phases/phases.hpp"
+#include "core/scene/file_paths.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
@@ -67,6 +68,9 @@ std::optional<std::string> idempotency_key(const httplib::Request& request) {
 
 NewRun run_from(const Study& study, const Numerics& numerics) {
     TaskGraph graph = plan_tasks(study, numerics);
+    std::vector<std::string> files;
+    for (const auto& each : scene::references_in({study.scene, study.document}))
+        files.push_back(each.sha256);
     // What a FEM was asked for on its way does not follow from its scene.
     if (!study.triggers.empty() && study.snapshot_interval <= 0.0)
         for (TaskPlan& each : graph.tasks)
@@ -82,12 +86,13 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .triggers = study.triggers,
             .firing_plan = std::move(graph.one_more_transfer),
             .priority = study.priority,
-            .sweep = study.variants.size() * states > 1};
+            .sweep = study.variants.size() * states > 1,
+            .files = std::move(files)};
 }
 
 std::string stored(Service& service, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    NewRun run = run_from(sent_study(body), service.numerics);
+    NewRun run = run_from(sent_study(body, service.data.root()), service.numerics);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write([&](Transaction& transaction) {
         transaction.add_run(run);

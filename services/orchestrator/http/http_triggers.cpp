@@ -68,7 +68,7 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     std::vector<fault::Fault> faults =
         scene::complete_and_check(entries, scene::study_schema().at("properties").at("triggers"));
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
-    const json scene = json::parse(*service.store.scene_of(run));
+    const json scene = json::parse(service.store.scene_of(run).value());
     if (!scene.contains(phases::fem.part))
         throw Problem{409, "/problems/no-fem", "No FEM to watch", "the run's scene has no FEM"};
     const double span = span_of(scene);

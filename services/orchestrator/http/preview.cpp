@@ -21,10 +21,10 @@ struct Sent {
     report::Draft draft;
 };
 
-Sent sent(const std::string& body) {
+Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(body, "document");
     report::BaseScene base = report::base_scene_of(document);
-    check::Checked checked = check_sent_scene(base.scene, base.overrides);
+    check::Checked checked = check_sent_scene(base.scene, base.overrides, service.data.root());
     checked.faults = seen_from_here(std::move(checked.faults));
     return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
 }
@@ -57,7 +57,7 @@ report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) 
 }  // namespace
 
 std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh) {
-    const auto [document, draft] = sent(body);
+    const auto [document, draft] = sent(service, body);
     if (!report::can_be_drawn(draft)) throw refusal_of(draft);
     report::Additions additions;
     if (draft.faults.empty()) {
@@ -74,7 +74,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 }
 
 json cost_of(const Service& service, const std::string& body) {
-    const auto [document, draft] = sent(body);
+    const auto [document, draft] = sent(service, body);
     if (!draft.faults.empty()) throw refusal_of(draft);
     const auto costs = cost_here(service, draft.scene);
     const estimate::Repeats repeats = estimate::repeats_of(document);

@@ -52,11 +52,13 @@ std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
     for (Fault& each : faults)
         if (is_about_a_missing_file(each))
             each.remedy = "files are looked for on " + this_machine() +
-                          ": copy it there and give its absolute path there";
+                          ": send it (POST /v1/files; breach submit does it) and give the "
+                          "reference of the answer, or copy it there and give its absolute path "
+                          "there";
     return faults;
 }
 
-Study sent_study(const std::string& body) {
+Study sent_study(const std::string& body, const std::filesystem::path& folder) {
     if (is_a("scene", json::parse(body, nullptr, false), "section")) {
         throw BadInput(
             "study",
@@ -64,15 +66,15 @@ Study sent_study(const std::string& body) {
               R"(wrap it: {"format": "breachline-study/1", "name": "...", "scene": {...}, )"
               R"("transfer_times": [...]}; or: breach submit --scene FILE --times 0.5,1)"}});
     }
-    return read_here([&] { return read_study(body); });
+    return read_here([&] { return read_study(body, folder); });
 }
 
-json sent_scene(const std::string& body) {
+json sent_scene(const std::string& body, const std::filesystem::path& folder) {
     if (is_a("study", json::parse(body, nullptr, false), "scene")) {
         throw BadInput("scene", {{"", "this is a study, not a scene",
                                   "give the scene that it holds or names in \"scene\""}});
     }
-    return read_here([&] { return read_whole_scene(body); });
+    return read_here([&] { return read_whole_scene(body, folder); });
 }
 
 }  // namespace breach::orchestrator

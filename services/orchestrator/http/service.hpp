@@ -6,6 +6,7 @@
 
 #include "services/orchestrator/dispatch/dispatcher.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
+#include "services/orchestrator/dispatch/retention.hpp"
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/store/store.hpp"
@@ -16,12 +17,14 @@ struct Service {
     Store& store;
     const DataFolder& data;
     Dispatcher& dispatcher;
+    Retention& retention;
     const ProgressBoard& board;
     FrameReader& frames;
     std::filesystem::path bin;        ///< the phase executables
     Numerics numerics;                ///< what they say of themselves
     std::filesystem::path web;        ///< the dashboard's files
     std::filesystem::path workflows;  ///< the studies that are shipped, and their scenes
+    std::size_t largest_file = std::size_t{256} << 20;  ///< that is taken in [bytes]
 };
 
 }  // namespace breach::orchestrator

@@ -33,8 +33,14 @@ std::string attempt_id(const std::string& task, std::int64_t number) {
     return task + "." + std::to_string(number);
 }
 
-std::string utc_now() {
-    const std::int64_t now = epoch_ms();
+std::string utc_now() { return utc_text(epoch_ms()); }
+
+std::string utc_days_ago(double days) {
+    constexpr double ms_of_a_day = 86400e3;
+    return utc_text(epoch_ms() - static_cast<std::int64_t>(days * ms_of_a_day));
+}
+
+std::string utc_text(std::int64_t now) {
     const std::time_t seconds = now / 1000;
     std::tm utc{};
     gmtime_r(&seconds, &utc);

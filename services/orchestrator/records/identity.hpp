@@ -22,6 +22,9 @@ using phases::files::spelt;
 
 /// Now as "2026-11-21T02:38:53.123Z".
 std::string utc_now();
+std::string utc_days_ago(double days);
+/// A moment in milliseconds since 1970, so spelt.
+std::string utc_text(std::int64_t ms);
 /// Milliseconds since 1970, for stored retry times.
 std::int64_t epoch_ms();
 

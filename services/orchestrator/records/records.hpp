@@ -69,6 +69,7 @@ struct NewRun {
     std::vector<TaskPlan> firing_plan = {};  ///< of one more transfer (firing_plan.hpp)
     std::int64_t priority = 0;               ///< higher goes first
     bool sweep = false;                      ///< several points, or asked for as a sweep
+    std::vector<std::string> files = {};     ///< SHA-256 of stored files that its scenes name
 };
 
 /// A task that is added to a run: its parent is in the run already, or added before it.
@@ -102,6 +103,7 @@ struct Run {
     std::string message;            ///< why it is not simply fine
     bool paused = false;            ///< nothing new of it is started
     std::int64_t questionable = 0;  ///< results not to rely on
+    bool pinned = false;            ///< not to be removed
     std::vector<FlagTally> flags = {};
 };
 
@@ -197,6 +199,22 @@ struct Event {
     std::string kind;  ///< "run", "task", "attempt"
     nlohmann::json detail;
 };
+
+/// A file that was sent, known by its content.
+struct StoredFile {
+    std::string sha256;
+    std::string file;   ///< in the folder of stored files: the digits and the ending
+    std::string name;   ///< as its sender called it
+    std::string kind;   ///< "motion" or "mesh"
+    std::string about;  ///< what its reader found in it, in a few words
+    std::int64_t bytes = 0;
+    std::string created = {};
+    std::string used = {};               ///< when it was last sent, asked for or named by a run
+    std::vector<std::string> runs = {};  ///< whose scenes name it
+};
+
+/// What becomes of the wish to remove a run or a file.
+enum class Removal { done, unknown, going_on, pinned, needed };
 
 /// A firing and how long it took from the line that met its trigger [ms].
 struct FiringRow {

@@ -79,7 +79,12 @@ Connection::Connection(const std::filesystem::path& file, Access access) {
     if (code != SQLITE_OK) refuse("opening " + file.string());
     sqlite3_busy_timeout(database, busy_timeout_ms);
     script("PRAGMA foreign_keys=ON");
-    if (access == Access::read_write) script("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL");
+    if (access == Access::read_only) return;
+    // What a large removal wrote does not stay in the log's file. auto_vacuum first: it is only
+    // taken by a database without tables (store/migrations.cpp turns an older one round).
+    script(
+        "PRAGMA auto_vacuum=INCREMENTAL; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; "
+        "PRAGMA journal_size_limit=67108864");
 }
 
 Connection::~Connection() = default;

@@ -1,5 +1,7 @@
 #include "services/orchestrator/store/migrations.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <array>
 
 #include "services/orchestrator/files/failpoint.hpp"
@@ -11,20 +13,35 @@ namespace breach::orchestrator {
 namespace {
 
 const std::array versions{version_1, version_2, version_3, version_4, version_5,
-                          version_6, version_7, version_8, version_9};
+                          version_6, version_7, version_8, version_9, version_10};
 
-std::int64_t version_of(Connection& database) {
-    std::int64_t version = 0;
-    database.query("PRAGMA user_version", {}, [&](const Row& row) { version = row.integer(0); });
-    return version;
+std::int64_t number_in(Connection& database, const std::string& pragma) {
+    std::int64_t number = 0;
+    database.query("PRAGMA " + pragma, {}, [&](const Row& row) { number = row.integer(0); });
+    return number;
+}
+
+/// A database of before version 10 keeps the pages that it once had. Turning it round copies it
+/// once; where there is no room for that it goes on growing, and serves.
+void let_it_shrink(Connection& database, const std::filesystem::path& file) {
+    constexpr std::int64_t incremental = 2;
+    if (number_in(database, "auto_vacuum") == incremental) return;
+    try {
+        database.script("PRAGMA auto_vacuum=INCREMENTAL; VACUUM");
+    } catch (const StoreError& error) {
+        spdlog::warn("{} cannot be made to shrink: {}", file.string(), error.what());
+    }
 }
 
 }  // namespace
 
 void migrate(Connection& database, const std::filesystem::path& file) {
-    const std::int64_t version = version_of(database);
+    const std::int64_t version = number_in(database, "user_version");
     const auto newest = static_cast<std::int64_t>(versions.size());
-    if (version == newest && views_are_current(database)) return;
+    if (version == newest && views_are_current(database)) {
+        let_it_shrink(database, file);
+        return;
+    }
     if (version > newest) {
         throw StoreError(file.string() + " is of version " + std::to_string(version) +
                          ", but this program knows only up to " + std::to_string(newest) +
@@ -49,6 +66,7 @@ void migrate(Connection& database, const std::filesystem::path& file) {
         database.script("ROLLBACK");
         throw;
     }
+    let_it_shrink(database, file);
 }
 
 }  // namespace breach::orchestrator

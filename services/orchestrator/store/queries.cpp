@@ -17,7 +17,8 @@ constexpr const char* run_columns =
     "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
     "t.fault_summary FROM tasks t WHERE t.run "
     "= r.id AND "
-    "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable FROM "
+    "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable, "
+    "r.pinned FROM "
     "run_summaries r ";
 
 Run run_from(const Row& row) {
@@ -34,7 +35,8 @@ Run run_from(const Row& row) {
             .tasks_failed = row.integer(11),
             .message = row.text(12),
             .paused = row.integer(10) != 0,
-            .questionable = row.integer(13)};
+            .questionable = row.integer(13),
+            .pinned = row.integer(14) != 0};
 }
 
 constexpr const char* task_columns =
@@ -108,6 +110,16 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
 }
 
 std::vector<Run> Store::runs(std::size_t most) const { return runs(RunFilter{}, most); }
+
+std::vector<Run> Store::runs_that_may_go() const {
+    std::vector<Run> found;
+    read([&](Connection& database) {
+        database.query(std::string(run_columns) +
+                           "WHERE r.finished IS NOT NULL AND r.pinned=0 ORDER BY r.finished, r.id",
+                       {}, [&](const Row& row) { found.push_back(run_from(row)); });
+    });
+    return found;
+}
 
 std::optional<IdempotentRun> Store::run_of_key(const std::string& key) const {
     std::optional<IdempotentRun> found;

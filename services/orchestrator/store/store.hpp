@@ -99,6 +99,18 @@ class Store {
     /// A bisect's transfers, ascending in time; of several variants the first counts.
     std::vector<Sample> samples_of(const std::string& trigger) const;
 
+    /// Runs whose rows are gone and whose folders may still be there.
+    std::vector<std::string> removals() const;
+    /// Runs that are over and not pinned, the one that ended first at the front.
+    std::vector<Run> runs_that_may_go() const;
+    std::int64_t free_pages() const;
+    /// Files that were sent, newest first, with the runs that name them.
+    std::vector<StoredFile> files() const;
+    std::optional<StoredFile> file(const std::string& sha256) const;
+    std::vector<StoredFile> files_of(const std::string& run) const;
+    /// Files that no run names and that nobody asked for since.
+    std::vector<StoredFile> unused_files(const std::string& before) const;
+
     std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
     std::vector<Event> events_of_run(const std::string& run, std::int64_t after,
                                      std::size_t most) const;

@@ -30,6 +30,7 @@ void Transaction::add_run(const NewRun& run) {
         {run.id, run.name, run.title, now, run.study, run.scene, std::int64_t{run.sweep ? 1 : 0},
          static_cast<std::int64_t>(run.tasks.size())});
     add_recipes(run.recipes);
+    add_files(run);
     add_event(run.id, std::nullopt, "run", {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
@@ -90,6 +91,12 @@ void Transaction::keep_idempotency_key(const std::string& key, const std::string
     database_.change(
         "INSERT INTO idempotency_keys (key, body_sha256, run, created) VALUES (?,?,?,?)",
         {key, body_sha256, run, utc_now()});
+}
+
+bool Transaction::holds(const std::string& task) const {
+    bool found = false;
+    database_.query("SELECT 1 FROM tasks WHERE id=?", {task}, [&](const Row&) { found = true; });
+    return found;
 }
 
 TaskState Transaction::state_of(const std::string& task) const {
@@ -181,19 +188,26 @@ void Transaction::keep_artifacts(const std::vector<Artifact>& artifacts) {
     }
 }
 
-void Transaction::reuse_task(const std::string& task, const Task& earlier) {
+bool Transaction::reuse_task(const std::string& task, const Task& earlier) {
+    bool is_as_read = false;
+    database_.query("SELECT 1 FROM tasks WHERE id=? AND state=?",
+                    {earlier.id, std::string(name_of(earlier.state))},
+                    [&](const Row&) { is_as_read = true; });
+    if (!is_as_read || !holds(task)) return false;
     const TaskEvent event =
         earlier.state == TaskState::failed ? TaskEvent::reuse_breakdown : TaskEvent::reuse;
-    if (!try_move_task(task, event, {{"same_as", earlier.id}})) return;
+    const std::string first = earlier.same_as.value_or(earlier.id);
+    if (!try_move_task(task, event, {{"same_as", first}})) return false;
     database_.change(
         "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) SELECT ?, name, sha256, "
         "bytes "
         "FROM artifacts WHERE task=?",
         {task, earlier.id});
     database_.change(
-        "UPDATE tasks SET same_as=?1, (result, input_sha256, fault_exit, fault_summary)=(SELECT "
+        "UPDATE tasks SET same_as=?3, (result, input_sha256, fault_exit, fault_summary)=(SELECT "
         "result, input_sha256, fault_exit, fault_summary FROM tasks WHERE id=?1) WHERE id=?2",
-        {earlier.id, task});
+        {earlier.id, task, first});
+    return true;
 }
 
 void Transaction::note_cache_refusal(const std::string& task, const std::string& why) {
@@ -261,16 +275,23 @@ bool Transaction::cancel_run(const std::string& run, const std::string& why) {
     return known;
 }
 
-bool Transaction::mark_paused(const std::string& run, std::int64_t paused, const char* event) {
-    if (database_.change("UPDATE runs SET paused=?1 WHERE id=?2 AND paused<>?1", {paused, run}) > 0)
+bool Transaction::mark_run(const std::string& run, const char* column, std::int64_t value,
+                           const char* event) {
+    const std::string is(column);
+    if (database_.change("UPDATE runs SET " + is + "=?1 WHERE id=?2 AND " + is + "<>?1",
+                         {value, run}) > 0)
         add_event(run, std::nullopt, "run", {{"event", event}});
     bool known = false;
     database_.query("SELECT 1 FROM runs WHERE id=?", {run}, [&](const Row&) { known = true; });
     return known;
 }
 
-bool Transaction::pause_run(const std::string& run) { return mark_paused(run, 1, "pause"); }
-bool Transaction::resume_run(const std::string& run) { return mark_paused(run, 0, "resume"); }
+bool Transaction::pause_run(const std::string& run) { return mark_run(run, "paused", 1, "pause"); }
+bool Transaction::resume_run(const std::string& run) {
+    return mark_run(run, "paused", 0, "resume");
+}
+bool Transaction::pin_run(const std::string& run) { return mark_run(run, "pinned", 1, "pin"); }
+bool Transaction::unpin_run(const std::string& run) { return mark_run(run, "pinned", 0, "unpin"); }
 
 bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
     const bool known =

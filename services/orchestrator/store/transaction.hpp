@@ -2,6 +2,7 @@
 // the lifecycle's table decides the new state. A Transaction exists only inside Store::write.
 #pragma once
 
+#include <functional>
 #include <set>
 
 #include "services/orchestrator/records/records.hpp"
@@ -45,8 +46,9 @@ class Transaction {
     void finish_task(const std::string& task, const nlohmann::json& result,
                      const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
     /// The task takes the result of `earlier`, or its breakdown; the files are in its folder
-    /// already. Nothing happens when it is not ready any more.
-    void reuse_task(const std::string& task, const Task& earlier);
+    /// already. False, and nothing happens: it is not ready any more, or `earlier` was removed or
+    /// tried again meanwhile.
+    bool reuse_task(const std::string& task, const Task& earlier);
     void note_cache_refusal(const std::string& task, const std::string& why);
     /// What a task that ended badly has left.
     void keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
@@ -68,6 +70,27 @@ class Transaction {
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
+    bool pin_run(const std::string& run);
+    bool unpin_run(const std::string& run);
+    /// Every row of a run that is over, at once: from then on no list, no cache and no artifact knows
+    /// it. Its folder is to be removed next (Store::removals, forget_removal). `why` is for the event
+    /// "remove", which stays.
+    Removal remove_run(const std::string& run, const std::string& why);
+    void forget_removal(const std::string& run);
+
+    /// `publish` gives the file its name in the folder. It is called here, as is `erase` below, so
+    /// that no row is written and no file erased between the two halves of the other.
+    void keep_file(const StoredFile& file, const std::function<void()>& publish);
+    /// It was asked for: it is not forgotten soon.
+    void touch_file(const std::string& sha256);
+    /// needed: a run names it.
+    Removal forget_file(const std::string& sha256, const std::function<void()>& erase);
+    /// Not if it was used after `before`, or a run names it.
+    bool forget_unused_file(const std::string& sha256, const std::string& before,
+                            const std::function<void()>& erase);
+
+    /// Gives up to so many free pages at the end of the database back to the disk.
+    void shrink(std::int64_t pages);
     /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; what was not
     /// reached stays so. Triggers that the cancelling disarmed are armed again, and those that had
     /// expired on a FEM that now runs again; what fired stays. Returns how many tasks; nothing: no
@@ -98,7 +121,10 @@ class Transaction {
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
     std::string add_fired_task(const std::string& run, const TaskPlan& task,
                                const std::string& parent, std::int64_t priority);
-    bool mark_paused(const std::string& run, std::int64_t paused, const char* event);
+    bool mark_run(const std::string& run, const char* column, std::int64_t value,
+                  const char* event);
+    void add_files(const NewRun& run);
+    bool holds(const std::string& task) const;
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);

@@ -4,14 +4,15 @@
 
 namespace breach::orchestrator {
 
-extern const char* const version_1;  ///< runs, tasks, attempts, events, artifacts
-extern const char* const version_2;  ///< variants, cache, queues, idempotency, counts per run
-extern const char* const version_3;  ///< triggers, firings
-extern const char* const version_4;  ///< indices for thousands of tasks
-extern const char* const version_5;  ///< breakdowns answer equal tasks
-extern const char* const version_6;  ///< flags of results, order of variants
-extern const char* const version_7;  ///< what the FEM did not reach is no failure
-extern const char* const version_8;  ///< accuracy studies are found at once
-extern const char* const version_9;  ///< which variant a draw repeats
+extern const char* const version_1;   ///< runs, tasks, attempts, events, artifacts
+extern const char* const version_2;   ///< variants, cache, queues, idempotency, counts per run
+extern const char* const version_3;   ///< triggers, firings
+extern const char* const version_4;   ///< indices for thousands of tasks
+extern const char* const version_5;   ///< breakdowns answer equal tasks
+extern const char* const version_6;   ///< flags of results, order of variants
+extern const char* const version_7;   ///< what the FEM did not reach is no failure
+extern const char* const version_8;   ///< accuracy studies are found at once
+extern const char* const version_9;   ///< which variant a draw repeats
+extern const char* const version_10;  ///< runs are removed and pinned; files that were sent
 
 }  // namespace breach::orchestrator

@@ -14,7 +14,7 @@ namespace {
 // A run with an open trigger is not over: it may still get tasks. One of which no transfer time was
 // reached by its FEM has no runout, though nothing failed. Of lem_tool alone no runout is expected.
 const char* const run_summaries = R"sql(
-SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, reached AS tasks_done,
+SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
     (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
         AS questionable,

@@ -58,6 +58,7 @@ json section_part(const json& scene, Regions wanted) {
 }
 
 json content_of(const std::string& file) {
+    if (const auto reference = scene::file_reference(file)) return {{"sha256", reference->sha256}};
     try {
         return {{"sha256", exchange::sha256_of_file(file)}};
     } catch (const fault::IoError&) {

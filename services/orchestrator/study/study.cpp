@@ -109,19 +109,22 @@ void need_absolute_files(json scene, const std::vector<std::string>& overrides,
     for (const std::string& key : scene::file_entries) {
         const json::json_pointer at(key);
         if (!scene.contains(at) || !scene[at].is_string() ||
-            scene[at].get_ref<const std::string&>().starts_with('/'))
+            scene[at].get_ref<const std::string&>().starts_with('/') ||
+            scene::file_reference(scene[at].get_ref<const std::string&>()))
             continue;
-        faults.push_back({key,
-                          "the path is relative, but a scene sent to the service has no folder",
-                          "give the absolute path of the file on the service's machine"});
+        faults.push_back(
+            {key, "the path is relative, but a scene sent to the service has no folder",
+             "send the file (POST /v1/files; breach submit does it) and give the "
+             "reference of the answer, or the absolute path on the service's machine"});
     }
 }
 
 /// The scene's own check; what it could read, and everything that is wrong.
-check::Checked checked_scene(const json& document, const std::vector<std::string>& overrides) {
+check::Checked checked_scene(const json& document, const std::vector<std::string>& overrides,
+                             const std::filesystem::path& folder) {
     std::vector<Fault> faults;
     need_absolute_files(document, overrides, faults);
-    check::Checked checked = check::checked_text(document.dump(), "scene", "/", overrides);
+    check::Checked checked = check::checked_text(document.dump(), "scene", folder, overrides);
     // A relative path was looked for below the root: one fault is enough.
     std::erase_if(checked.faults, [&](const Fault& each) {
         return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
@@ -202,6 +205,7 @@ void read_triggers(const json& document, double span, Study& study, std::vector<
 
 /// The study's scene with its own overrides: completed when it is sound, as it was sent otherwise.
 struct Base {
+    std::filesystem::path folder;
     json scene;
     std::vector<std::string> overrides;
     std::vector<Fault> faults;  ///< of the scene itself: a variant does not repeat them
@@ -288,7 +292,7 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
         }
         std::vector<std::string> overrides = base.overrides;
         overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
-        const check::Checked changed = checked_scene(base.scene, overrides);
+        const check::Checked changed = checked_scene(base.scene, overrides, base.folder);
         for (const Fault& each : faults_of_variant(changed, base, times)) {
             const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
             const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
@@ -419,7 +423,7 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 
 }  // namespace
 
-Study read_study(std::string_view text) {
+Study read_study(std::string_view text, const std::filesystem::path& folder) {
     json document = scene::parse_json(text, "study");
     refuse_scene(document);
     const std::vector<Fault> of_study = scene::complete_and_check(document, scene::study_schema());
@@ -435,7 +439,7 @@ Study read_study(std::string_view text) {
     Study study;
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
-    Base base;
+    Base base{folder, {}, {}, {}};
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = document["scene"];
         if (sound("overrides")) base.overrides = document["overrides"];
@@ -450,11 +454,11 @@ Study read_study(std::string_view text) {
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
-        scene = checked_scene(base.scene, base.overrides);
+        scene = checked_scene(base.scene, base.overrides, folder);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {json::parse(scene->scene.completed), {}, {}};  // what variants change
+            base = {folder, json::parse(scene->scene.completed), {}, {}};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
@@ -513,14 +517,15 @@ Study read_study(std::string_view text) {
     return study;
 }
 
-json read_whole_scene(std::string_view text) {
-    const check::Checked checked = checked_scene(scene::parse_json(text, "scene"), {});
+json read_whole_scene(std::string_view text, const std::filesystem::path& folder) {
+    const check::Checked checked = checked_scene(scene::parse_json(text, "scene"), {}, folder);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return json::parse(checked.scene.completed);
 }
 
-check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides) {
-    return checked_scene(document, overrides);
+check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
+                                const std::filesystem::path& folder) {
+    return checked_scene(document, overrides, folder);
 }
 
 }  // namespace breach::orchestrator

@@ -2,6 +2,7 @@
 // plain list.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -37,9 +38,10 @@ struct Study {
 };
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
-Study read_study(std::string_view text);
+/// folder: its `files` hold what references of the scene name (core/scene/file_paths.hpp).
+Study read_study(std::string_view text, const std::filesystem::path& folder = "/");
 
 /// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
-nlohmann::json read_whole_scene(std::string_view text);
+nlohmann::json read_whole_scene(std::string_view text, const std::filesystem::path& folder = "/");
 
 }  // namespace breach::orchestrator

@@ -15,11 +15,11 @@ using nlohmann::json;
 namespace {
 
 /// The study as it was submitted, with these times.
-Study study_with(const RunSoFar& run, const json& times) {
+Study study_with(const RunSoFar& run, const DataFolder& data, const json& times) {
     json document = run.study;
     document["scene"] = json::parse(run.scene);
     document["transfer_times"] = times;
-    return read_study(document.dump());
+    return read_study(document.dump(), data.root());
 }
 
 bool contains(const std::vector<double>& times, std::optional<double> time) {
@@ -44,7 +44,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
         present.emplace(each.label, each);
     }
     Extension extension;
-    for (const double time : study_with(run, wanted).transfer_times)
+    for (const double time : study_with(run, data, wanted).transfer_times)
         if (!contains(known, time)) extension.times.push_back(time);
     std::vector<double> all = known;
     all.insert(all.end(), extension.times.begin(), extension.times.end());
@@ -52,7 +52,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
     const auto repeated = std::ranges::unique(all);  // variants
     all.erase(repeated.begin(), repeated.end());
 
-    const Study study = study_with(run, all);
+    const Study study = study_with(run, data, all);
     extension.study = study.document;
     TaskGraph graph = plan_tasks(study, numerics);
     extension.recipes = std::move(graph.recipes);

@@ -156,10 +156,12 @@ void TriggerWatch::load_open_triggers() {
     for (const Trigger& trigger : open) {
         auto found = fems_.find(trigger.fem_task);
         if (found == fems_.end()) {
-            Task task = *store_.task(trigger.fem_task);
+            auto stored = store_.task(trigger.fem_task);
+            if (!stored) continue;  // disarmed and removed meanwhile
+            Task task = std::move(*stored);
             const auto output = data_.output(task);
             const bool regular =
-                has_regular_snapshots(task, json::parse(*store_.scene_of(task.run)));
+                has_regular_snapshots(task, json::parse(store_.scene_of(task.run).value()));
             Fem fem{.task = std::move(task),
                     .output = output,
                     .tail = telemetry::Tail(output / phases::files::telemetry),
@@ -168,7 +170,8 @@ void TriggerWatch::load_open_triggers() {
         }
         arm(found->second, trigger);
     }
-    for (auto& [id, fem] : fems_) fem.task = *store_.task(id);
+    for (auto& [id, fem] : fems_)
+        if (auto now = store_.task(id)) fem.task = std::move(*now);
 }
 
 void TriggerWatch::arm(Fem& fem, const Trigger& trigger) {

@@ -71,7 +71,8 @@ export function page_of_runs(cursor, limit) {
 export const page_of_events = (after) => get_json(`/v1/events?after=${after}&wait=0`);
 export const read_run = (run) => get_json(path_of("runs", run));
 export const submit_study = (text) => post_json("/v1/runs", text);
-/// order: cancel, pause, resume or retry
+export const remove_run = (run) => get_json(path_of("runs", run), { method: "DELETE" });
+/// order: cancel, pause, resume, retry, pin or unpin
 export const command_run = (run, order) => post_json(path_of("runs", run, order), "{}");
 export const read_task = (task) => get_json(path_of("tasks", task));
 export const read_triggers = async (run) => (await get_json(path_of("runs", run, "triggers"))).triggers;

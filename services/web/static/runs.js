@@ -28,7 +28,7 @@ function fill_item(item, run, open_id) {
     progress.hidden = !is_active(run.state);
     progress.setAttribute("aria-label", `progress of ${run.name}`);
     set_text(time, `${clock(run.created)} · ${is_active(run.state) ? percent(run.progress) + " · " : ""}` +
-                   `${run.tasks_done} of ${run.tasks_total} tasks`);
+                   `${run.tasks_done} of ${run.tasks_total} tasks${run.pinned ? " · pinned" : ""}`);
     set_text(why, doubt_of(run));
     why.hidden = why.textContent === "";
     link.title = [run.title || run.name, run.message].filter(Boolean).join("\n");
@@ -48,6 +48,9 @@ export class RunHead {
         this.changed = changed;
         by_id("cancel").addEventListener("click", () => by_id("cancel-dialog").showModal());
         by_id("cancel-dialog").addEventListener("close", () => this.answer(by_id("cancel-dialog").returnValue));
+        by_id("remove").addEventListener("click", () => by_id("remove-dialog").showModal());
+        by_id("remove-dialog").addEventListener("close", () => this.answer_removal(by_id("remove-dialog").returnValue));
+        by_id("pin").addEventListener("click", () => this.command(this.run.pinned ? "unpin" : "pin"));
         for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
     }
 
@@ -69,12 +72,27 @@ export class RunHead {
         by_id("pause").hidden = !active || run.paused;
         by_id("resume").hidden = !active || !run.paused;
         by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task_state(task)));
+        set_text(by_id("pin"), run.pinned ? "Unpin" : "Pin");
+        by_id("remove").hidden = active || run.pinned;
         set_text(by_id("cancel-what"), run.title || run.name);
+        set_text(by_id("remove-what"), run.title || run.name);
     }
 
     async answer(choice) {
         by_id("cancel-dialog").returnValue = "";
         if (choice === "cancel-run") await this.command("cancel");
+    }
+
+    async answer_removal(choice) {
+        by_id("remove-dialog").returnValue = "";
+        if (choice !== "remove-run") return;
+        try {
+            await api.remove_run(this.run.id);
+            location.hash = "#/";
+            this.changed();
+        } catch (fault) {
+            set_text(by_id("run-message"), `The server refused to remove this run: ${fault.message}`);
+        }
     }
 
     async command(order) {

@@ -124,7 +124,7 @@ class Breach(unittest.TestCase):
 
     def test_orders_to_a_run(self):
         service = self.serve()
-        for words in (["pause"], ["resume"], ["retry"], ["priority", "10"]):
+        for words in (["pause"], ["resume"], ["retry"], ["pin"], ["unpin"], ["priority", "10"]):
             done = call(service, words[0], "latest", *words[1:])
             self.assertEqual((done.returncode, "running" in done.stdout), (0, True), done.stderr)
             self.assertEqual(service.posted[-1][0], f"/v1/runs/{run_id}/{words[0]}")
@@ -142,7 +142,7 @@ class Breach(unittest.TestCase):
 
     def test_every_word_has_an_example_and_a_wrong_one_is_named(self):
         words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "priority",
-                 "results", "logs", "telemetry", "export", "plan")
+                 "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "pin", "unpin", "completion")
         for word in words:
             self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)
         wrong = call("http://127.0.0.1:1", "restart", run_id)
@@ -151,6 +151,26 @@ class Breach(unittest.TestCase):
         for word in words:
             self.assertIn(word, wrong.stderr)
         self.assertIn("For example: breach submit", call("http://127.0.0.1:1").stderr)
+
+    def test_a_file_that_the_server_does_not_find_is_sent_once_and_named_by_its_content(self):
+        service = self.serve()
+        (self.here / "m.csv").write_text("a motion")
+        (self.here / "scene.json").write_text('{"name": "shaken", "fem": {"motion": {"file": "m.csv"}}}')
+        (self.here / "study.json").write_text(json.dumps({"name": "shaken", "scene": "scene.json", "variants": [
+            {"name": "a", "overrides": ["/fem/motion/file=m.csv", "/fem/msh_file=/only/there.msh"]}]}))
+        reference = f"file:sha256/{hashlib.sha256(b'a motion').hexdigest()}.csv"
+        for uploads in (1, 1):
+            done = call(service, "submit", self.here / "study.json")
+            self.assertEqual((done.returncode, done.stdout), (0, run_id + "\n"), done.stderr)
+            study = service.posted[-1][1]
+            self.assertEqual(study["scene"]["fem"]["motion"]["file"], reference)
+            self.assertEqual(study["variants"][0]["overrides"], [f"/fem/motion/file={reference}", "/fem/msh_file=/only/there.msh"])
+            self.assertEqual(len(service.files), uploads)
+        self.assertEqual(service.uploads, 2, "one broke off, one came through; the second study needed none")
+
+    def test_quiet_says_nothing_beside_what_was_asked_for(self):
+        done = call(self.serve(end="questionable"), "submit", self.study(), "--watch", "--quiet")
+        self.assertEqual((done.returncode, len(done.stdout.splitlines()), done.stderr), (0, 2, ""))
 
     def test_submit_can_watch(self):
         done = call(self.serve(end="failed"), "submit", self.study(), "--watch")

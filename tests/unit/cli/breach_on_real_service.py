@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,8 +19,9 @@ class RealService(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.here = pathlib.Path(cls.folder.name)
+        (cls.here / "elsewhere").mkdir()
         cls.service = subprocess.Popen([programs / "breachline", "serve", "--data", cls.here / "data", "--port", "0"],
-                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+                                       cwd=cls.here / "elsewhere", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         cls.url = json.loads(cls.service.stdout.readline())["url"]
 
     @classmethod
@@ -128,6 +130,71 @@ class RealService(unittest.TestCase):
         table = self.breach("results", run, "--csv").stdout.splitlines()
         self.assertEqual([line.split(",")[0] for line in table[1:]], ["0.1", "0.2"])
         self.assertEqual(self.breach("extend", run, "--times", "0.2").stdout, "")
+
+    def test_mochikoshi_is_submitted_from_a_machine_that_shares_no_path(self):
+        mine = self.here / "mine"
+        (mine / "motions").mkdir(parents=True)
+        (mine / "scenes").mkdir()
+        (mine / "motions/synthetic.csv").write_bytes((scenes / "../motions/synthetic.csv").read_bytes())
+        (mine / "scenes/mochikoshi.json").write_bytes((scenes / "mochikoshi.json").read_bytes())
+        study = {"format": "breachline-study/1", "name": "mochikoshi-from-afar", "scene": "scenes/mochikoshi.json",
+                 "transfer_times": [0.05], "stability": False,
+                 "overrides": ["/section/element_size=10", "/fem/stages/2/time_step=0.01", "/fem/stages/2/duration=0.05",
+                               "/mpm/cell_size=5", "/mpm/allow_coarse_cells=true", "/mpm/stiffness_scale=0.01",
+                               "/mpm/duration=0.1"]}
+        (mine / "study.json").write_text(json.dumps(study))
+        sent = self.breach("submit", mine / "study.json", "--send-files")
+        shutil.rmtree(mine)  # nothing of it is read any more
+        run = sent.stdout.strip()
+        self.assertIn("sent ", sent.stderr)
+        # The MPM of a tenth of a second is not to be relied on, which is said.
+        self.assertRegex(self.breach("watch", run).stdout, "100 %  (succeeded|questionable)  3 of 3 tasks")
+        page = json.loads(self.breach("show", run, "--json").stdout)
+        reference = page["files"][0]["reference"]
+        self.assertEqual(page["study"]["scene"]["fem"]["motion"]["file"], reference)
+        self.assertIn(reference, self.breach("files").stdout)
+        out = self.here / "from_afar"
+        self.breach("export", run, out)
+        entities = {each["@id"]: each for each in json.loads((out / "ro-crate-metadata.json").read_text())["@graph"]}
+        motion = f"files/{reference.removeprefix('file:sha256/')}"
+        self.assertEqual((out / motion).read_bytes(), (scenes / "../motions/synthetic.csv").read_bytes())
+        fem = next(each for each in entities.values() if each["@type"] == "CreateAction" and "fem_solver" in each["name"])
+        self.assertIn({"@id": motion}, fem["object"])
+        refused = self.breach("rm", reference, code=65)
+        self.assertIn("remove them first", refused.stderr)
+        # The export is submitted as it is: its motion lies beside it, and what was computed is known.
+        again = self.breach("submit", out / "study.json", "--watch").stdout.split()[0]
+        tasks = json.loads(self.breach("show", again, "--json").stdout)["tasks"]
+        self.assertEqual({each["state"] for each in tasks}, {"cached"})
+        self.assertIn("freed", self.breach("rm", run).stdout)
+        self.breach("show", run, code=65)
+        self.breach("rm", again)
+
+    def test_disk_is_given_back(self):
+        run = self.breach("submit", self.study(small, [0.1]), "--watch", "--quiet").stdout.split()[0]
+        self.assertIn(run, self.breach("du").stdout)
+        self.assertEqual(self.breach("open", run).stdout, f"{self.url}/#/runs/{run}\n")
+        self.breach("pin", run)
+        self.assertIn("breach unpin " + run, self.breach("rm", run, code=65).stderr)
+        self.breach("unpin", run)
+        long = self.breach("submit", self.study(["/fem/stages/1/duration=60", "/mpm/cell_size=2"], [59])).stdout.strip()
+        self.assertIn("breach cancel " + long, self.breach("rm", long, code=65).stderr)
+        self.assertEqual(len(self.breach("rm", run, long, "--cancel").stdout.splitlines()), 2)
+        self.assertNotIn(run, self.breach("list").stdout)
+
+    def test_bash_completes_words_options_and_runs(self):
+        script = self.here / "completion"
+        script.write_text(self.breach("completion", "bash").stdout)
+        def completed(*words):
+            line = f"source {script}; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _breach; echo ${{COMPREPLY[*]}}"
+            environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "BREACH_SERVER": self.url}
+            return subprocess.run(["bash", "-c", line], text=True, capture_output=True, env=environment).stdout.split()
+        self.assertEqual(completed("breach", "prio"), ["priority"])
+        self.assertIn("--transfer-time", completed("breach", "telemetry", "--tr"))
+        self.assertIn("--server", completed("breach", "submit", "--se"))
+        self.assertIn("--scene", completed("breach", "submit", "--sc"))
+        run = self.breach("submit", self.study(small, [0.1])).stdout.strip()
+        self.assertIn(run, completed("breach", "watch", run[:4]))
 
     def test_faults_come_back_with_their_pointers(self):
         refused = self.breach("submit", self.study(small + ["/mpm/cell_size=-1"], [0.1]), code=65)

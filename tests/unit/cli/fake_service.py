@@ -29,6 +29,7 @@ class Service(http.server.ThreadingHTTPServer):
         super().__init__(("127.0.0.1", 0), Handler)
         self.end, self.token, self.lies, self.looks_left = end, token, lies, looks
         self.posted, self.asked = [], []
+        self.files, self.uploads = {}, 0
         self.seq = 0
         threading.Thread(target=lambda: self.serve_forever(0.05), daemon=True).start()
 
@@ -96,12 +97,17 @@ class Handler(http.server.BaseHTTPRequestHandler):
         body = self.rfile.read(int(self.headers["Content-Length"]))
         if not self.allowed():
             return
+        if self.path.startswith("/v1/files?"):
+            return self.take_file(body)
         posted = json.loads(body)
         self.server.posted.append((self.path, posted, dict(self.headers)))
         if self.path == "/v1/runs":
             if posted.get("name") == "faulty":
                 self.refuse(422, "the study has faults", [
                     {"pointer": "/scene/mpm/cell_size", "cause": "is negative", "remedy": "give a positive size"}])
+            elif posted.get("name") == "shaken" and not posted["scene"]["fem"]["motion"]["file"].startswith("file:"):
+                self.refuse(422, "the study has faults", [
+                    {"pointer": "/scene/fem/motion/file", "cause": "does not exist", "remedy": "send it"}])
             elif posted.get("name") == "busy":
                 self.refuse(503, "the disk is full")
             else:
@@ -109,12 +115,29 @@ class Handler(http.server.BaseHTTPRequestHandler):
         elif self.path == f"/v1/runs/{run_id}/cancel":
             self.server.end, self.server.looks_left = "cancelled", 0
             self.answer(202, self.server.run())
-        elif self.path in [f"/v1/runs/{run_id}/{word}" for word in ("pause", "resume", "retry", "priority")]:
+        elif self.path in [f"/v1/runs/{run_id}/{word}" for word in ("pause", "resume", "retry", "priority", "pin", "unpin")]:
             self.answer(202, self.server.run())
         elif self.path == "/v1/scenes/plan":
             self.answer(200, {"plans": {"mpm_solver": "pore pressure  left out: the scene is dry\n"}})
         else:
             self.refuse(404, "no such thing")
+
+    def take_file(self, body):
+        """The first one breaks off."""
+        self.server.uploads += 1
+        if self.server.uploads == 1:
+            return self.refuse(503, "the disk refused")
+        sha256 = hashlib.sha256(body).hexdigest()
+        self.server.files[sha256] = f"file:sha256/{sha256}.csv"
+        self.answer(201, {"reference": self.server.files[sha256], "about": "a motion"})
+
+    def do_HEAD(self):
+        reference = self.server.files.get(self.path.split("/")[-1])
+        self.send_response(200 if reference else 404)
+        if reference:
+            self.send_header("X-File-Reference", reference)
+        self.send_header("Content-Length", "8")
+        self.end_headers()
 
     def do_GET(self):
         if not self.allowed():

@@ -96,7 +96,8 @@ class Described(unittest.TestCase):
 
     def test_2_it_has_every_route_of_the_source_and_no_other(self):
         source = "".join(each.read_text() for each in (root / "services/orchestrator/http").glob("*.cpp"))
-        routes = {(path, method) for method, path in re.findall(r'router\.(get|post)\(\s*"([^"]+)"', source)}
+        routes = {(path, method) for method, path in re.findall(r'router\.(get|post|remove)\(\s*"([^"]+)"', source)}
+        routes = {(path, "delete" if method == "remove" else method) for path, method in routes}
         described = {(path, method) for path, methods in self.document["paths"].items() for method in methods}
         self.assertEqual(routes, described)
         for path, methods in self.document["paths"].items():
@@ -164,6 +165,23 @@ class Described(unittest.TestCase):
         post("/v1/runs/{id}/priority", f"/v1/runs/{run}/priority", 202, {"priority": 3})
         post("/v1/sweeps/{id}/cancel", f"/v1/sweeps/{run}/cancel", 202)
         post("/v1/runs/{id}/cancel", f"/v1/runs/{run}/cancel", 202)
+        delete = lambda template, path, status: self.check("DELETE", template, path, status)
+        post("/v1/runs/{id}/pin", f"/v1/runs/{run}/pin", 202)
+        get("/v1/storage", "/v1/storage")
+        self.wait()
+        delete("/v1/runs/{id}", f"/v1/runs/{run}", 409)
+        post("/v1/runs/{id}/unpin", f"/v1/runs/{run}/unpin", 202)
+        delete("/v1/runs/{id}", f"/v1/runs/{run}", 202)
+        motion = (root / "workflows/motions/synthetic_short.csv").read_bytes()
+        raw = {"Content-Type": "application/octet-stream"}
+        sent = [json.loads(self.check("POST", "/v1/files", "/v1/files?name=a.csv", status, motion, **raw)) for status in (201, 200)]
+        self.assertEqual(sent[0]["reference"], f"file:sha256/{sent[0]['sha256']}.csv")
+        self.check("POST", "/v1/files", "/v1/files?name=a.csv", 415, motion)
+        self.check("POST", "/v1/files", "/v1/files?name=a.csv", 422, b"no motion", **raw)
+        get("/v1/files", "/v1/files")
+        self.assertEqual(get("/v1/files/{sha256}", f"/v1/files/{sent[0]['sha256']}"), motion)
+        delete("/v1/files/{sha256}", f"/v1/files/{sent[0]['sha256']}", 202)
+        delete("/v1/files/{sha256}", f"/v1/files/{sent[0]['sha256']}", 404)
 
     def test_4_what_is_wrong_is_a_described_problem(self):
         for template, methods in self.document["paths"].items():

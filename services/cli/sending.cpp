@@ -1,0 +1,119 @@
+#include "services/cli/sending.hpp"
+
+#include <algorithm>
+#include <map>
+#include <thread>
+
+#include "core/exchange/provenance.hpp"
+#include "core/scene/file_paths.hpp"
+#include "services/cli/table.hpp"
+
+namespace breach::cli {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int most_tries = 3;
+
+/// Visits the text of every entry that names a file: in the scene, and behind "/pointer=".
+class FileEntries {
+  public:
+    explicit FileEntries(json& study) {
+        if (!study.is_object()) return;
+        for (const std::string& entry : scene::file_entries) {
+            const json::json_pointer key("/scene" + entry);
+            if (study.contains(key) && study[key].is_string()) places_.push_back({&study[key], ""});
+        }
+        for (const auto& [key, value] : study.items())
+            if (key != "scene") look_for_overrides(value);
+    }
+    template <class Visit>
+    void each(Visit visit) {
+        for (Place& place : places_) {
+            const std::string text = *place.text;
+            const std::string path = text.substr(place.before.size());
+            *place.text = place.before + visit(path);
+        }
+    }
+
+  private:
+    struct Place {
+        json* text;
+        std::string before;
+    };
+    void look_for_overrides(json& value) {
+        if (value.is_structured())
+            for (json& each : value) look_for_overrides(each);
+        if (!value.is_string()) return;
+        for (const std::string& entry : scene::file_entries)
+            if (value.get_ref<const std::string&>().starts_with(entry + "="))
+                places_.push_back({&value, entry + "="});
+    }
+    std::vector<Place> places_;
+};
+
+bool is_about_a_file(const fault::Fault& fault) {
+    return std::ranges::any_of(scene::file_entries, [&](const std::string& entry) {
+        return fault.pointer.ends_with(entry) || fault.cause.find(entry) != std::string::npos;
+    });
+}
+
+bool is_this_machine(const std::string& origin) {
+    const std::string host = origin.substr(origin.find("//") + 2);
+    return host.starts_with("localhost") || host.starts_with("127.") || host.starts_with("[::1]");
+}
+
+/// Returns how many entries it replaced by references. What is no file here is left: it may be a path
+/// of the server's.
+std::size_t send_files_of(Server& server, json& study, const Console& console) {
+    std::map<std::string, std::string> references;
+    std::size_t replaced = 0;
+    FileEntries(study).each([&](const std::string& path) {
+        std::error_code error;
+        if (scene::file_reference(path) || !fs::is_regular_file(path, error)) return path;
+        auto known = references.find(path);
+        if (known == references.end())
+            known = references.emplace(path, send_file(server, path, console)).first;
+        ++replaced;
+        return known->second;
+    });
+    return replaced;
+}
+
+}  // namespace
+
+std::string send_file(Server& server, const fs::path& file, const Console& console) {
+    const std::string sha256 = exchange::sha256_of_file(file);
+    const std::string known = server.reference_of(path_of({"files", sha256}));
+    if (!known.empty()) return known;
+    const std::string door =
+        path_of({"files"}) + query_of({{"name", file.filename().string()}, {"sha256", sha256}});
+    for (int tries = 1;; ++tries) {
+        try {
+            const json answer = server.upload(door, file);
+            console.notes << "sent " << file.string() << " (" << cell(answer, "about") << ")\n";
+            return answer.at("reference");
+        } catch (const Unreachable&) {
+            if (tries == most_tries) throw;
+            std::this_thread::sleep_for(std::chrono::seconds(tries));
+        }
+    }
+}
+
+json post_study(Server& server, const std::string& door, json study, const Headers& headers,
+                Sending sending, const Console& console) {
+    if (sending == Sending::always || !is_this_machine(server.origin()))
+        send_files_of(server, study, console);
+    try {
+        return server.post(door, study, headers);
+    } catch (const Refused& refused) {
+        const bool helps = std::ranges::any_of(refused.faults(), is_about_a_file) &&
+                           send_files_of(server, study, console) > 0;
+        if (!helps) throw;
+    }
+    return server.post(door, study, headers);
+}
+
+}  // namespace breach::cli

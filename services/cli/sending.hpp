@@ -1,0 +1,24 @@
+// Motions and meshes that a study names by path, on their way to a server that does not have them.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "services/cli/console.hpp"
+#include "services/cli/http/server.hpp"
+
+namespace breach::cli {
+
+/// By which a scene names the file. It is sent only when the server does not know it, and again when
+/// it did not arrive.
+std::string send_file(Server& server, const std::filesystem::path& file, const Console& console);
+
+enum class Sending { where_needed, always };
+
+/// Posts the study. The files that it names, in its scene or in overrides, are sent first where the
+/// server cannot have them: it is another machine, or says that it does not find them.
+nlohmann::json post_study(Server& server, const std::string& door, nlohmann::json study,
+                          const Headers& headers, Sending sending, const Console& console);
+
+}  // namespace breach::cli

@@ -1,0 +1,141 @@
+#include "services/cli/stored.hpp"
+
+#include <cstdio>
+#include <thread>
+
+#include "core/scene/file_paths.hpp"
+#include "services/cli/sending.hpp"
+#include "services/cli/table.hpp"
+#include "services/cli/views.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+void show_json(const json& answer, const Console& console) {
+    console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
+}
+
+void wait_for_the_end(Server& server, const std::string& run) {
+    constexpr auto pause = std::chrono::milliseconds(200);
+    while (server.get(path_of({"runs", run})).at("finished").is_null())
+        std::this_thread::sleep_for(pause);
+}
+
+}  // namespace
+
+ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns wish,
+                    const Console& console) {
+    for (const std::string& name : names) {
+        const auto file = scene::file_reference(name);
+        const std::string id = file ? file->sha256 : run_named(server, name);
+        const std::string path = path_of({file ? "files" : "runs", id});
+        json answer;
+        try {
+            answer = server.remove(path);
+        } catch (const Refused& refused) {
+            if (refused.type() != "/problems/going-on" || wish == IfItRuns::refuse) throw;
+            server.post(path + "/cancel", json::object());
+            wait_for_the_end(server, id);
+            answer = server.remove(path);
+        }
+        if (console.style == Style::json) {
+            show_json(answer, console);
+        } else {
+            console.out << id << "  " << in_bytes(answer.at("freed_bytes").get<double>())
+                        << " freed" << std::endl;
+        }
+    }
+    return ExitCode::done;
+}
+
+ExitCode disk_use(Server& server, const Console& console) {
+    const json storage = server.get("/v1/storage");
+    if (console.style == Style::json) {
+        show_json(storage, console);
+        return ExitCode::done;
+    }
+    const auto bytes = [](const json& of, const char* key) {
+        return of.at(key).is_number() ? in_bytes(of.at(key).get<double>()) : std::string("-");
+    };
+    std::vector<Cells> rows;
+    for (const json& run : storage.at("runs"))
+        rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), bytes(run, "bytes"),
+                        bytes(run, "shared_bytes"), bytes(run, "freed_bytes"),
+                        run.at("pinned").get<bool>() ? "pinned" : ""});
+    console.out << as_table({{"run", Align::left},
+                             {"name", Align::left},
+                             {"state", Align::left},
+                             {"holds", Align::right},
+                             {"shared", Align::right},
+                             {"rm frees", Align::right},
+                             {"", Align::left}},
+                            rows);
+    console.out << "\nruns " << bytes(storage, "runs_bytes") << ", files that were sent "
+                << bytes(storage, "files_bytes") << ", database "
+                << bytes(storage, "database_bytes") << ": " << bytes(storage, "total_bytes")
+                << "; the disk has " << bytes(storage, "free_bytes") << " left\n";
+    if (storage.at("removing") != 0)
+        console.out << cell(storage, "removing") << " removed runs are still being deleted\n";
+    if (storage.at("keep_days").is_number())
+        console.out << "runs are removed " << cell(storage, "keep_days")
+                    << " days after their end, unless pinned\n";
+    if (storage.at("keep_GB").is_number())
+        console.out << "the oldest runs are removed beyond " << cell(storage, "keep_GB")
+                    << " GB, unless pinned\n";
+    return ExitCode::done;
+}
+
+ExitCode list_files(Server& server, const Console& console) {
+    const json files = server.get("/v1/files").at("files");
+    if (console.style == Style::json) {
+        show_json(files, console);
+        return ExitCode::done;
+    }
+    std::vector<Cells> rows;
+    for (const json& file : files)
+        rows.push_back({cell(file, "reference"), cell(file, "name"),
+                        in_bytes(file.at("bytes").get<double>()),
+                        std::to_string(file.at("runs").size()), cell(file, "about")});
+    if (rows.empty())
+        console.notes << "no files were sent\n";
+    else
+        console.out << as_table({{"reference", Align::left},
+                                 {"name", Align::left},
+                                 {"size", Align::right},
+                                 {"runs", Align::right},
+                                 {"", Align::left}},
+                                rows);
+    return ExitCode::done;
+}
+
+ExitCode send_files(Server& server, const std::vector<fs::path>& files, const Console& console) {
+    for (const fs::path& each : files) console.out << send_file(server, each, console) << std::endl;
+    return ExitCode::done;
+}
+
+ExitCode open_page(Server& server, const std::string& run, const Console& console) {
+    const std::string id = run_named(server, run);
+    server.get(path_of({"runs", id}));
+    console.out << server.origin() << "/#/runs/" << percent_encoded(id) << "\n";
+    return ExitCode::done;
+}
+
+std::string in_bytes(double bytes) {
+    constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+    std::size_t unit = 0;
+    while (bytes >= 999.5 && unit + 1 < std::size(units)) {
+        bytes /= 1000.0;
+        ++unit;
+    }
+    char text[32];
+    std::snprintf(text, sizeof text, unit == 0 || bytes >= 99.95 ? "%.0f %s" : "%.1f %s", bytes,
+                  units[unit]);
+    return text;
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,27 @@
+// What lies on the server's disk: listing and removing it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "services/cli/commands.hpp"
+
+namespace breach::cli {
+
+/// Runs, and files as "file:sha256/...". cancel_first: and wait for the end, when one goes on.
+enum class IfItRuns { refuse, cancel_first };
+fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns wish,
+                           const Console& console);
+fault::ExitCode disk_use(Server& server, const Console& console);
+fault::ExitCode list_files(Server& server, const Console& console);
+/// Sends files and prints their references.
+fault::ExitCode send_files(Server& server, const std::vector<std::filesystem::path>& files,
+                           const Console& console);
+/// Prints the dashboard's address of a run.
+fault::ExitCode open_page(Server& server, const std::string& run, const Console& console);
+
+/// "12.3 MB"
+std::string in_bytes(double bytes);
+
+}  // namespace breach::cli

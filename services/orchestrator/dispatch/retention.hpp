@@ -1,0 +1,53 @@
+// Gives disk back: removes the folders of runs that were removed from the store, removes runs that
+// are older or more than the service was told to keep, files that were sent and that nobody names,
+// and the database's free pages. A thread of its own; every order is stored before it is carried
+// out, so that a restart goes on with it.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+struct RetentionSettings {
+    std::optional<double> keep_days;  ///< a run that ended earlier is removed
+    std::optional<double> keep_gb;    ///< [1e9 bytes] of runs, files and database: the oldest go
+};
+
+class Retention {
+  public:
+    Retention(Store& store, const DataFolder& data, RetentionSettings settings);
+
+    /// Something was removed.
+    void wake();
+    const RetentionSettings& settings() const { return settings_; }
+    /// Of the database with its log.
+    std::int64_t database_bytes() const;
+
+  private:
+    void serve(const std::stop_token& stop);
+    void look(const std::stop_token& stop);
+    bool is_being_backed_up() const;
+    void remove_folders(const std::stop_token& stop);
+    void remove_old_runs();
+    void remove_for_room();
+    void forget_unused_files();
+    void shrink_database(const std::stop_token& stop);
+    bool remove(const Run& run, const std::string& why);
+
+    Store& store_;
+    const DataFolder& data_;
+    RetentionSettings settings_;
+    bool said_full_ = false;
+    std::mutex mutex_;
+    std::condition_variable_any woken_;
+    bool wanted_ = true;
+    std::jthread thread_;  // last: stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,51 @@
+// What lies in the data folder, run by run. Runs that share results share the files themselves (hard
+// links), so the disk itself knows what removing one of them would give back.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace breach::orchestrator {
+
+/// [bytes that the disk has given]
+struct RunUse {
+    std::int64_t own = 0;                       ///< freed when the run is removed
+    std::int64_t shared = 0;                    ///< also held by others
+    std::vector<std::string> shared_with = {};  ///< some of the runs that hold them, newest first
+};
+
+/// What removing this run's folder would free [bytes].
+std::int64_t freed_without(const std::filesystem::path& run);
+
+class DiskUse {
+  public:
+    /// Looks at every file below `runs` and `files`. What vanishes meanwhile counts as gone.
+    DiskUse(const std::filesystem::path& runs, const std::filesystem::path& files);
+
+    /// By run; also folders of which the store knows nothing.
+    std::map<std::string, RunUse> by_run() const;
+    std::int64_t bytes_of_runs() const { return bytes_of_runs_; }
+    std::int64_t bytes_of_files() const { return bytes_of_files_; }
+    /// Reckons without the run from now on; returns what it frees.
+    std::int64_t leave_out(const std::string& run);
+
+  private:
+    /// One file of the disk, however many names it has.
+    struct Content {
+        std::int64_t bytes;
+        std::uint64_t names;  ///< wherever on the disk
+        std::map<std::string, std::uint64_t> in_runs;
+    };
+    bool is_held_elsewhere(const Content& content, const std::string& run) const;
+
+    using Key = std::pair<std::uint64_t, std::uint64_t>;  ///< device, inode
+    std::map<Key, Content> contents_;
+    std::map<std::string, std::vector<Key>> of_run_;
+    std::int64_t bytes_of_runs_ = 0;
+    std::int64_t bytes_of_files_ = 0;
+};
+
+}  // namespace breach::orchestrator

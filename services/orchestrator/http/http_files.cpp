@@ -1,0 +1,222 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/check/mesh_file.hpp"
+#include "core/exchange/provenance.hpp"
+#include "core/motion/plausibility.hpp"
+#include "core/motion/read_motion.hpp"
+#include "core/scene/file_paths.hpp"
+#include "services/orchestrator/files/failpoint.hpp"
+#include "services/orchestrator/files/sync_folder.hpp"
+#include "services/orchestrator/http/answers.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/records/identity.hpp"
+
+namespace breach::orchestrator {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// The endings by which files are read; anything else is two columns of text.
+constexpr std::array<std::string_view, 5> endings{".at2", ".vt2", ".dt2", ".csv", ".msh"};
+constexpr const char* other_ending = ".txt";
+
+std::string ending_of(const std::string& name) {
+    std::string ending = fs::path(name).extension();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return std::ranges::find(endings, ending) != endings.end() ? ending : other_ending;
+}
+
+/// As its sender calls it: to be shown, never a path.
+std::string sent_name(const Call& call) {
+    constexpr std::size_t longest = 200;
+    const std::string name = fs::path(call.parameter("name").value_or("")).filename();
+    const bool plain = std::ranges::none_of(
+        name, [](unsigned char c) { return c < ' ' || c == 0x7f || c == '"' || c == '\\'; });
+    if (name.empty() || name.size() > longest || !plain)
+        throw bad_request(
+            "name must be the file's name: its ending says how it is read (.at2, .vt2, .csv, .msh; "
+            "anything else is two columns of time and acceleration)");
+    return name;
+}
+
+/// A file on its way in; whatever happens, nothing of it is left under this name.
+class Arriving {
+  public:
+    explicit Arriving(fs::path path) : path_(std::move(path)) {}
+    ~Arriving() {
+        std::error_code error;
+        fs::remove(path_, error);
+    }
+    Arriving(const Arriving&) = delete;
+    Arriving& operator=(const Arriving&) = delete;
+
+    std::int64_t take(const Call& call, std::size_t most) {
+        const int file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+        if (file < 0) throw trouble();
+        std::size_t bytes = 0;
+        bool fits = true, written = true;
+        const bool whole = (*call.body)([&](const char* data, std::size_t size) {
+            bytes += size;
+            fits = bytes <= most;
+            for (std::size_t done = 0; fits && written && done < size;) {
+                const auto step = ::write(file, data + done, size - done);
+                written = step > 0;
+                done += written ? static_cast<std::size_t>(step) : 0;
+            }
+            return bytes <= most + dropped;  // so that its sender hears why
+        });
+        written = written && fsync(file) == 0;
+        written = close(file) == 0 && written;
+        if (!fits)
+            throw Problem{413, "/problems/too-large", "Content too large",
+                          "a file may have " + std::to_string(most) + " bytes (--largest-file)"};
+        if (!written) throw trouble();
+        if (!whole) throw bad_request("the file did not arrive whole; send it again");
+        return static_cast<std::int64_t>(bytes);
+    }
+    const fs::path& path() const { return path_; }
+
+  private:
+    static constexpr std::size_t dropped = std::size_t{64} << 20;
+    Problem trouble() const {
+        return {503, "/problems/storage", "The disk refused",
+                std::string("nothing was stored: ") + std::strerror(errno)};
+    }
+    fs::path path_;
+};
+
+/// What the file is, by those who will read it. Throws BadInput with the sender's name of it.
+void recognise(const fs::path& path, StoredFile& file) {
+    try {
+        if (path.extension() == ".msh") {
+            const check::MeshHead head = check::read_mesh_head(path);
+            file.kind = "mesh";
+            file.about = "gmsh " + head.version + ", " + std::to_string(head.surfaces.size()) +
+                         " physical surfaces";
+        } else {
+            file.kind = "motion";
+            file.about = motion::summary_of(motion::read_motion(path));
+        }
+    } catch (const fault::BadInput& error) {
+        std::vector<fault::Fault> faults = error.faults();
+        for (fault::Fault& each : faults)
+            each.remedy += (each.remedy.empty() ? "" : "; ") +
+                           std::string(
+                               "send a motion (.AT2, .VT2, .csv or two columns) or a mesh "
+                               "(.msh): nothing else is read");
+        throw fault::BadInput("file " + file.name, std::move(faults));
+    }
+}
+
+json as_json(const StoredFile& file) {
+    return {{"sha256", file.sha256},   {"reference", scene::reference_to(file.file)},
+            {"name", file.name},       {"kind", file.kind},
+            {"about", file.about},     {"bytes", file.bytes},
+            {"created", file.created}, {"used", file.used}};
+}
+
+bool is_whole(const Service& service, const StoredFile& file) {
+    std::error_code error;
+    const auto size = fs::file_size(service.data.files() / file.file, error);
+    return !error && static_cast<std::int64_t>(size) == file.bytes;
+}
+
+/// 201 when it is on the disk; 200 when it was there.
+void upload(Service& service, Call& call) {
+    call.allow_parameters({"name", "sha256"});
+    if (call.request.get_header_value("Content-Type") != "application/octet-stream")
+        throw Problem{
+            415, "/problems/unsupported-media-type", "Unsupported media type",
+            "send the file itself with the header Content-Type: application/octet-stream"};
+    StoredFile file{.sha256 = {}, .file = {}, .name = sent_name(call), .kind = {}, .about = {}};
+    if (call.body == nullptr) throw bad_request("the body must be the file itself");
+    Arriving arriving(service.data.scratch() / (new_run_id() + ending_of(file.name)));
+    file.bytes = arriving.take(call, service.largest_file);
+    file.sha256 = exchange::sha256_of_file(arriving.path());
+    if (call.parameter("sha256").value_or(file.sha256) != file.sha256)
+        throw Problem{422, "/problems/hash-mismatch", "Another file",
+                      "what arrived has the SHA-256 " + file.sha256 + "; send it again"};
+    const auto known = service.store.file(file.sha256);
+    file.file = known ? known->file : file.sha256 + ending_of(file.name);
+    const bool is_here = known && is_whole(service, *known);
+    if (!is_here) recognise(arriving.path(), file);
+    reach(Failpoint::upload_before);
+    service.store.write([&](Transaction& transaction) {
+        transaction.keep_file(file, [&] {
+            fs::rename(arriving.path(), service.data.files() / file.file);
+            sync_folder(service.data.files());
+            reach(Failpoint::upload_after);
+        });
+    });
+    call.response.set_header("Location", "/v1/files/" + file.sha256);
+    reply(call.response, as_json(service.store.file(file.sha256).value()), is_here ? 200 : 201);
+}
+
+void list_files(const Service& service, Call& call) {
+    call.allow_parameters({});
+    json files = json::array();
+    for (const StoredFile& each : service.store.files()) {
+        files.push_back(as_json(each));
+        files.back()["runs"] = each.runs;
+    }
+    reply(call.response, {{"files", std::move(files)}});
+}
+
+StoredFile wanted_file(const Service& service, const std::string& sha256) {
+    auto file = service.store.file(sha256);
+    if (!file || !is_whole(service, *file)) throw not_found("file " + sha256);
+    return std::move(*file);
+}
+
+/// HEAD says whether it need not be sent, and keeps it from being forgotten meanwhile.
+void show_file(Service& service, Call& call) {
+    call.allow_parameters({});
+    const StoredFile file = wanted_file(service, call.parts[0]);
+    if (call.request.method == "HEAD")
+        service.store.write([&](Transaction& transaction) { transaction.touch_file(file.sha256); });
+    call.response.set_header("X-File-Reference", scene::reference_to(file.file));
+    send_content(call, service.data.files() / file.file, file.sha256, file.bytes, file.file);
+}
+
+void remove_file(Service& service, Call& call) {
+    call.allow_parameters({});
+    const std::string& sha256 = call.parts[0];
+    const auto file = service.store.file(sha256);
+    if (!file) throw not_found("file " + sha256);
+    Removal outcome = Removal::unknown;
+    service.store.write([&](Transaction& transaction) {
+        outcome =
+            transaction.forget_file(sha256, [&] { fs::remove(service.data.files() / file->file); });
+    });
+    if (outcome == Removal::needed)
+        throw Problem{409, "/problems/needed", "Needed",
+                      "runs name this file (GET /v1/files, or: breach files): remove them first"};
+    if (outcome == Removal::unknown) throw not_found("file " + sha256);
+    reply(call.response, {{"id", sha256}, {"freed_bytes", file->bytes}}, 202);
+}
+
+}  // namespace
+
+json files_json(const Service& service, const std::string& run) {
+    json files = json::array();
+    for (const StoredFile& each : service.store.files_of(run)) files.push_back(as_json(each));
+    return files;
+}
+
+void add_file_routes(Router& router, Service& service) {
+    router.post("/v1/files", [&](Call& call) { upload(service, call); });
+    router.get("/v1/files", [&](Call& call) { list_files(service, call); });
+    router.get("/v1/files/{sha256}", [&](Call& call) { show_file(service, call); });
+    router.remove("/v1/files/{sha256}", [&](Call& call) { remove_file(service, call); });
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,88 @@
+#include <filesystem>
+
+#include "services/orchestrator/files/disk_use.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/records/or_null.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+/// 202 when nothing of the run can be asked for any more; its files go after that.
+void remove_run(Service& service, Call& call) {
+    call.allow_parameters({});
+    const std::string& id = call.parts[0];
+    const Run run = wanted_run(service, id);
+    const std::int64_t freed = freed_without(service.data.run(id));
+    Removal outcome = Removal::unknown;
+    service.store.write([&](Transaction& transaction) {
+        outcome = transaction.remove_run(id, "asked for over the API");
+    });
+    switch (outcome) {
+        case Removal::going_on:
+            throw Problem{409, "/problems/going-on", "Still going on",
+                          "the run is " + run.state + ": cancel it first (POST /v1/runs/" + id +
+                              "/cancel, or: breach cancel " + id +
+                              ") and remove it when it has ended"};
+        case Removal::pinned:
+            throw Problem{409, "/problems/pinned", "Pinned",
+                          "the run is pinned: unpin it first (POST /v1/runs/" + id +
+                              "/unpin, or: breach unpin " + id + ")"};
+        case Removal::done:
+            break;
+        default:
+            throw not_found("run " + id);
+    }
+    service.retention.wake();
+    reply(call.response, {{"id", id}, {"freed_bytes", freed}}, 202);
+}
+
+json use_of(const Run& run, const RunUse& use) {
+    return {{"id", run.id},
+            {"name", run.name},
+            {"state", run.state},
+            {"created", run.created},
+            {"finished", or_null(run.finished)},
+            {"pinned", run.pinned},
+            {"bytes", use.own + use.shared},
+            {"shared_bytes", use.shared},
+            {"freed_bytes", use.own},
+            {"shared_with", use.shared_with}};
+}
+
+/// Looks at every file: for a person who asks, not for a poll.
+void storage(const Service& service, Call& call) {
+    call.allow_parameters({});
+    const DiskUse use(service.data.runs(), service.data.files());
+    const auto by_run = use.by_run();
+    const std::int64_t database = service.retention.database_bytes();
+    json runs = json::array();
+    constexpr auto all = static_cast<std::size_t>(1) << 30;
+    for (const Run& run : service.store.runs(all)) {
+        const auto found = by_run.find(run.id);
+        runs.push_back(use_of(run, found == by_run.end() ? RunUse{} : found->second));
+    }
+    std::error_code error;
+    const auto space = std::filesystem::space(service.data.runs(), error);
+    const RetentionSettings& settings = service.retention.settings();
+    reply(call.response, {{"runs", std::move(runs)},
+                          {"runs_bytes", use.bytes_of_runs()},
+                          {"files_bytes", use.bytes_of_files()},
+                          {"database_bytes", database},
+                          {"total_bytes", use.bytes_of_runs() + use.bytes_of_files() + database},
+                          {"free_bytes", error ? json() : json(space.available)},
+                          {"removing", service.store.removals().size()},
+                          {"keep_days", or_null(settings.keep_days)},
+                          {"keep_GB", or_null(settings.keep_gb)}});
+}
+
+}  // namespace
+
+void add_storage_routes(Router& router, Service& service) {
+    router.remove("/v1/runs/{id}", [&](Call& call) { remove_run(service, call); });
+    router.get("/v1/storage", [&](Call& call) { storage(service, call); });
+}
+
+}  // namespace breach::orchestrator

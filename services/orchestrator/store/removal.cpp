@@ -1,0 +1,192 @@
+// What is taken out of the store, and what that waits for.
+#include <array>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+bool any(Connection& database, const std::string& sql, const std::string& value) {
+    bool found = false;
+    database.query(sql, {value}, [&](const Row&) { found = true; });
+    return found;
+}
+
+/// Children before parents. Tasks of other runs that took a result from here keep it: their files
+/// are links to the same bytes, or copies.
+constexpr std::array rows_of_run{
+    "DELETE FROM firings WHERE trigger IN (SELECT id FROM triggers WHERE run=?)",
+    "DELETE FROM triggers WHERE run=?",
+    "DELETE FROM firing_plans WHERE run=?",
+    "DELETE FROM flags WHERE run=?",
+    "DELETE FROM variants WHERE run=?",
+    "DELETE FROM idempotency_keys WHERE run=?",
+    "DELETE FROM events WHERE run=?",
+    "DELETE FROM artifacts WHERE task IN (SELECT id FROM tasks WHERE run=?)",
+    "DELETE FROM attempts WHERE task IN (SELECT id FROM tasks WHERE run=?)",
+    "UPDATE tasks SET same_as=NULL WHERE same_as IN (SELECT id FROM tasks WHERE run=?)",
+    "DELETE FROM tasks WHERE run=?",
+    "DELETE FROM run_counts WHERE run=?",
+    "DELETE FROM files_of_runs WHERE run=?",
+    "DELETE FROM runs WHERE id=?",
+};
+
+}  // namespace
+
+Removal Transaction::remove_run(const std::string& run, const std::string& why) {
+    if (!any(database_, "SELECT 1 FROM runs WHERE id=?", run)) return Removal::unknown;
+    if (any(database_, "SELECT 1 FROM runs WHERE id=? AND pinned=1", run)) return Removal::pinned;
+    const bool goes_on =
+        any(database_, "SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", run) ||
+        any(database_,
+            "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", run);
+    if (goes_on) return Removal::going_on;
+    std::vector<std::string> recipes;
+    database_.query("SELECT DISTINCT recipe FROM tasks WHERE run=? AND recipe IS NOT NULL", {run},
+                    [&](const Row& row) { recipes.push_back(row.text(0)); });
+    for (const char* each : rows_of_run) database_.change(each, {run});
+    for (const std::string& each : recipes)
+        database_.change(
+            "DELETE FROM recipes WHERE hash=?1 AND NOT EXISTS (SELECT 1 FROM tasks WHERE "
+            "recipe=?1)",
+            {each});
+    database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
+    add_event(run, std::nullopt, "run", {{"event", "remove"}, {"why", why}});
+    return Removal::done;
+}
+
+void Transaction::forget_removal(const std::string& run) {
+    database_.change("DELETE FROM removals WHERE run=?", {run});
+}
+
+void Transaction::shrink(std::int64_t pages) {
+    database_.script("PRAGMA incremental_vacuum(" + std::to_string(pages) + ")");
+}
+
+namespace {
+
+constexpr const char* file_columns =
+    "SELECT sha256, file, name, kind, about, bytes, created, used FROM files ";
+
+StoredFile file_from(const Row& row) {
+    return {.sha256 = row.text(0),
+            .file = row.text(1),
+            .name = row.text(2),
+            .kind = row.text(3),
+            .about = row.text(4),
+            .bytes = row.integer(5),
+            .created = row.text(6),
+            .used = row.text(7)};
+}
+
+constexpr const char* unneeded =
+    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256)";
+
+}  // namespace
+
+void Transaction::add_files(const NewRun& run) {
+    const std::string now = utc_now();
+    for (const std::string& each : run.files) {
+        if (database_.change("UPDATE files SET used=? WHERE sha256=?", {now, each}) == 0)
+            throw fault::BadInput("study",
+                                  {{"/scene", "the file " + each + " is not here any more",
+                                    "send it again (POST /v1/files; breach submit does it)"}});
+        database_.change("INSERT INTO files_of_runs (run, sha256) VALUES (?,?)", {run.id, each});
+    }
+}
+
+void Transaction::keep_file(const StoredFile& file, const std::function<void()>& publish) {
+    const std::string now = utc_now();
+    database_.change(
+        "INSERT INTO files (sha256, file, name, kind, about, bytes, created, used) VALUES "
+        "(?1,?2,?3,?4,?5,?6,?7,?7) ON CONFLICT (sha256) DO UPDATE SET used=?7",
+        {file.sha256, file.file, file.name, file.kind, file.about, file.bytes, now});
+    publish();
+}
+
+void Transaction::touch_file(const std::string& sha256) {
+    database_.change("UPDATE files SET used=? WHERE sha256=?", {utc_now(), sha256});
+}
+
+Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
+    if (!any(database_, "SELECT 1 FROM files WHERE sha256=?", sha256)) return Removal::unknown;
+    if (any(database_, "SELECT 1 FROM files_of_runs WHERE sha256=? LIMIT 1", sha256))
+        return Removal::needed;
+    database_.change("DELETE FROM files WHERE sha256=?", {sha256});
+    erase();
+    return Removal::done;
+}
+
+bool Transaction::forget_unused_file(const std::string& sha256, const std::string& before,
+                                     const std::function<void()>& erase) {
+    const bool forgotten =
+        database_.change(std::string("DELETE FROM files WHERE sha256=? AND used<? AND ") + unneeded,
+                         {sha256, before}) > 0;
+    if (forgotten) erase();
+    return forgotten;
+}
+
+std::vector<StoredFile> Store::files() const {
+    std::vector<StoredFile> found;
+    read([&](Connection& database) {
+        database.query(std::string(file_columns) + "ORDER BY created DESC, sha256", {},
+                       [&](const Row& row) { found.push_back(file_from(row)); });
+        for (StoredFile& each : found)
+            database.query("SELECT run FROM files_of_runs WHERE sha256=? ORDER BY run DESC",
+                           {each.sha256},
+                           [&](const Row& row) { each.runs.push_back(row.text(0)); });
+    });
+    return found;
+}
+
+std::optional<StoredFile> Store::file(const std::string& sha256) const {
+    std::optional<StoredFile> found;
+    read([&](Connection& database) {
+        database.query(std::string(file_columns) + "WHERE sha256=?", {sha256},
+                       [&](const Row& row) { found = file_from(row); });
+    });
+    return found;
+}
+
+std::vector<StoredFile> Store::files_of(const std::string& run) const {
+    std::vector<StoredFile> found;
+    read([&](Connection& database) {
+        database.query(std::string(file_columns) +
+                           "WHERE sha256 IN (SELECT sha256 FROM files_of_runs WHERE run=?) ORDER "
+                           "BY sha256",
+                       {run}, [&](const Row& row) { found.push_back(file_from(row)); });
+    });
+    return found;
+}
+
+std::vector<StoredFile> Store::unused_files(const std::string& before) const {
+    std::vector<StoredFile> found;
+    read([&](Connection& database) {
+        database.query(std::string(file_columns) + "WHERE used<? AND " + unneeded, {before},
+                       [&](const Row& row) { found.push_back(file_from(row)); });
+    });
+    return found;
+}
+
+std::vector<std::string> Store::removals() const {
+    std::vector<std::string> found;
+    read([&](Connection& database) {
+        database.query("SELECT run FROM removals ORDER BY run", {},
+                       [&](const Row& row) { found.push_back(row.text(0)); });
+    });
+    return found;
+}
+
+std::int64_t Store::free_pages() const {
+    std::int64_t pages = 0;
+    read([&](Connection& database) {
+        database.query("PRAGMA freelist_count", {},
+                       [&](const Row& row) { pages = row.integer(0); });
+    });
+    return pages;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,177 @@
+// What the store keeps of a run that was removed, and what its file gives back.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/store/versions.hpp"
+#include "tests/folder.hpp"
+#include "tests/unit/orchestrator/small_run.hpp"
+
+namespace breach::orchestrator {
+namespace {
+
+class RemovalStore : public ::testing::Test {
+  protected:
+    std::filesystem::path file() const { return folder_ / "test.db"; }
+
+    /// A run that is over and has something in every table.
+    static std::string whole_run(Store& store) {
+        NewRun run = small_run();
+        run.study = R"({"variants": [{"name": "a"}], "draws": 2})";
+        run.triggers = {{.name = "now", .kind = "manual", .spec = {{"kind", "manual"}}}};
+        run.firing_plan = run.tasks;
+        run.recipes = {{std::string(64, 'e'), "fem_solver", 1, "{}"}};
+        run.tasks[0].recipe = std::string(64, 'e');
+        store.write([&](Transaction& t) {
+            t.add_run(run);
+            t.keep_idempotency_key("key-" + run.id, std::string(64, 'b'), run.id);
+            t.move_task(task_id(run.id, 0), TaskEvent::claim);
+            t.add_attempt(task_id(run.id, 0));
+            t.keep_remains(task_id(run.id, 0), {{task_id(run.id, 0), "x", std::string(64, 'c'), 1}},
+                           "");
+        });
+        return run.id;
+    }
+
+    static void end(Store& store, const std::string& run) {
+        store.write([&](Transaction& t) {
+            t.cancel_run(run, "");
+            t.move_attempt(task_id(run, 0), 1, AttemptEvent::vanish);
+            t.move_task(task_id(run, 0), TaskEvent::stopped);
+        });
+    }
+
+    static Removal removed(Store& store, const std::string& run) {
+        Removal outcome = Removal::unknown;
+        store.write([&](Transaction& t) { outcome = t.remove_run(run, "test"); });
+        return outcome;
+    }
+
+    std::map<std::string, std::int64_t> rows() const {
+        Connection database(file(), Access::read_only);
+        std::vector<std::string> tables;
+        database.query("SELECT name FROM sqlite_master WHERE type='table'", {},
+                       [&](const Row& row) { tables.push_back(row.text(0)); });
+        std::map<std::string, std::int64_t> counts;
+        for (const std::string& each : tables)
+            database.query("SELECT count(*) FROM " + each, {},
+                           [&](const Row& row) { counts[each] = row.integer(0); });
+        return counts;
+    }
+
+    const test::Folder folder_;
+};
+
+TEST_F(RemovalStore, TakesEveryRowOfARunAndNoneOfAnother) {
+    Store store(file());
+    const std::string other = whole_run(store);
+    end(store, other);
+    const auto before = rows();
+    const std::string run = whole_run(store);
+    EXPECT_EQ(removed(store, run), Removal::going_on);
+    end(store, run);
+    store.write([&](Transaction& t) { t.pin_run(run); });
+    EXPECT_EQ(removed(store, run), Removal::pinned);
+    store.write([&](Transaction& t) { t.unpin_run(run); });
+    EXPECT_EQ(removed(store, run), Removal::done);
+    EXPECT_EQ(removed(store, run), Removal::unknown);
+    EXPECT_EQ(store.removals(), std::vector<std::string>{run});
+    store.write([&](Transaction& t) { t.forget_removal(run); });
+    auto after = rows();
+    EXPECT_EQ(after.at("events"), before.at("events") + 1) << "the removal itself";
+    for (const auto& [table, count] : before)
+        if (table != "events" && table != "sqlite_sequence") {
+            EXPECT_EQ(after.at(table), count) << table;
+        }
+    EXPECT_EQ(store.run(other)->state, "cancelled");
+    EXPECT_EQ(removed(store, other), Removal::done);
+    EXPECT_EQ(rows().at("recipes"), 0) << "nobody asks for it any more";
+}
+
+TEST_F(RemovalStore, OpenTriggerKeepsARunFromBeingOver) {
+    Store store(file());
+    const std::string run = whole_run(store);
+    end(store, run);
+    store.write([&](Transaction& t) {
+        t.add_trigger(run, task_id(run, 0),
+                      {.name = "later", .kind = "manual", .spec = {{"kind", "manual"}}});
+    });
+    EXPECT_EQ(removed(store, run), Removal::going_on);
+}
+
+TEST_F(RemovalStore, EventsGoOnCountingUpwards) {
+    std::int64_t seq = 0;
+    {
+        Store store(file());
+        const std::string run = whole_run(store);
+        end(store, run);
+        EXPECT_EQ(removed(store, run), Removal::done);
+        seq = store.last_event();
+    }
+    Store store(file());
+    EXPECT_EQ(store.last_event(), seq);
+    whole_run(store);
+    EXPECT_GT(store.events_after(seq, 1).at(0).seq, seq);
+}
+
+TEST_F(RemovalStore, TheDatabaseShrinks) {
+    Store store(file());
+    std::vector<std::string> runs;
+    for (int i = 0; i < 200; ++i) runs.push_back(whole_run(store));
+    for (const std::string& each : runs) end(store, each);
+    const auto pages = [&] {
+        std::int64_t count = 0;
+        Connection(file(), Access::read_only).query("PRAGMA page_count", {}, [&](const Row& row) {
+            count = row.integer(0);
+        });
+        return count;
+    };
+    const std::int64_t full = pages();
+    for (const std::string& each : runs) {
+        removed(store, each);
+        store.write([&](Transaction& t) { t.forget_removal(each); });
+    }
+    EXPECT_GT(store.free_pages(), full / 2);
+    while (store.free_pages() > 0) store.write([](Transaction& t) { t.shrink(50); });
+    EXPECT_LT(pages(), full / 2) << "of " << full;
+}
+
+TEST_F(RemovalStore, DatabaseOfTheVersionBeforeIsTakenOver) {
+    {
+        Connection database(file(), Access::read_write);
+        database.script("PRAGMA auto_vacuum=NONE; VACUUM");
+        for (const char* version : {version_1, version_2, version_3, version_4, version_5,
+                                    version_6, version_7, version_8, version_9})
+            database.script(version);
+        database.script(
+            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
+            "'2026-01-01T00:00:00.000Z', '{}', '{}');"
+            "INSERT INTO recipes VALUES (printf('%064d', 1), 'fem_solver', 1, '{}');"
+            "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state, finished, "
+            "result, recipe, input_sha256) VALUES "
+            "('r-00000', 'r', 'fem_solver', 'fem', 'at_once', '', '[]', 'succeeded', '1', '{}', "
+            "printf('%064d', 1), ''),"
+            "('r-00001', 'r', 'fem_solver', 'again', 'at_once', '', '[]', 'cached', '1', '{}', "
+            "printf('%064d', 1), '');"
+            "UPDATE tasks SET same_as='r-00000' WHERE id='r-00001';"
+            "INSERT INTO events (seq, time, run, task, kind, detail) VALUES (41, 't', 'r', NULL, "
+            "'run', '{}'), (42, 't', 'r', 'r-00000', 'task', '{}');"
+            "PRAGMA user_version=9");
+    }
+    Store store(file());
+    EXPECT_EQ(store.last_event(), 42);
+    EXPECT_EQ(store.events_after(0, 10).size(), 2u);
+    EXPECT_FALSE(store.run("r")->pinned);
+    EXPECT_EQ(store.answers_to(std::string(63, '0') + "1", "", 8).size(), 2u)
+        << "what was taken from the cache answers, too";
+    Connection(file(), Access::read_only).query("PRAGMA auto_vacuum", {}, [](const Row& row) {
+        EXPECT_EQ(row.integer(0), 2);
+    });
+    EXPECT_EQ(removed(store, "r"), Removal::done);
+    EXPECT_EQ(store.last_event(), 43);
+}
+
+}  // namespace
+}  // namespace breach::orchestrator
