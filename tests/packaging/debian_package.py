@@ -103,7 +103,11 @@ class DebianPackage(unittest.TestCase):
         self.assertEqual(files_below(share / "web"), files_below(source / "services/web/static"))
         for room in ("schema", "scenes", "studies"):
             self.assertEqual(files_below(share / room), files_below(source / "workflows" / room))
+        self.assertEqual(files_below(self.root / "usr/lib/python3/dist-packages/breachline"),
+                         {str(each.relative_to(source / "services/python/breachline"))
+                          for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").glob(pattern)})
         control = (self.root / "DEBIAN/control").read_text()
+        self.assertRegex(control, "(?m)^Provides: python3-breachline$")
         for library in ("libhdf5", "libcpp-httplib", "libsqlite3", "libssl3", "sqlite3", "adduser"):
             self.assertIn(library, control)
         self.assertNotIn("\n(", control)
