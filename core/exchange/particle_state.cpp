@@ -40,7 +40,7 @@ std::vector<double> by_rows(const std::vector<mechanics::Matrix2>& gradients) {
 }
 
 struct Field {
-    const char* name;
+    std::string_view name;
     std::size_t width;
     const char* unit;
     std::vector<double> (*values)(const ParticleState&);  ///< empty where the points have none
@@ -75,7 +75,8 @@ void write_points(Hdf5Image& image, const ParticleState& s,
         const std::vector<double> values = field.values(s);
         if (values.empty()) continue;
         const std::vector<Real> kept(values.begin(), values.end());
-        image.array(at_points + field.name, std::span<const Real>(kept), field.width, field.unit);
+        image.array(at_points + std::string(field.name), std::span<const Real>(kept), field.width,
+                    field.unit);
     }
 }
 
@@ -257,9 +258,7 @@ void write_particle_frame(const std::filesystem::path& path, const ParticleState
                           std::span<const std::string_view> fields, const Provenance& provenance) {
     check_sizes(state);
     for (const std::string_view name : fields)
-        if (std::ranges::find(fields_of_points, name, [](const Field& f) {
-                return std::string_view(f.name);
-            }) == std::end(fields_of_points))
+        if (std::ranges::find(fields_of_points, name, &Field::name) == std::end(fields_of_points))
             throw std::logic_error("points have no field " + std::string(name));
     Hdf5Image image(frame_kind, Storage::compressed);
     write_points<float>(image, state, [&](std::string_view name) {

@@ -134,6 +134,8 @@ class RealRun(unittest.TestCase):
     def test_an_export_says_the_same(self):
         self.service.breach("export", "latest", self.here / "exported")
         served, exported = breach.run("latest"), breach.run(self.here / "exported")
+        for task in ("fem", "mpm_0.100000"):
+            self.assertTrue((self.here / "exported/tasks" / task / "frames.vtkhdf.series").is_file(), "what ParaView opens")
         self.assertEqual(exported.results.rows, served.results.rows)
         self.assertEqual((exported.id, exported.scene), (served.id, served.scene))
         self.assertEqual({each.label for each in exported.tasks}, {each.label for each in served.tasks})
