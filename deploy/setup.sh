@@ -19,6 +19,8 @@ install_packages() {
     need_packages $(sed 's/#.*//' "$@")
 }
 
+is_installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }
+
 need_packages() {
     local missing=() package
     for package in "$@"; do
@@ -26,8 +28,10 @@ need_packages() {
         case $package in
             nodejs) command -v node >/dev/null && continue ;;
             npm) command -v npm >/dev/null && continue ;;
+            # Debian's ParaView has VTK's Python modules of its own, and the two packages exclude each other.
+            python3-vtk9) is_installed paraview && package=python3-paraview ;;
         esac
-        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+        is_installed "$package" || missing+=("$package")
     done
     [ ${#missing[@]} -eq 0 ] && return
     say "installing ${#missing[@]} Debian packages: ${missing[*]}"

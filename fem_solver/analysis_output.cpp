@@ -82,12 +82,12 @@ bool Analysis::snapshot_is_due(double dt) {
 
 void Analysis::write_snapshot() {
     const Stopwatch watch(seconds_, &Seconds::output);
-    const auto file = session_.output(snapshot_name(position_.time));
+    const std::string name = snapshot_name(position_.time);
     exchange::write_mesh_snapshot(
-        file,
+        session_.output(name),
         snapshot_of(session_.scene(), model_, motion_, beginning_, position_.time, position_.step),
         session_.provenance());
-    session_.announce(file, {{"time", position_.time}});
+    session_.announce_frame(name, phases::files::snapshot_prefix, position_.time);
     last_snapshot_ = position_.time;
 }
 

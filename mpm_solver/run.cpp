@@ -6,6 +6,7 @@
 
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
+#include "core/scene/words.hpp"
 #include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "mpm_solver/results.hpp"
@@ -40,10 +41,15 @@ void save(const Session& session, const Simulation& simulation) {
 }
 
 void write_frame(Session& session, Simulation& simulation) {
-    const auto file = session.output(phases::files::frame_name(simulation.clock().time));
-    exchange::write_particle_state(file, simulation.state(), session.provenance());
+    const double time = simulation.clock().time;
+    const std::string name = phases::files::frame_name(time);
+    std::vector<std::string_view> fields;
+    for (const scene::PointField field : session.scene().mpm->output.fields)
+        fields.push_back(words::name_of(field));
+    exchange::write_particle_frame(session.output(name), simulation.state(), fields,
+                                   session.provenance());
     simulation.take_frame();
-    session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
+    session.announce_frame(name, phases::files::frame_prefix, time);
 }
 
 void report(Session& session, const Simulation& simulation) {

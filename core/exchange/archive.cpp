@@ -31,7 +31,7 @@ void write_archive(const std::filesystem::path& path, const Archive& archive,
 
 Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version,
                      Reals may_be) {
-    Hdf5Reader reader(path, {kind, version}, "remove the file and start afresh");
+    Hdf5Reader reader(path, {{kind, version}}, "remove the file and start afresh");
     Archive archive{
         .kind = kind, .version = version, .reals = {}, .integers = {}, .texts = {}, .units = {}};
     for (const std::string& name : reader.names_in(reals)) {

@@ -5,16 +5,6 @@ namespace {
 
 constexpr std::size_t corners_of(Cell cell) { return cell == Cell::quad ? 4 : 1; }
 
-/// Each row of n values followed by zeros up to `width`.
-template <int n>
-std::vector<double> padded(const std::vector<Eigen::Matrix<double, n, 1>>& rows,
-                           std::size_t width) {
-    std::vector<double> values(rows.size() * width, 0.0);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        for (int j = 0; j < n; ++j) values[i * width + j] = rows[i][j];
-    return values;
-}
-
 template <int n>
 void read_padded(Hdf5Reader& reader, const std::string& path,
                  std::vector<Eigen::Matrix<double, n, 1>>& rows, std::size_t width) {
@@ -26,14 +16,6 @@ void read_padded(Hdf5Reader& reader, const std::string& path,
 
 }  // namespace
 
-std::vector<double> as_3d(const std::vector<mechanics::Vec2>& vectors) {
-    return padded<2>(vectors, 3);
-}
-
-std::vector<double> as_3d(const std::vector<mechanics::Voigt>& tensors) {
-    return padded<4>(tensors, 6);
-}
-
 void read_3d(Hdf5Reader& reader, const std::string& path, std::vector<mechanics::Vec2>& values) {
     read_padded<2>(reader, path, values, 3);
 }
@@ -42,6 +24,7 @@ void read_3d(Hdf5Reader& reader, const std::string& path, std::vector<mechanics:
     read_padded<4>(reader, path, values, 6);
 }
 
+template <class Real>
 void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Cell cell,
                 std::span<const std::int64_t> corners, double time) {
     const std::size_t cells = corners.size() / corners_of(cell);
@@ -60,7 +43,7 @@ void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Ce
     image.array("/VTKHDF/NumberOfPoints", std::span(&n_points, 1));
     image.array("/VTKHDF/NumberOfCells", std::span(&n_cells, 1));
     image.array("/VTKHDF/NumberOfConnectivityIds", std::span(&n_corners, 1));
-    image.array("/VTKHDF/Points", as_3d(points), 3, "m");
+    image.array("/VTKHDF/Points", std::span<const Real>(as_3d<Real>(points)), 3, "m");
     image.array("/VTKHDF/Connectivity", corners);
     image.array("/VTKHDF/Offsets", std::span<const std::int64_t>(offsets));
     image.array("/VTKHDF/Types", std::span<const std::uint8_t>(types));
@@ -68,6 +51,11 @@ void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Ce
         image.group(data);
     image.array("/VTKHDF/FieldData/time", std::span<const double>(&time, 1), 0, "s");
 }
+
+template void write_grid<double>(Hdf5Image&, const std::vector<mechanics::Vec2>&, Cell,
+                                 std::span<const std::int64_t>, double);
+template void write_grid<float>(Hdf5Image&, const std::vector<mechanics::Vec2>&, Cell,
+                                std::span<const std::int64_t>, double);
 
 void write_regions(Hdf5Image& image, const std::vector<std::string>& regions,
                    const std::vector<std::string>& materials) {

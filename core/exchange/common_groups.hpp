@@ -18,7 +18,9 @@ namespace breach::exchange {
 enum class Cell : std::uint8_t { vertex = 1, quad = 9 };
 
 /// Group /VTKHDF, UnstructuredGrid in the version 1.0 layout, cells all of one type; with empty
-/// PointData, CellData and the time in FieldData. corners: point numbers, cell by cell.
+/// PointData, CellData and the time in FieldData. corners: point numbers, cell by cell. Real: double
+/// or float, in which the points' places are kept.
+template <class Real>
 void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Cell cell,
                 std::span<const std::int64_t> corners, double time);
 
@@ -50,10 +52,25 @@ std::span<double> flat(std::vector<Eigen::Matrix<double, n, 1>>& rows) {
     return {rows.empty() ? nullptr : rows.front().data(), rows.size() * n};
 }
 
+/// Each row of n values followed by zeros up to `width`.
+template <class Real, int n>
+std::vector<Real> padded(const std::vector<Eigen::Matrix<double, n, 1>>& rows, std::size_t width) {
+    std::vector<Real> values(rows.size() * width, Real{});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (int j = 0; j < n; ++j) values[i * width + j] = static_cast<Real>(rows[i][j]);
+    return values;
+}
+
 /// (x, y) -> (x, y, 0): what ParaView takes for a vector.
-std::vector<double> as_3d(const std::vector<mechanics::Vec2>& vectors);
+template <class Real = double>
+std::vector<Real> as_3d(const std::vector<mechanics::Vec2>& vectors) {
+    return padded<Real, 2>(vectors, 3);
+}
 /// (xx, yy, zz, xy) -> (xx, yy, zz, xy, 0, 0): what ParaView takes for a symmetric tensor.
-std::vector<double> as_3d(const std::vector<mechanics::Voigt>& tensors);
+template <class Real = double>
+std::vector<Real> as_3d(const std::vector<mechanics::Voigt>& tensors) {
+    return padded<Real, 4>(tensors, 6);
+}
 /// Reads what as_3d wrote; `values` has its final size.
 void read_3d(Hdf5Reader& reader, const std::string& path, std::vector<mechanics::Vec2>& values);
 void read_3d(Hdf5Reader& reader, const std::string& path, std::vector<mechanics::Voigt>& values);

@@ -55,16 +55,21 @@ struct MemoryFile {
     void* begin = nullptr;
 };
 
+/// How an image keeps its arrays: as they are, or shuffled and deflated.
+enum class Storage { plain, compressed };
+
 /// An HDF5 file under construction. It lives in memory until save(), so that a full disk is met by
 /// publish() and not inside HDF5. The same calls give the same bytes: no creation times are stored.
 class Hdf5Image {
   public:
-    explicit Hdf5Image(const Kind& kind);
+    explicit Hdf5Image(const Kind& kind, Storage storage = Storage::plain);
 
     void group(const std::string& path);
 
     /// [rows] when width is 0, otherwise [rows, width]; chunked with Fletcher-32 checksums.
     void array(const std::string& path, std::span<const double> values, std::size_t width,
+               const std::string& unit = "");
+    void array(const std::string& path, std::span<const float> values, std::size_t width,
                const std::string& unit = "");
     void array(const std::string& path, std::span<const std::int64_t> values,
                std::size_t width = 0);
@@ -86,6 +91,7 @@ class Hdf5Image {
     void dataset(const std::string& path, const void* values, std::size_t count, std::size_t width,
                  hid_t type, const std::string& unit);
 
+    Storage storage_;
     MemoryFile memory_;
     Handle file_;
 };
@@ -94,15 +100,18 @@ class Hdf5Image {
 /// named by dataset path, and returns zeros or empty text; refuse_if_faulty() throws them all.
 class Hdf5Reader {
   public:
-    /// Throws IoError if the file cannot be opened, BadInput if it is not whole or not of this
-    /// kind. `remedy`: how to get a good one ("give a FEM snapshot written by fem_solver").
-    Hdf5Reader(const std::filesystem::path& path, const Kind& kind, std::string remedy);
+    /// Throws IoError if the file cannot be opened, BadInput if it is not whole or of none of these
+    /// kinds. `remedy`: how to get a good one ("give a FEM snapshot written by fem_solver").
+    Hdf5Reader(const std::filesystem::path& path, const std::vector<Kind>& kinds,
+               std::string remedy);
 
     bool exists(const std::string& path) const;
     bool has_attribute(const std::string& object, const std::string& name) const;
     /// Names of what lies in a group, ascending.
     std::vector<std::string> names_in(const std::string& group);
 
+    /// Rows of a dataset that its file can hold; 0 is a fault.
+    std::size_t rows(const std::string& path);
     /// Reads exactly [rows] or [rows, width] values; non-finite values are a fault.
     void array(const std::string& path, std::span<double> values, std::size_t width);
     void array(const std::string& path, std::span<std::int32_t> values, std::size_t width = 0);
@@ -130,6 +139,8 @@ class Hdf5Reader {
         Handle id;
         std::vector<hsize_t> shape;
     };
+    /// Largest size of what the dataset's place in the file can hold [bytes].
+    double capacity(hid_t dataset) const;
     std::optional<Dataset> open(const std::string& path, H5T_class_t type_class);
     template <typename T>
     bool read(const std::string& path, H5T_class_t type_class, std::span<T> values,

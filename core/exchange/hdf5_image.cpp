@@ -10,7 +10,9 @@ namespace breach::exchange {
 namespace {
 
 constexpr std::size_t growth = std::size_t{1} << 20;  // bytes by which the image grows
-constexpr hsize_t chunk_values = hsize_t{1} << 17;    // 1 MiB of doubles: the default chunk cache
+// More gains 2 % of a frame's size and takes a fifth more time.
+constexpr unsigned deflate_level = 1;
+constexpr hsize_t chunk_values = hsize_t{1} << 17;  // 1 MiB of doubles: the default chunk cache
 
 /// In-memory building only fails for want of memory or by our own mistake.
 hid_t made(hid_t id, const std::string& what) {
@@ -77,7 +79,8 @@ Handle utf8_type(std::size_t length) {
 
 MemoryFile::~MemoryFile() { std::free(begin); }
 
-Hdf5Image::Hdf5Image(const Kind& kind) : file_(create_file(memory_), H5Fclose) {
+Hdf5Image::Hdf5Image(const Kind& kind, Storage storage)
+    : storage_(storage), file_(create_file(memory_), H5Fclose) {
     group("/breachline");
     attribute("/breachline", "kind", kind.name);
     const std::int64_t version = kind.version;
@@ -103,6 +106,10 @@ void Hdf5Image::dataset(const std::string& path, const void* values, std::size_t
     const Handle space(made(H5Screate_simple(rank, shape, nullptr), path), H5Sclose);
     const Handle creation = without_times(H5P_DATASET_CREATE);
     H5Pset_chunk(creation.get(), rank, chunk);
+    if (storage_ == Storage::compressed) {
+        H5Pset_shuffle(creation.get());
+        H5Pset_deflate(creation.get(), deflate_level);
+    }
     H5Pset_fletcher32(creation.get());
     {
         const Handle data(made(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), H5P_DEFAULT,
@@ -118,6 +125,11 @@ void Hdf5Image::dataset(const std::string& path, const void* values, std::size_t
 void Hdf5Image::array(const std::string& path, std::span<const double> values, std::size_t width,
                       const std::string& unit) {
     dataset(path, values.data(), values.size(), width, H5T_IEEE_F64LE, unit);
+}
+
+void Hdf5Image::array(const std::string& path, std::span<const float> values, std::size_t width,
+                      const std::string& unit) {
+    dataset(path, values.data(), values.size(), width, H5T_IEEE_F32LE, unit);
 }
 
 void Hdf5Image::array(const std::string& path, std::span<const std::int64_t> values,

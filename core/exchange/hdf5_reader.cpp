@@ -56,7 +56,8 @@ hid_t open_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const Kind& kind, std::string remedy)
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const std::vector<Kind>& kinds,
+                       std::string remedy)
     : path_(path),
       remedy_(std::move(remedy)),
       bytes_(readable_bytes(path)),
@@ -73,11 +74,12 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const Kind& kind, std:
     const std::string name = text_attribute("/breachline", "kind");
     const std::int64_t version = integer_attribute("/breachline", "version");
     refuse_if_faulty();
-    if (name != kind.name)
-        fault("/breachline@kind", "is '" + name + "', expected '" + kind.name + "'");
-    else if (version != kind.version)
+    const auto kind = std::ranges::find(kinds, name, &Kind::name);
+    if (kind == kinds.end())
+        fault("/breachline@kind", "is '" + name + "', expected '" + kinds.front().name + "'");
+    else if (version != kind->version)
         fault("/breachline@version", "is " + std::to_string(version) + ", this version reads " +
-                                         std::to_string(kind.version));
+                                         std::to_string(kind->version));
     refuse_if_faulty();
 }
 
@@ -109,6 +111,18 @@ std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
     return names;
 }
 
+double Hdf5Reader::capacity(hid_t dataset) const {
+    constexpr double most_that_inflates = 1032.0;  // a byte of zlib's deflate, by its format
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    unsigned flags = 0;
+    size_t numbers = 0;
+    const bool deflated = H5Pget_filter_by_id2(creation.get(), H5Z_FILTER_DEFLATE, &flags, &numbers,
+                                               nullptr, 0, nullptr, nullptr) >= 0;
+    const auto file = static_cast<double>(bytes_);
+    if (!deflated) return file;
+    return most_that_inflates * std::min(file, static_cast<double>(H5Dget_storage_size(dataset)));
+}
+
 std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
                                                     H5T_class_t type_class) {
     opened_.insert(path);
@@ -130,14 +144,23 @@ std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
     std::vector<hsize_t> shape(
         static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
     H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-    // Nothing is compressed: a dataset larger than its file is a damaged one.
     auto bytes = static_cast<double>(H5Tget_size(type.get()));
     for (const hsize_t n : shape) bytes *= static_cast<double>(n);
-    if (bytes > static_cast<double>(bytes_)) {
+    if (bytes > capacity(id.get())) {
         fault(path, "shape " + as_text(shape) + " is more than the file can hold");
         return std::nullopt;
     }
     return Dataset{std::move(id), std::move(shape)};
+}
+
+std::size_t Hdf5Reader::rows(const std::string& path) {
+    const auto dataset = open(path, H5T_FLOAT);
+    if (!dataset) return 0;
+    if (dataset->shape.empty() || dataset->shape[0] == 0) {
+        fault(path, "is empty");
+        return 0;
+    }
+    return dataset->shape[0];
 }
 
 template <typename T>
@@ -302,7 +325,7 @@ void Hdf5Reader::check_unread(const std::string& path) {
     const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
     const auto count = space ? static_cast<double>(H5Sget_simple_extent_npoints(space.get())) : 0.0;
     const double needed = type ? static_cast<double>(H5Tget_size(type.get())) * count : 0.0;
-    const bool plausible = type && space && needed <= static_cast<double>(bytes_);
+    const bool plausible = type && space && needed <= capacity(id.get());
     const bool is_real = plausible && H5Tget_class(type.get()) == H5T_FLOAT;
     std::vector<double> reals(is_real ? static_cast<std::size_t>(count) : 0);
     std::vector<char> others(plausible && !is_real ? static_cast<std::size_t>(needed) : 0);

@@ -72,7 +72,7 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     std::vector<std::int64_t> corners;
     corners.reserve(4 * s.quads.size());
     for (const auto& quad : s.quads) corners.insert(corners.end(), quad.begin(), quad.end());
-    write_grid(image, position, Cell::quad, corners, s.time);
+    write_grid<double>(image, position, Cell::quad, corners, s.time);
 
     const std::string nodal = "/VTKHDF/PointData/";
     image.array(nodal + "displacement", as_3d(s.displacement), 3, "m");
@@ -197,7 +197,7 @@ void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& 
 }
 
 MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
-    Hdf5Reader reader(path, kind, "give a whole FEM snapshot as fem_solver wrote it");
+    Hdf5Reader reader(path, {kind}, "give a whole FEM snapshot as fem_solver wrote it");
     const std::string here = "/breachline";
     MeshSnapshotFile file;
     MeshSnapshot& s = file.snapshot;

@@ -1,5 +1,8 @@
 #include "core/exchange/particle_state.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +13,7 @@ namespace breach::exchange {
 namespace {
 
 const Kind kind{"particle_state", 1};
+const Kind frame_kind{"particle_frame", 1};
 const std::string at_points = "/VTKHDF/PointData/";
 const std::string stress_of_regions = "/breachline/stress_of_regions";
 
@@ -26,27 +30,65 @@ void check_sizes(const ParticleState& s) {
     if (!agree) throw std::logic_error("particle state: arrays of different lengths");
 }
 
-void write_points(Hdf5Image& image, const ParticleState& s) {
+/// Row by row: xx, xy, yx, yy.
+std::vector<double> by_rows(const std::vector<mechanics::Matrix2>& gradients) {
+    std::vector<double> values;
+    values.reserve(4 * gradients.size());
+    for (const mechanics::Matrix2& l : gradients)
+        values.insert(values.end(), {l(0, 0), l(0, 1), l(1, 0), l(1, 1)});
+    return values;
+}
+
+struct Field {
+    std::string_view name;
+    std::size_t width;
+    const char* unit;
+    std::vector<double> (*values)(const ParticleState&);  ///< empty where the points have none
+};
+
+/// PointData beside `region`, in the order in which it is written.
+const Field fields_of_points[] = {
+    {"velocity", 3, "m/s", [](const ParticleState& s) { return as_3d(s.velocity); }},
+    {"velocity_gradient", 4, "1/s",
+     [](const ParticleState& s) { return by_rows(s.velocity_gradient); }},
+    {"mass", 0, "kg", [](const ParticleState& s) { return s.mass; }},
+    {"volume_0", 0, "m3", [](const ParticleState& s) { return s.volume_0; }},
+    {"volume", 0, "m3", [](const ParticleState& s) { return s.volume; }},
+    {"stress", 6, "Pa", [](const ParticleState& s) { return as_3d(s.stress); }},
+    {"epsilon_q", 0, "1", [](const ParticleState& s) { return s.epsilon_q; }},
+    {"epsilon_q_plastic", 0, "1", [](const ParticleState& s) { return s.epsilon_q_plastic; }},
+    {"gap", 0, "1", [](const ParticleState& s) { return s.gap; }},
+    {"pore_pressure", 0, "Pa", [](const ParticleState& s) { return s.pore_pressure; }},
+    {"r_u", 0, "1", [](const ParticleState& s) { return s.r_u; }},
+};
+
+/// Real: double, or float for what is only looked at.
+template <class Real>
+void write_points(Hdf5Image& image, const ParticleState& s,
+                  const std::function<bool(std::string_view)>& is_wanted) {
     std::vector<std::int64_t> corners(s.size());
     std::iota(corners.begin(), corners.end(), 0);
-    write_grid(image, s.position, Cell::vertex, corners, s.time);
-    std::vector<double> gradient;  // row by row: xx, xy, yx, yy
-    gradient.reserve(4 * s.size());
-    for (const mechanics::Matrix2& l : s.velocity_gradient)
-        gradient.insert(gradient.end(), {l(0, 0), l(0, 1), l(1, 0), l(1, 1)});
-    image.array(at_points + "velocity", as_3d(s.velocity), 3, "m/s");
-    image.array(at_points + "velocity_gradient", gradient, 4, "1/s");
-    image.array(at_points + "mass", s.mass, 0, "kg");
-    image.array(at_points + "volume_0", s.volume_0, 0, "m3");
-    image.array(at_points + "volume", s.volume, 0, "m3");
-    image.array(at_points + "stress", as_3d(s.stress), 6, "Pa");
-    image.array(at_points + "epsilon_q", s.epsilon_q, 0, "1");
-    image.array(at_points + "epsilon_q_plastic", s.epsilon_q_plastic, 0, "1");
-    image.array(at_points + "gap", s.gap, 0, "1");
+    write_grid<Real>(image, s.position, Cell::vertex, corners, s.time);
     image.array(at_points + "region", std::span<const std::int32_t>(s.region));
-    if (!s.pore_pressure.empty())
-        image.array(at_points + "pore_pressure", s.pore_pressure, 0, "Pa");
-    if (!s.r_u.empty()) image.array(at_points + "r_u", s.r_u, 0, "1");
+    for (const Field& field : fields_of_points) {
+        if (!is_wanted(field.name)) continue;
+        const std::vector<double> values = field.values(s);
+        if (values.empty()) continue;
+        const std::vector<Real> kept(values.begin(), values.end());
+        image.array(at_points + std::string(field.name), std::span<const Real>(kept), field.width,
+                    field.unit);
+    }
+}
+
+void write_state(Hdf5Image& image, const ParticleState& state) {
+    const std::string here = "/breachline";
+    const auto points = static_cast<std::int64_t>(state.size());
+    image.attribute(here, "time", state.time);
+    image.attribute(here, "transfer_time", state.transfer_time);
+    image.attribute(here, "thickness", state.thickness);
+    image.attribute(here, "step", std::span(&state.step, 1));
+    image.attribute(here, "points", std::span(&points, 1));
+    write_regions(image, state.regions, state.materials_of_regions);
 }
 
 void write_stress_measures(Hdf5Image& image, const std::vector<StressMeasure>& measures) {
@@ -112,35 +154,63 @@ Ledger read_ledger(Hdf5Reader& reader) {
     return ledger;
 }
 
-void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n) {
-    for (auto* field : {&s.position, &s.velocity}) field->resize(n);
-    for (auto* field :
-         {&s.mass, &s.volume_0, &s.volume, &s.epsilon_q, &s.epsilon_q_plastic, &s.gap})
-        field->resize(n);
-    s.stress.resize(n);
+/// Which fields a file must have: all but those that only water brings, or none.
+enum class Wanted { state, what_is_there };
+
+/// Reads into each field that is there, or must be.
+void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n, Wanted wanted) {
+    const auto field = [&](const char* name, bool must_be, auto& values, const auto& read) {
+        const std::string path = at_points + name;
+        if (!must_be && !reader.exists(path)) return;
+        values.resize(n);
+        read(path, values);
+    };
+    const auto number = [&](const std::string& path, std::vector<double>& values) {
+        reader.array(path, values, 0);
+    };
+    const auto rows = [&](const std::string& path, auto& values) { read_3d(reader, path, values); };
+    const auto matrices = [&](const std::string& path, std::vector<mechanics::Matrix2>& values) {
+        std::vector<double> entries(4 * n);
+        reader.array(path, entries, 4);
+        for (std::size_t i = 0; i < n; ++i)
+            values[i] << entries[4 * i], entries[4 * i + 1], entries[4 * i + 2], entries[4 * i + 3];
+    };
+    const bool all = wanted == Wanted::state;
+    s.position.resize(n);
+    rows("/VTKHDF/Points", s.position);
     s.region.resize(n);
-    s.velocity_gradient.resize(n);
-    std::vector<double> gradient(4 * n);
-    read_3d(reader, "/VTKHDF/Points", s.position);
-    read_3d(reader, at_points + "velocity", s.velocity);
-    reader.array(at_points + "velocity_gradient", gradient, 4);
-    for (std::size_t i = 0; i < n; ++i)
-        s.velocity_gradient[i] << gradient[4 * i], gradient[4 * i + 1], gradient[4 * i + 2],
-            gradient[4 * i + 3];
-    reader.array(at_points + "mass", s.mass, 0);
-    reader.array(at_points + "volume_0", s.volume_0, 0);
-    reader.array(at_points + "volume", s.volume, 0);
-    read_3d(reader, at_points + "stress", s.stress);
-    reader.array(at_points + "epsilon_q", s.epsilon_q, 0);
-    reader.array(at_points + "epsilon_q_plastic", s.epsilon_q_plastic, 0);
-    reader.array(at_points + "gap", s.gap, 0);
     reader.array(at_points + "region", s.region);
-    for (const auto& [name, field] :
-         {std::pair{"pore_pressure", &s.pore_pressure}, std::pair{"r_u", &s.r_u}}) {
-        if (!reader.exists(at_points + name)) continue;
-        field->resize(n);
-        reader.array(at_points + name, *field, 0);
-    }
+    field("velocity", all, s.velocity, rows);
+    field("velocity_gradient", all, s.velocity_gradient, matrices);
+    field("mass", all, s.mass, number);
+    field("volume_0", all, s.volume_0, number);
+    field("volume", all, s.volume, number);
+    field("stress", all, s.stress, rows);
+    field("epsilon_q", all, s.epsilon_q, number);
+    field("epsilon_q_plastic", all, s.epsilon_q_plastic, number);
+    field("gap", all, s.gap, number);
+    field("pore_pressure", false, s.pore_pressure, number);
+    field("r_u", false, s.r_u, number);
+}
+
+ParticleState read_state(Hdf5Reader& reader, Wanted wanted) {
+    const std::string here = "/breachline";
+    ParticleState s;
+    s.time = reader.real_attribute(here, "time");
+    s.transfer_time = reader.real_attribute(here, "transfer_time");
+    s.thickness = reader.real_attribute(here, "thickness");
+    s.step = reader.integer_attribute(here, "step");
+    const std::int64_t points = reader.integer_attribute(here, "points");
+    reader.refuse_if_faulty();
+    if (points <= 0) reader.fault(here + "@points", "no particles");
+    const std::size_t n = reader.rows("/VTKHDF/Points");
+    if (n != 0 && points > 0 && n != static_cast<std::size_t>(points))
+        reader.fault("/VTKHDF/Points", std::to_string(n) + " rows, but /breachline@points is " +
+                                           std::to_string(points));
+    reader.refuse_if_faulty();
+    read_points(reader, s, n, wanted);
+    read_regions(reader, s.regions, s.materials_of_regions);
+    return s;
 }
 
 void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
@@ -156,16 +226,9 @@ void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
 void write_particle_state(const std::filesystem::path& path, const ParticleState& state,
                           const Provenance& provenance, const Ledger& ledger) {
     check_sizes(state);
-    const std::string here = "/breachline";
     Hdf5Image image(kind);
-    const auto points = static_cast<std::int64_t>(state.size());
-    image.attribute(here, "time", state.time);
-    image.attribute(here, "transfer_time", state.transfer_time);
-    image.attribute(here, "thickness", state.thickness);
-    image.attribute(here, "step", std::span(&state.step, 1));
-    image.attribute(here, "points", std::span(&points, 1));
-    write_points(image, state);
-    write_regions(image, state.regions, state.materials_of_regions);
+    write_points<double>(image, state, [](std::string_view) { return true; });
+    write_state(image, state);
     write_stress_measures(image, state.stress_of_regions);
     write_base_motion(image, state.base_motion);
     if (!ledger.empty()) write_ledger(image, ledger);
@@ -174,20 +237,12 @@ void write_particle_state(const std::filesystem::path& path, const ParticleState
 }
 
 ParticleStateFile read_particle_state(const std::filesystem::path& path) {
-    Hdf5Reader reader(path, kind, "give whole particles as transfer_tool or mpm_solver wrote them");
-    const std::string here = "/breachline";
+    Hdf5Reader reader(path, {kind},
+                      "give whole particles: particles.vtkhdf of transfer_tool or final.vtkhdf of "
+                      "mpm_solver, whose frames are only to be looked at");
     ParticleStateFile file;
     ParticleState& s = file.state;
-    s.time = reader.real_attribute(here, "time");
-    s.transfer_time = reader.real_attribute(here, "transfer_time");
-    s.thickness = reader.real_attribute(here, "thickness");
-    s.step = reader.integer_attribute(here, "step");
-    const std::size_t n = reader.count_attribute(here, "points");
-    if (n == 0) reader.fault(here + "@points", "no particles");
-    reader.refuse_if_faulty();
-
-    read_points(reader, s, n);
-    read_regions(reader, s.regions, s.materials_of_regions);
+    s = read_state(reader, Wanted::state);
     s.stress_of_regions = read_stress_measures(reader, s.regions.size());
     s.base_motion = read_base_motion(reader);
     file.ledger = read_ledger(reader);
@@ -197,6 +252,31 @@ ParticleStateFile read_particle_state(const std::filesystem::path& path) {
     check_meaning(reader, s);
     reader.refuse_if_faulty();
     return file;
+}
+
+void write_particle_frame(const std::filesystem::path& path, const ParticleState& state,
+                          std::span<const std::string_view> fields, const Provenance& provenance) {
+    check_sizes(state);
+    for (const std::string_view name : fields)
+        if (std::ranges::find(fields_of_points, name, &Field::name) == std::end(fields_of_points))
+            throw std::logic_error("points have no field " + std::string(name));
+    Hdf5Image image(frame_kind, Storage::compressed);
+    write_points<float>(image, state, [&](std::string_view name) {
+        return std::ranges::find(fields, name) != fields.end();
+    });
+    write_state(image, state);
+    write_provenance(image, provenance);
+    std::move(image).save(path);
+}
+
+ParticleState read_particle_frame(const std::filesystem::path& path) {
+    Hdf5Reader reader(path, {frame_kind, kind}, "give particles that mpm_solver wrote");
+    ParticleState s = read_state(reader, Wanted::what_is_there);
+    reader.check_rest();
+    reader.refuse_if_faulty();
+    check_meaning(reader, s);
+    reader.refuse_if_faulty();
+    return s;
 }
 
 }  // namespace breach::exchange

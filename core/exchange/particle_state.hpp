@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/exchange/base_motion.hpp"
@@ -70,5 +72,14 @@ struct ParticleStateFile {
 };
 /// Throws BadInput or IoError as read_mesh_snapshot does.
 ParticleStateFile read_particle_state(const std::filesystem::path& path);
+
+/// What is looked at and not computed with: places, regions and the named fields of PointData (those
+/// of them that the points have), in single precision, shuffled and deflated.
+void write_particle_frame(const std::filesystem::path& path, const ParticleState& state,
+                          std::span<const std::string_view> fields, const Provenance& provenance);
+
+/// Of a frame or of a whole state: what the file has; the other fields are empty. Throws as
+/// read_particle_state does.
+ParticleState read_particle_frame(const std::filesystem::path& path);
 
 }  // namespace breach::exchange

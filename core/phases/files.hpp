@@ -2,7 +2,9 @@
 // nowhere else.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace breach::phases::files {
 
@@ -25,11 +27,16 @@ inline constexpr const char* snapshot_extension = ".vtkhdf";
 inline constexpr const char* snapshot_prefix = "snapshot_";  ///< of the fem
 inline constexpr const char* frame_prefix = "particles_";    ///< of the mpm
 
+/// The fem's snapshots or the mpm's frames, for ParaView.
+inline constexpr const char* series = "frames.vtkhdf.series";
+
 /// "0.500000": how a time is spelt in the names of snapshots and tasks.
 std::string spelt(double time);
 /// "snapshot_0.500000.vtkhdf", of the fem
 std::string snapshot_name(double time);
 /// "particles_0.500000.vtkhdf", of the mpm
 std::string frame_name(double time);
+/// 0.5 in "particles_0.500000.vtkhdf" with the prefix "particles_"; nothing: no such name.
+std::optional<double> time_in(std::string_view name, std::string_view prefix);
 
 }  // namespace breach::phases::files

@@ -159,6 +159,15 @@ void Session::announce(const std::filesystem::path& file, const json& what) {
     emit(line);
 }
 
+void Session::announce_frame(const std::string& name, const std::string& prefix, double time) {
+    if (!series_)
+        series_ = settings_.start == Start::resume
+                      ? Series::going_on(settings_.output, prefix, time)
+                      : Series(settings_.output);
+    series_->add(name, time);
+    announce(output(name), {{"time", time}});
+}
+
 bool Session::stop_requested() const { return stop_was_requested(); }
 
 void Session::emit(const json& line) { std::cout << line.dump() << std::endl; }

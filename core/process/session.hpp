@@ -14,6 +14,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/fault/flag.hpp"
+#include "core/process/series.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::process {
@@ -65,6 +66,9 @@ class Session {
     /// Tells the outside that a file now exists (a snapshot): a progress line
     /// {"event":"artifact",...}.
     void announce(const std::filesystem::path& file, const nlohmann::json& what);
+    /// Announces a frame that now exists and adds it to the folder's series. name: prefix, time and
+    /// extension, as phases::files spells it; time [s], ascending.
+    void announce_frame(const std::string& name, const std::string& prefix, double time);
 
     /// True after SIGINT or SIGTERM: save a checkpoint and return Outcome::stopped.
     bool stop_requested() const;
@@ -89,6 +93,7 @@ class Session {
     std::int64_t telemetry_lines_ = 0;
     nlohmann::json result_ = nlohmann::json::object();
     std::vector<fault::Flag> flags_;
+    std::optional<Series> series_;
 };
 
 }  // namespace breach::process

@@ -186,6 +186,10 @@ void read_mpm(Reader& reader, Scene& scene) {
         result.gauges.push_back({gauge.at("name"), gauge.at("x"), gauge.at("arrival_depth")});
     }
     result.snapshot_interval = mpm.at("snapshot_interval");
+    for (const json& field : mpm.at("output").at("fields")) {
+        result.output.fields.push_back(
+            words::named<PointField>(field.get_ref<const std::string&>()));
+    }
     result.telemetry_interval = mpm.at("telemetry_interval");
     result.checkpoint_interval = mpm.at("checkpoint_interval");
     result.largest_energy_gain = mpm.at("largest_energy_gain");

@@ -451,6 +451,24 @@ struct Gauge {
     double arrival_depth;  ///< the flow has arrived when it is this deep [m]
 };
 
+/// What a point has beside its place and region, by the names of the exchange files.
+enum class PointField {
+    velocity,
+    velocity_gradient,
+    mass,
+    volume_0,
+    volume,
+    stress,
+    epsilon_q,
+    epsilon_q_plastic,
+    gap,
+    r_u,
+};
+
+struct Output {
+    std::vector<PointField> fields{};  ///< of the points, in every frame
+};
+
 /// When the mobile soil is at rest. Everything that depends on the scene's size is resolved.
 struct Rest {
     double change;                 ///< the front moved no more than this over the window [m]
@@ -490,7 +508,8 @@ struct Mpm {
     Rest rest;
     Runout runout;
     std::vector<Gauge> gauges{};
-    double snapshot_interval;    ///< [s]
+    double snapshot_interval;  ///< [s]
+    Output output{};
     double telemetry_interval;   ///< [s]
     double checkpoint_interval;  ///< wall clock [s]
     double largest_energy_gain;  ///< relative to the energy released; more ends the run [-]

@@ -172,6 +172,20 @@ constexpr auto words_of(FillStress) {
     return words::in_order<FillStress>({{none, "none"}, {overburden, "overburden"}});
 }
 
+constexpr auto words_of(PointField) {
+    using enum PointField;
+    return words::in_order<PointField>({{velocity, "velocity"},
+                                        {velocity_gradient, "velocity_gradient"},
+                                        {mass, "mass"},
+                                        {volume_0, "volume_0"},
+                                        {volume, "volume"},
+                                        {stress, "stress"},
+                                        {epsilon_q, "epsilon_q"},
+                                        {epsilon_q_plastic, "epsilon_q_plastic"},
+                                        {gap, "gap"},
+                                        {r_u, "r_u"}});
+}
+
 constexpr auto words_of(Shaking) {
     using enum Shaking;
     return words::in_order<Shaking>({{off, "off"}, {goes_on, "on"}});

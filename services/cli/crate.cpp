@@ -32,7 +32,7 @@ std::string uri_of(const std::string& path) {
 }
 
 std::string media_type(const std::string& path) {
-    if (path.ends_with(".json")) return "application/json";
+    if (path.ends_with(".json") || path.ends_with(".series")) return "application/json";
     if (path.ends_with(".jsonl")) return "application/jsonl";
     if (path.ends_with(".csv")) return "text/csv";
     if (path.ends_with(".txt")) return "text/plain";

@@ -192,5 +192,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const fuzz::File file(bytes_only ? with_other_bytes(whole, purse) : whole);
     if (!bytes_only) change_objects(file.path(), purse);
     fuzz::taken([&] { read(kind, file.path()); });
+    if (kind == 1) fuzz::taken([&] { exchange::read_particle_frame(file.path()); });
     return 0;
 }

@@ -105,7 +105,21 @@ class DebianPackage(unittest.TestCase):
             self.assertEqual(files_below(share / room), files_below(source / "workflows" / room))
         completion = (self.root / "usr/share/bash-completion/completions/breach").read_text()
         self.assertIn("submit) options=", completion)
+        self.assertEqual(files_below(self.root / "usr/lib/python3/dist-packages/breachline"),
+                         {str(each.relative_to(source / "services/python/breachline"))
+                          for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").glob(pattern)})
+        manuals = self.root / "usr/share/man/man1"
+        if shutil.which("help2man"):
+            self.assertEqual({each.stem for each in manuals.iterdir()}, {each for each in programs if "-" not in each})
+            self.assertIn("--until\\-rest", (manuals / "mpm_solver.1").read_text().replace("\\-\\-", "--"))
+        pages = self.root / "usr/share/doc/breachline"
+        for page in ("mpm_solver/README.md", "docs/mpm_method.md", "docs/notebook.ipynb", "workflows/README.md"):
+            self.assertTrue((pages / page).is_file(), page)
+        motions = self.root / "var/lib/breachline-motions"
+        self.assertEqual((motions.is_dir(), stat.S_IMODE(motions.stat().st_mode)), (True, 0o755))
+        self.assertIn(f"ReadOnlyPaths=-/{motions.relative_to(self.root)}", (self.root / "lib/systemd/system/breachline.service").read_text())
         control = (self.root / "DEBIAN/control").read_text()
+        self.assertRegex(control, "(?m)^Provides: python3-breachline$")
         for library in ("libhdf5", "libcpp-httplib", "libsqlite3", "libssl3", "sqlite3", "adduser"):
             self.assertIn(library, control)
         self.assertNotIn("\n(", control)

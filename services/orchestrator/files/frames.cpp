@@ -42,19 +42,20 @@ bool is_transferred(const std::string& name) { return name == phases::files::par
 struct Cloud {
     double time = 0.0;
     std::vector<std::string> regions, materials;
-    std::vector<float> x, y, speed, epsilon_q, region;
-    std::vector<float> r_u, pore_pressure;  ///< empty when the file has none
+    std::vector<float> x, y, region;
+    std::vector<float> speed, epsilon_q, r_u, pore_pressure;  ///< empty when the file has none
     std::vector<std::uint32_t> quads;
 
-    void add(const mechanics::Vec2& position, const mechanics::Vec2& velocity, double strain,
-             std::int32_t region_index) {
+    void add(const mechanics::Vec2& position, std::int32_t region_index) {
         x.push_back(static_cast<float>(position[0]));
         y.push_back(static_cast<float>(position[1]));
-        speed.push_back(static_cast<float>(std::hypot(velocity[0], velocity[1])));
-        epsilon_q.push_back(static_cast<float>(strain));
         region.push_back(static_cast<float>(region_index));
     }
 };
+
+float speed_of(const mechanics::Vec2& velocity) {
+    return static_cast<float>(std::hypot(velocity[0], velocity[1]));
+}
 
 template <class Number>
 void append(std::string& bytes, const std::vector<Number>& numbers) {
@@ -67,9 +68,10 @@ std::string packed(const Cloud& cloud) {
         {"y", &cloud.y},
         {"speed", &cloud.speed},
         {"epsilon_q", &cloud.epsilon_q},
-        {"region", &cloud.region}};
-    if (!cloud.r_u.empty()) fields.emplace_back("r_u", &cloud.r_u);
-    if (!cloud.pore_pressure.empty()) fields.emplace_back("pore_pressure", &cloud.pore_pressure);
+        {"region", &cloud.region},
+        {"r_u", &cloud.r_u},
+        {"pore_pressure", &cloud.pore_pressure}};
+    std::erase_if(fields, [](const auto& field) { return field.second->empty(); });
     json head{{"time", cloud.time},
               {"count", cloud.x.size()},
               {"fields", json::array()},
@@ -86,16 +88,18 @@ std::string packed(const Cloud& cloud) {
 }
 
 Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
-    const auto state = exchange::read_particle_state(file).state;
+    const auto state = exchange::read_particle_frame(file);
     Cloud cloud;
     cloud.time = state.time;
     cloud.regions = state.regions;
     cloud.materials = state.materials_of_regions;
     for (std::size_t p = 0; p < state.size(); p += stride) {
-        cloud.add(state.position[p], state.velocity[p], state.epsilon_q[p], state.region[p]);
-        if (!state.r_u.empty()) cloud.r_u.push_back(static_cast<float>(state.r_u[p]));
-        if (!state.pore_pressure.empty())
-            cloud.pore_pressure.push_back(static_cast<float>(state.pore_pressure[p]));
+        cloud.add(state.position[p], state.region[p]);
+        if (!state.velocity.empty()) cloud.speed.push_back(speed_of(state.velocity[p]));
+        for (const auto& [from, to] :
+             {std::pair{&state.epsilon_q, &cloud.epsilon_q}, std::pair{&state.r_u, &cloud.r_u},
+              std::pair{&state.pore_pressure, &cloud.pore_pressure}})
+            if (!from->empty()) to->push_back(static_cast<float>((*from)[p]));
     }
     return cloud;
 }
@@ -138,7 +142,9 @@ Cloud nodes_of(const std::filesystem::path& file) {
     cloud.materials = mesh.materials_of_regions;
     for (std::size_t i = 0; i < n_nodes; ++i) {
         const mechanics::Vec2 position = mesh.position_0[i] + mesh.displacement[i];
-        cloud.add(position, mesh.velocity[i], strain[i] / std::max(1.0, touched[i]), region[i]);
+        cloud.add(position, region[i]);
+        cloud.speed.push_back(speed_of(mesh.velocity[i]));
+        cloud.epsilon_q.push_back(static_cast<float>(strain[i] / std::max(1.0, touched[i])));
     }
     add_water(cloud, mesh);
     return cloud;

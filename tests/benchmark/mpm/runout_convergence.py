@@ -22,7 +22,7 @@ def case(h=2.5, points=3, order="usl", cfl=0.4, scale=0.03, overlap=5.0, toleran
     left = -40 - shift  # moves every point against the lattice: a jitter that keeps all areas
     sets = [f"/mpm/cell_size={h}", "/mpm/allow_coarse_cells=true", f"/mpm/fill_points={points}", f"/mpm/order={order}", f"/mpm/cfl={cfl}",
             f"/mpm/stiffness_scale={scale}", f"/mpm/overlap_correction/rate={overlap}", f"/mpm/duration={END}",
-            f"/mpm/rest_earliest={2 * END}", f"/mpm/snapshot_interval={END}", f"/mpm/telemetry_interval=1", POND]
+            f"/mpm/rest_earliest={2 * END}", f"/mpm/snapshot_interval={END}", '/mpm/output/fields=["epsilon_q", "volume"]', f"/mpm/telemetry_interval=1", POND]
     for key, value, usual in (("kernel", kernel, "gimp"), ("gimp_half_size", half_size, 0.25), ("blending_rate", beta, 1.0),
                               ("overlap_correction/tolerance", tolerance, 0.1)):
         if value != usual:

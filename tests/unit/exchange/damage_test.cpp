@@ -75,6 +75,30 @@ void tamper(const std::filesystem::path& path, Change change) {
     EXPECT_GE(H5Fclose(file), 0);
 }
 
+TEST(DamagedFile, AnyFlippedByteOfACompressedFrameIsRefusedOrHarmless) {
+    const Folder folder;
+    const std::string_view fields[] = {"velocity", "epsilon_q"};
+    write_particle_frame(folder / "whole.vtkhdf", samples::particles(40), fields, {});
+    const ParticleState s = read_particle_frame(folder / "whole.vtkhdf");
+    const std::string whole = samples::content(folder / "whole.vtkhdf");
+    std::size_t refused = 0;
+    for (std::size_t at = 0; at < whole.size(); at += 41) {
+        std::string flipped = whole;
+        flipped[at] = static_cast<char>(flipped[at] ^ 0x55);
+        samples::overwrite(folder / "flipped.vtkhdf", flipped);
+        try {
+            const ParticleState r = read_particle_frame(folder / "flipped.vtkhdf");
+            EXPECT_TRUE(r.position == s.position && r.velocity == s.velocity &&
+                        r.epsilon_q == s.epsilon_q && r.region == s.region && r.time == s.time)
+                << "byte " << at << " changed a value without being noticed";
+        } catch (const fault::BadInput&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 20U);
+    EXPECT_EQ(open_identifiers(), 0);
+}
+
 TEST(DamagedFile, EveryMissingOrMisshapenDatasetIsNamed) {
     const Folder folder;
     whole_file(folder);

@@ -79,6 +79,66 @@ TEST(ParticleState, AHundredThousandPointsAreSeveralChunks) {
     EXPECT_EQ(read_particle_state(folder / "p.vtkhdf").state.stress, s.stress);
 }
 
+TEST(ParticleFrame, HasTheFieldsThatWereAskedForInSinglePrecision) {
+    const Folder folder;
+    ParticleState s = samples::particles(50);
+    s.velocity[7] = {1.0 / 3.0, -1e-4 / 7.0};
+    const std::string_view fields[] = {"velocity", "stress", "r_u"};
+    write_particle_frame(folder / "f.vtkhdf", s, fields, samples::provenance());
+    const ParticleState r = read_particle_frame(folder / "f.vtkhdf");
+    EXPECT_EQ(r.time, s.time);
+    EXPECT_EQ(r.transfer_time, s.transfer_time);
+    EXPECT_EQ(r.regions, s.regions);
+    EXPECT_EQ(r.region, s.region);
+    EXPECT_EQ(r.velocity[7].x(), static_cast<double>(static_cast<float>(1.0 / 3.0)));
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        EXPECT_LE((r.position[p] - s.position[p]).norm(), 6e-8 * s.position[p].norm());
+        EXPECT_LE((r.stress[p] - s.stress[p]).norm(), 6e-8 * s.stress[p].norm());
+    }
+    EXPECT_TRUE(r.epsilon_q.empty() && r.mass.empty() && r.velocity_gradient.empty());
+    EXPECT_TRUE(r.r_u.empty()) << "asked for, but the points have none";
+}
+
+TEST(ParticleFrame, MayHoldMorePointsThanBytes) {
+    const Folder folder;
+    ParticleState s = samples::particles(100000);
+    for (std::size_t p = 0; p < s.size(); ++p) {
+        s.position[p] = {static_cast<double>(p % 16), 1.0};
+        s.velocity[p].setZero();
+        s.region[p] = 0;
+    }
+    const std::string_view fields[] = {"velocity"};
+    write_particle_frame(folder / "f.vtkhdf", s, fields, {});
+    EXPECT_LT(std::filesystem::file_size(folder / "f.vtkhdf"), s.size());
+    EXPECT_EQ(read_particle_frame(folder / "f.vtkhdf").position, s.position);
+}
+
+TEST(ParticleFrame, IsReadFromAWholeStateToo) {
+    const Folder folder;
+    const ParticleState s = samples::particles(5);
+    write_particle_state(folder / "p.vtkhdf", s, {});
+    EXPECT_EQ(read_particle_frame(folder / "p.vtkhdf").velocity_gradient, s.velocity_gradient);
+}
+
+TEST(ParticleFrame, IsNotAStateToComputeWith) {
+    const Folder folder;
+    write_particle_frame(folder / "f.vtkhdf", samples::particles(5), {}, {});
+    try {
+        read_particle_state(folder / "f.vtkhdf");
+        FAIL();
+    } catch (const fault::BadInput& refusal) {
+        EXPECT_NE(refusal.faults().at(0).cause.find("particle_frame"), std::string::npos);
+        EXPECT_NE(refusal.faults().at(0).remedy.find("final.vtkhdf"), std::string::npos);
+    }
+}
+
+TEST(ParticleFrame, CannotHoldAFieldThatPointsDoNotHave) {
+    const Folder folder;
+    const std::string_view fields[] = {"colour"};
+    EXPECT_THROW(write_particle_frame(folder / "f.vtkhdf", samples::particles(5), fields, {}),
+                 std::logic_error);
+}
+
 TEST(ParticleState, AMeshIsNotParticles) {
     const Folder folder;
     write_mesh_snapshot(folder / "m.vtkhdf", samples::mesh(2), {});

@@ -104,6 +104,7 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<UpdateOrder>({mpm + "/order"});
     words.are_those_of<AntiLocking>({mpm + "/anti_locking"});
     for (const char* side : {"/left", "/right"}) words.are_those_of<Wall>({mpm + side});
+    words.are_those_of<PointField>({mpm + "/output/properties/fields/items"});
     words.are_those_of<FillStress>({mpm + "/fill_stress"});
     words.are_those_of<Shaking>({mpm + "/shaking"});
     words.are_all_covered();

@@ -38,6 +38,58 @@ def telemetry(folder):
         return [json.loads(line) for line in file]
 
 
+def series(folder):
+    """Time and name of each frame, as ParaView is told."""
+    with open(os.path.join(folder, "frames.vtkhdf.series")) as file:
+        document = json.load(file)
+    assert document["file-series-version"] == "1.0", document
+    listed = [(each["time"], each["name"]) for each in document["files"]]
+    assert listed == sorted(listed) and all(os.path.exists(os.path.join(folder, name)) for _, name in listed), listed
+    return listed
+
+
+def drawn(path):
+    """What the page draws of a file: single precision."""
+    data = arrays(path)
+    velocity = data["VTKHDF/PointData/velocity"].astype(np.float64)
+    return (data["VTKHDF/Points"].astype(np.float32), data["VTKHDF/PointData/epsilon_q"].astype(np.float32),
+            data["VTKHDF/PointData/region"]), np.hypot(velocity[:, 0], velocity[:, 1]).astype(np.float32)
+
+
+def check_frames(folder):
+    """The last frame and the final state are of one time: a picture of either is the same."""
+    frame, final = os.path.join(folder, "particles_2.000000.vtkhdf"), os.path.join(folder, "final.vtkhdf")
+    (one, speed), (other, speed_there) = drawn(frame), drawn(final)
+    assert all(np.array_equal(a, b) for a, b in zip(one, other)), "what is drawn of single and of double precision"
+    assert np.all(np.abs(speed - speed_there) <= 2.4e-7 * speed_there), "two units in the last place of a float"
+    with h5py.File(frame) as file:
+        assert file["breachline"].attrs["kind"] == b"particle_frame"
+        assert set(file["VTKHDF/PointData"]) == {"velocity", "epsilon_q", "region"}, "r_u only where points have one"
+        points = file["VTKHDF/Points"]
+        assert points.dtype == np.float32 and points.shuffle and points.compression == "gzip" and points.fletcher32
+        size = os.path.getsize(frame) / len(points)
+    assert size < 70, f"{size:.0f} bytes per point"
+    print(f"frames: {size:.1f} bytes per point; positions, epsilon_q and regions drawn as from double precision")
+
+
+def test_fields_that_are_asked_for(scratch):
+    folder = os.path.join(scratch, "fields")
+    few = ["--set", "/mpm/duration=0.02", "--set", "/mpm/cell_size=2"]
+    asked = run(folder, *few, "--set", '/mpm/output/fields=["stress", "mass"]')
+    assert asked.returncode == 0, asked.stderr
+    frame = os.path.join(folder, "particles_0.000000.vtkhdf")
+    with h5py.File(frame) as file:
+        assert set(file["VTKHDF/PointData"]) == {"stress", "mass", "region"}
+    refused = run(os.path.join(scratch, "unknown"), *few, "--set", '/mpm/output/fields=["colour"]')
+    assert refused.returncode == 65 and "/mpm/output/fields/0" in refused.stderr and "epsilon_q" in refused.stderr, refused.stderr
+    looked_at = run(os.path.join(scratch, "again"), *few, "--input", frame)
+    assert looked_at.returncode == 65 and "final.vtkhdf" in looked_at.stderr, looked_at.stderr
+    # Another run into the same folder: what lies there from before is none of its frames.
+    assert run(folder, *few, "--set", "/mpm/snapshot_interval=0.01").returncode == 0 and len(series(folder)) == 3
+    assert run(folder, *few).returncode == 0
+    assert series(folder) == [(0.0, "particles_0.000000.vtkhdf")]
+
+
 def test_outputs_and_resume(scratch):
     whole, stopped = os.path.join(scratch, "whole"), os.path.join(scratch, "stopped")
     first = run(whole, *SHORT)
@@ -78,17 +130,20 @@ def test_outputs_and_resume(scratch):
     for words in (f"runout {result['runout']:.2f} m", f"beyond it {result['runout_beyond_toe']:.2f} m", "STILL MOVING", "volume ratio",
                   "numerical share", "overlap", "flags: still_moving (questionable)"):
         assert words in first.stderr, (words, first.stderr)
+    check_frames(whole)
+    assert series(whole) == [(t, f"particles_{t:.6f}.vtkhdf") for t in (0.0, 0.5, 1.0, 1.5, 2.0)], series(whole)
     child = subprocess.Popen([SOLVER, COLUMN, "--output", stopped, "--progress", "none", *SHORT], stderr=subprocess.DEVNULL)
     while child.poll() is None and len(glob.glob(stopped + "/particles_*")) < 2:
         time.sleep(0.01)
     child.send_signal(signal.SIGTERM)
     assert child.wait() == 143, child.returncode
     assert os.path.exists(os.path.join(stopped, "checkpoint.h5"))
+    assert 2 <= len(series(stopped)) < 5, series(stopped)
     again = run(stopped, *SHORT, "--resume")
     assert again.returncode == 0, again.stderr
     same(os.path.join(whole, "final.vtkhdf"), os.path.join(stopped, "final.vtkhdf"))
     same(os.path.join(whole, "history.h5"), os.path.join(stopped, "history.h5"))
-    assert telemetry(whole) == telemetry(stopped)
+    assert telemetry(whole) == telemetry(stopped) and series(whole) == series(stopped)
     print("resume after SIGTERM: final.vtkhdf, history.h5 and telemetry have the same bits")
 
 
@@ -153,6 +208,7 @@ if __name__ == "__main__":
         sys.exit(77)
     with tempfile.TemporaryDirectory() as scratch:
         test_outputs_and_resume(scratch)
+        test_fields_that_are_asked_for(scratch)
         test_grid_too_small(scratch)
         test_until_rest(scratch)
         test_coarse_cells(scratch)

@@ -1,0 +1,151 @@
+"""Where a run's documents and files come from: a service's API, or the folder that `breach export` made."""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+import urllib.error
+import urllib.parse
+import urllib.request
+from pathlib import Path
+from typing import Any, Protocol
+
+from .faults import BreachlineError, Unreachable
+
+Document = dict[str, Any]
+
+
+class Source(Protocol):
+    """A run as one place knows it."""
+
+    def run(self) -> Document: ...
+
+    def study(self) -> Document: ...
+
+    def results(self) -> Document: ...
+
+    def tasks(self) -> list[Document]: ...
+
+    def file(self, task: Document, name: str) -> Path:
+        """A file on this machine with the bytes of the task's artifact."""
+
+
+class Exported:
+    """The folder of an exported run."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        if not (folder / "run.json").is_file():
+            raise BreachlineError(f"{folder}: has no run.json, so it is no exported run; make one by: breach export RUN {folder}")
+
+    def _read(self, name: str) -> Any:
+        try:
+            return json.loads((self.folder / name).read_text(encoding="utf-8"))
+        except (OSError, ValueError) as cause:
+            raise BreachlineError(f"{self.folder / name}: {cause}; repeat the export, which completes it") from cause
+
+    def run(self) -> Document:
+        return dict(self._read("run.json"))
+
+    def study(self) -> Document:
+        return dict(self._read("study.json"))
+
+    def results(self) -> Document:
+        return dict(self._read("results.json"))
+
+    def tasks(self) -> list[Document]:
+        names = sorted(each.parent.name for each in self.folder.glob("tasks/*/task.json"))
+        return [self._read(f"tasks/{name}/task.json") for name in names]
+
+    def file(self, task: Document, name: str) -> Path:
+        path = self.folder / "tasks" / str(task["label"]) / name
+        if not path.is_file():
+            raise BreachlineError(f"{path}: missing; repeat the export, which completes it")
+        return path
+
+
+class Api:
+    """A service's API. server, token_file: as the command line takes them, from BREACH_SERVER and BREACH_TOKEN_FILE
+    when not given."""
+
+    def __init__(self, server: str | None = None, token_file: str | os.PathLike[str] | None = None) -> None:
+        self.server = (server or os.environ.get("BREACH_SERVER") or "http://127.0.0.1:8470").rstrip("/")
+        if urllib.parse.urlsplit(self.server).scheme not in ("http", "https"):
+            raise BreachlineError(f"{self.server}: no http or https address; give one as http://127.0.0.1:8470")
+        file = token_file or os.environ.get("BREACH_TOKEN_FILE")
+        self.token = _token_in(Path(file)) if file else None
+
+    def bytes_at(self, path: str) -> bytes:
+        request = urllib.request.Request(self.server + path)
+        if self.token:
+            request.add_header("Authorization", f"Bearer {self.token}")
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return bytes(answer.read())
+        except urllib.error.HTTPError as refusal:
+            raise BreachlineError(f"{self.server}{path}: {_problem(refusal)}") from refusal
+        except OSError as cause:  # urllib.error.URLError is one
+            raise Unreachable(f"{self.server}: does not answer ({cause}); is the service running, is BREACH_SERVER right?") from cause
+
+    def json_at(self, path: str) -> Any:
+        try:
+            return json.loads(self.bytes_at(path))
+        except ValueError as cause:
+            raise BreachlineError(f"{self.server}{path}: no JSON; is this a Breachline service?") from cause
+
+
+class Served:
+    """A run of a service. Artifacts are kept below `cache` by their SHA-256, which is compared."""
+
+    def __init__(self, api: Api, run: str, cache: Path | None = None) -> None:
+        self.api = api
+        self.path = "/v1/runs/" + urllib.parse.quote(run, safe="")
+        self.detail = dict(api.json_at(self.path))  # with its study and tasks, as they are now
+        home = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+        self.cache = cache or Path(home) / "breachline"
+
+    def run(self) -> Document:
+        return {key: value for key, value in self.detail.items() if key not in ("tasks", "study")}
+
+    def study(self) -> Document:
+        return dict(self.detail["study"])
+
+    def results(self) -> Document:
+        return dict(self.api.json_at(self.path + "/results"))
+
+    def tasks(self) -> list[Document]:
+        return list(self.detail["tasks"])
+
+    def file(self, task: Document, name: str) -> Path:
+        artifact = next(each for each in task["artifacts"] if each["name"] == name)
+        promised = str(artifact["sha256"])
+        path = self.cache / promised
+        if path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest() == promised:
+            return path
+        content = self.api.bytes_at("/v1/artifacts/" + promised)
+        if hashlib.sha256(content).hexdigest() != promised:
+            raise BreachlineError(f"{name}: its SHA-256 is not {promised} as the service promised; ask again")
+        self.cache.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=self.cache, delete=False) as partial:
+            partial.write(content)
+        os.replace(partial.name, path)
+        return path
+
+
+def _token_in(file: Path) -> str:
+    try:
+        words = file.read_text(encoding="utf-8").split()
+    except OSError as cause:
+        raise BreachlineError(f"{file}: cannot be read: {cause}; BREACH_TOKEN_FILE names the file with the token") from cause
+    if not words:
+        raise BreachlineError(f"{file}: holds no token")
+    return words[0]
+
+
+def _problem(refusal: urllib.error.HTTPError) -> str:
+    try:
+        problem = json.loads(refusal.read())
+        return f"{refusal.code} {problem.get('title', '')}: {problem.get('detail', '')}"
+    except ValueError:
+        return f"{refusal.code} {refusal.reason}"

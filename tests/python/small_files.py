@@ -1,0 +1,119 @@
+"""python3-breachline against an export and files written here: tables with holes, frames of both kinds, and what is said
+when something is missing. The real ones are real_run.py's."""
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.environ["BREACH_ROOT"], "services/python"))
+try:
+    import h5py
+    import numpy
+    import breachline as breach
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+COLUMNS = [{"name": name, "kind": kind, "unit": unit, "title": "", "meaning": ""} for name, kind, unit in
+           (("transfer_time", "number", "s"), ("state", "word", ""), ("runout", "number", "m"), ("variant", "word", ""))]
+
+
+def rows(*places):
+    return [dict(zip(("transfer_time", "state", "runout", "variant"), each)) for each in places]
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.here = pathlib.Path(folder.name)
+
+    def export(self, name, table):
+        folder = self.here / name
+        task = folder / "tasks/mpm_0.5"
+        task.mkdir(parents=True)
+        (folder / "run.json").write_text(json.dumps({"id": name, "name": "column", "state": "succeeded"}))
+        (folder / "study.json").write_text(json.dumps({"scene": {"name": "column"}}))
+        (folder / "results.json").write_text(json.dumps({"columns": COLUMNS, "rows": table}))
+        (task / "task.json").write_text(json.dumps(
+            {"id": "t", "label": "mpm_0.5", "phase": "mpm_solver", "state": "succeeded", "transfer_time": 0.5, "variant": "",
+             "result": None, "artifacts": [{"name": "particles_0.000000.vtkhdf"}, {"name": "particles_10.000000.vtkhdf"},
+                                           {"name": "particles_2.000000.vtkhdf"}]}))
+        for time in (0, 2, 10):
+            self.frame(task / f"particles_{time}.000000.vtkhdf", time)
+        return folder
+
+    def frame(self, path, time):
+        with h5py.File(path, "w") as file:
+            file["VTKHDF/Points"] = numpy.array([[time, 1, 0], [time + 1, 2, 0]], dtype="f4")
+            file["VTKHDF/Types"] = numpy.ones(2, dtype="u1")
+            file["VTKHDF/PointData/stress"] = numpy.arange(12.0).reshape(2, 6)
+            file["VTKHDF/PointData/stress"].attrs["unit"] = numpy.bytes_("Pa")
+            file.create_group("VTKHDF/CellData")
+            file["breachline/regions"] = numpy.array([b"tailings"])
+            file["breachline/materials_of_regions"] = numpy.array([b"silt"])
+            file["breachline"].attrs["time"] = float(time)
+
+    def test_tables_know_their_units_and_their_holes(self):
+        table = breach.run(self.export("a", rows((0.5, "succeeded", 12.5, None), (1.0, "failed", None, None)))).results
+        self.assertEqual(len(table), 2)
+        self.assertEqual(table["runout"][0], 12.5)
+        self.assertTrue(numpy.isnan(table["runout"][1]))
+        self.assertEqual(list(table["state"]), ["succeeded", "failed"])
+        self.assertEqual(table.column("runout").unit, "m")
+        self.assertIn("runout [m]", repr(table))
+        with self.assertRaisesRegex(breach.BreachlineError, "no column runnout; there are transfer_time, state, runout"):
+            table["runnout"]
+
+    def test_rows_are_compared_by_variant_and_time(self):
+        one = breach.run(self.export("a", rows((0.5, "succeeded", 10.0, "x"), (1.0, "succeeded", 20.0, "x"), (2.0, "failed", None, "x"))))
+        other = breach.run(self.export("b", rows((1.0, "succeeded", 23.0, "x"), (0.5, "succeeded", 9.0, "x"), (0.5, "succeeded", 1.0, "y"))))
+        comparison = one.compare(other)
+        numpy.testing.assert_array_equal(comparison.difference("runout"), [-1.0, 3.0])
+        self.assertEqual((comparison.only_here, comparison.only_there), ([("x", 2.0)], [("y", 0.5)]))
+        self.assertIn("2 rows in both, 1 only here, 1 only there", repr(comparison))
+        with self.assertRaisesRegex(breach.BreachlineError, "state holds no numbers"):
+            comparison.difference("state")
+
+    def test_frames_are_in_the_order_of_time(self):
+        frames = breach.run(str(self.export("a", [])) + os.sep).frames(transfer_time=0.5)
+        self.assertEqual(list(frames.times), [0.0, 2.0, 10.0])
+        last = frames[-1]
+        self.assertEqual((last.time, last.regions, last.units["stress"], last.quads), (10.0, ["tailings"], "Pa", None))
+        numpy.testing.assert_array_equal(last.position, [[10, 1], [11, 2]])
+        numpy.testing.assert_array_equal(last["stress"], [[0, 1, 2, 3], [6, 7, 8, 9]])
+        self.assertEqual(frames.at(3.0).time, 2.0)
+        self.assertEqual([each.time for each in frames[1:]], [2.0, 10.0])
+        with self.assertRaises(IndexError):
+            frames[3]
+        with self.assertRaisesRegex(breach.BreachlineError, "has no velocity; it has stress"):
+            last["velocity"]
+
+    def test_what_is_not_there_is_said(self):
+        run = breach.run(self.export("a", []))
+        with self.assertRaisesRegex(breach.BreachlineError, r"no such task of mpm_solver with files; it has: mpm_0.5 \(succeeded\)"):
+            run.frames(transfer_time=0.75)
+        with self.assertRaisesRegex(breach.BreachlineError, "no such task of fem_solver with files; it has: none"):
+            run.frames(phase="fem_solver")
+        with self.assertRaisesRegex(breach.BreachlineError, "no exported run"):
+            breach.run(self.here)
+        (self.here / "a/tasks/mpm_0.5/particles_0.000000.vtkhdf").write_bytes(b"cut")
+        with self.assertRaisesRegex(breach.BreachlineError, "not a whole frame"):
+            run.frames()[0]
+        (self.here / "a/tasks/mpm_0.5/particles_2.000000.vtkhdf").unlink()
+        with self.assertRaisesRegex(breach.BreachlineError, "missing; repeat the export"):
+            run.frames()[1]
+
+    def test_a_service_that_is_not_there(self):
+        with self.assertRaisesRegex(breach.Unreachable, "does not answer"):
+            breach.run("latest", server="http://127.0.0.1:9")
+        with self.assertRaisesRegex(breach.BreachlineError, "no http or https address"):
+            breach.run("latest", server="file:///etc/passwd")
+        with self.assertRaisesRegex(breach.BreachlineError, "BREACH_TOKEN_FILE"):
+            breach.run("latest", token_file=self.here / "none")
+
+
+if __name__ == "__main__":
+    unittest.main()
