@@ -24,7 +24,8 @@ constexpr double per_element_step_with_memory = 8e-6;  // PM4Sand with its pore 
 constexpr double per_transferred_point = 4e-6;         // [s]
 constexpr double per_point_step = 5e-8;                // [s]
 constexpr double bytes_per_element = 600;              // of a snapshot
-constexpr double bytes_per_point = 210;                // of a frame
+constexpr double bytes_per_point = 210;                // of a whole state
+constexpr double bytes_per_framed_point = 20;          // of a frame with the usual fields
 constexpr double bytes_per_fem_line = 900, bytes_per_mpm_line = 250;  // of telemetry
 constexpr double bytes_beside = 5e4;                                  // result, scene, history
 constexpr double fold = 2.0;
@@ -94,15 +95,16 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
     const scene::Mpm& mpm = *scene.mpm;
     const double duration = runout_duration(scene);
     const double steps = duration / runout_step(scene);
-    const double frames =
-        3.0 + (mpm.snapshot_interval > 0.0 ? duration / mpm.snapshot_interval : 0.0);
+    const double whole_states = 2.0;
+    const double frames = mpm.snapshot_interval > 0.0 ? duration / mpm.snapshot_interval : 0.0;
+    const double per_point = bytes_per_point * whole_states + bytes_per_framed_point * frames;
     const double lines = mpm.telemetry_interval > 0.0 ? duration / mpm.telemetry_interval : steps;
     return {phases::mpm.program,
             {{"points, about", points},
              {"steps, about", steps},
              {mpm.until_rest ? "seconds until rest, about" : "seconds of flow", duration}},
             around(start_up + per_point_step * points * steps),
-            around(bytes_beside + bytes_per_point * points * frames + bytes_per_mpm_line * lines),
+            around(bytes_beside + per_point * points + bytes_per_mpm_line * lines),
             ""};
 }
 

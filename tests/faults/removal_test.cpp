@@ -217,7 +217,7 @@ TEST(Removal, WhatWasPlacedAndNotTakenIsNotWrittenInto) {
         ASSERT_TRUE(service.valid()) << service.complaint();
         const std::string run = service.get("/v1/runs?limit=1").body.at("runs")[0].at("id");
         const json end = service.wait_for_end(run);
-        EXPECT_EQ(end.at("state"), "succeeded");
+        EXPECT_EQ(end.at("state"), "succeeded") << end.value("message", "");
         EXPECT_EQ(task_labelled(end, "fem").at("state"), "succeeded");
         EXPECT_EQ((std::ostringstream() << std::ifstream(file).rdbuf()).str(), kept);
         ASSERT_EQ(stat(file.c_str(), &info), 0);

@@ -413,7 +413,13 @@ void Dispatcher::settle_children(const std::string& parent_id) {
     const bool succeeded =
         parent.state == TaskState::succeeded || parent.state == TaskState::cached;
     // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
-    const std::set<std::string> files = names_in(data_.output(parent));
+    // What is placed and not taken may go again before its task runs (dispatch/cache.cpp).
+    const auto is_being_placed = [&] {
+        return parent.state == TaskState::ready && std::filesystem::exists(data_.reused(parent));
+    };
+    const bool was_being_placed = is_being_placed();
+    std::set<std::string> files = names_in(data_.output(parent));
+    if (was_being_placed || is_being_placed()) files.clear();
     std::vector<std::string> released;
     std::vector<std::string> skipped;
     for (const BlockedTask& child : children) {
