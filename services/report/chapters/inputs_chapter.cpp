@@ -6,6 +6,7 @@
 #include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/entries.hpp"
+#include "services/report/section/section_drawing.hpp"
 
 namespace breach::report {
 
@@ -186,6 +187,19 @@ std::vector<Table> materials_of(const json& scene, const std::vector<SceneEntry>
     return tables;
 }
 
+/// The section that the study asks about. It was computed: a file that is not there any more, such as
+/// a motion on another machine, is only not drawn.
+std::string drawing_of(const Run& run) {
+    BaseScene base{asked_scene(run), {}, ""};
+    if (&asked_scene(run) != &run.scene)
+        base.overrides = run.study.value("overrides", std::vector<std::string>{});
+    check::Checked checked =
+        check::checked_text(base.scene.dump(), "scene", run.folder, base.overrides);
+    checked.faults.clear();
+    const Draft draft = draft_of(std::move(base), std::move(checked));
+    return can_be_drawn(draft) ? as_svg(draft, {}) : "";
+}
+
 }  // namespace
 
 void add_inputs(const Material& from, Document& document) {
@@ -197,7 +211,7 @@ void add_inputs(const Material& from, Document& document) {
                         " entries, " + std::to_string(defaults) +
                         " of them at the program's own value (*). What variants change stands in "
                         "their table."};
-    // The drawing of the section belongs here, before the tables.
+    chapter.drawing = drawing_of(from.run);
     chapter.tables.push_back(section_of(scene, entries));
     for (Table& each : materials_of(scene, entries)) chapter.tables.push_back(std::move(each));
     for (Table& each : tables_of(entries)) chapter.tables.push_back(std::move(each));

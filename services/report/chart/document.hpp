@@ -22,6 +22,7 @@ struct Chapter {
     std::string text = {};
     std::vector<Figure> figures = {};
     std::vector<Table> tables = {};
+    std::string drawing = {};  ///< SVG above all else, without numbers of its own; empty: none
 };
 
 /// A figure that a full report has and this one has not.

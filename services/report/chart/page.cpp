@@ -56,11 +56,10 @@ bool is_number(const std::string& text) {
 }
 
 /// Inside HTML an SVG needs no namespace, whose name looks like an address on the network.
-std::string inlined(const Chart& chart) {
-    std::string svg = as_svg(chart);
+std::string inlined(std::string svg, const std::string& title) {
     const std::string space = "xmlns=\"http://www.w3.org/2000/svg\"";
     svg.replace(svg.find(space), space.size(),
-                "role=\"img\" aria-label=\"" + escaped(chart.title) + "\"");
+                "role=\"img\" aria-label=\"" + escaped(title) + "\"");
     return svg;
 }
 
@@ -77,9 +76,10 @@ std::string anchor_of(std::size_t chapter) {
 void write_figure(std::ostream& html, const Figure& figure, const std::string& folder) {
     const std::string file = folder + "/" + figure.name;
     html << "<figure id=\"" << escaped(figure.name) << "\">\n"
-         << inlined(figure.chart) << "<figcaption>" << escaped(figure.caption) << ' '
-         << link(file + ".csv", "data") << ", " << link(file + ".svg", "SVG") << ", "
-         << link(file + ".png", "PNG") << "</figcaption>\n</figure>\n";
+         << inlined(as_svg(figure.chart), figure.chart.title) << "<figcaption>"
+         << escaped(figure.caption) << ' ' << link(file + ".csv", "data") << ", "
+         << link(file + ".svg", "SVG") << ", " << link(file + ".png", "PNG")
+         << "</figcaption>\n</figure>\n";
 }
 
 /// Numbers stand at the right, those with a mark as well; lower bounds are told apart from them.
@@ -191,10 +191,14 @@ std::string as_html(const Document& document, const std::string& figures) {
     write_contents(html, document.chapters);
     for (std::size_t i = 0; i < document.chapters.size(); ++i) {
         const Chapter& chapter = document.chapters[i];
-        const bool sheet = chapter.figures.empty() && has_many(chapter.tables);
+        const bool sheet =
+            chapter.figures.empty() && chapter.drawing.empty() && has_many(chapter.tables);
         html << "<section" << (sheet ? " class=\"sheet\">" : ">") << "<h2 id=\"" << anchor_of(i)
              << "\">" << i + 1 << " " << escaped(chapter.title) << "</h2>\n";
         if (!chapter.text.empty()) html << "<p>" << escaped(chapter.text) << "</p>\n";
+        if (!chapter.drawing.empty())
+            html << "<figure class=\"drawing\">\n"
+                 << inlined(chapter.drawing, "The section") << "</figure>\n";
         for (const Figure& each : chapter.figures) write_figure(html, each, figures);
         for (const Table& each : chapter.tables) write_table(html, each, figures);
         html << "</section>\n";

@@ -47,7 +47,8 @@ def main(folder):
     html = page.read_text()
     files = page.parent / "report_files"
     check("nothing of the page comes from elsewhere",
-          not re.search(r'https?:|\ssrc=|<script|@import|url\(|<link', html))
+          not re.search(r'https?:|\ssrc=|<script|@import|url\((?!#)|<link', html))
+    check("the section is drawn among the inputs", html.count('<figure class="drawing">') == 1 and 'class="region"' in html)
     check("the page is small", len(html) < 5_000_000, len(html))
     figures = re.findall(r'<figure id="([^"]+)">', html)
     check("there are figures", len(figures) >= 14, figures)
