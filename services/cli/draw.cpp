@@ -54,11 +54,7 @@ json cost_of(Server& server, const json& study, const scene::Scene& scene,
     } catch (const Unreachable&) {
     } catch (const Refused&) {
     }
-    const auto costs = estimate::cost_of(scene, mesh);
-    const estimate::Repeats repeats = estimate::repeats_of(study);
-    json cost = estimate::as_json(costs, repeats);
-    cost["lines"] = estimate::lines_of(costs, repeats);
-    return cost;
+    return estimate::as_json(estimate::cost_of(scene, mesh), estimate::repeats_of(study));
 }
 
 }  // namespace

@@ -273,7 +273,8 @@ json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
     return {{"phases", phases},
             {"runouts", repeats.runouts},
             {"cpu_seconds", both(sum.cpu_seconds)},
-            {"bytes", both(sum.bytes)}};
+            {"bytes", both(sum.bytes)},
+            {"lines", lines_of(costs, repeats)}};
 }
 
 }  // namespace breach::estimate

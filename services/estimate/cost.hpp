@@ -62,6 +62,7 @@ Repeats repeats_of(const nlohmann::json& document);
 
 /// Lines for people: one per phase, and their sum.
 std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Repeats& repeats);
+/// With those lines.
 nlohmann::json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats);
 
 }  // namespace breach::estimate

@@ -1,3 +1,5 @@
+#include <functional>
+
 #include "services/orchestrator/accuracy/runout_error.hpp"
 #include "services/orchestrator/dispatch/why.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -92,7 +94,7 @@ void command_run(Service& service, Call& call, Order order) {
     call.allow_parameters({});
     bool known = false;
     service.store.write(
-        [&](Transaction& transaction) { known = order(transaction, call.parts[0]); });
+        [&](Transaction& transaction) { known = std::invoke(order, transaction, call.parts[0]); });
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.settle_all();
     reply(call.response, run_json(service, call.parts[0]), 202);
@@ -263,26 +265,14 @@ void add_run_routes(Router& router, Service& service) {
     router.get("/v1/runs/{id}/tasks", [&](Call& call) { list_tasks(service, call); });
     router.get("/v1/runs/{id}", [&](Call& call) { show_run(service, call); });
     router.post("/v1/runs/{id}/cancel", [&](Call& call) { cancel(service, call); });
-    router.post("/v1/runs/{id}/pause", [&](Call& call) {
-        command_run(service, call, [](Transaction& transaction, const std::string& run) {
-            return transaction.pause_run(run);
-        });
-    });
-    router.post("/v1/runs/{id}/resume", [&](Call& call) {
-        command_run(service, call, [](Transaction& transaction, const std::string& run) {
-            return transaction.resume_run(run);
-        });
-    });
-    router.post("/v1/runs/{id}/pin", [&](Call& call) {
-        command_run(service, call, [](Transaction& transaction, const std::string& run) {
-            return transaction.pin_run(run);
-        });
-    });
-    router.post("/v1/runs/{id}/unpin", [&](Call& call) {
-        command_run(service, call, [](Transaction& transaction, const std::string& run) {
-            return transaction.unpin_run(run);
-        });
-    });
+    router.post("/v1/runs/{id}/pause",
+                [&](Call& call) { command_run(service, call, &Transaction::pause_run); });
+    router.post("/v1/runs/{id}/resume",
+                [&](Call& call) { command_run(service, call, &Transaction::resume_run); });
+    router.post("/v1/runs/{id}/pin",
+                [&](Call& call) { command_run(service, call, &Transaction::pin_run); });
+    router.post("/v1/runs/{id}/unpin",
+                [&](Call& call) { command_run(service, call, &Transaction::unpin_run); });
     router.post("/v1/runs/{id}/retry", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
             return transaction.retry_run(run).has_value();

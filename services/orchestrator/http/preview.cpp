@@ -76,11 +76,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
     if (!draft.faults.empty()) throw refusal_of(draft);
-    const auto costs = cost_here(service, draft.scene);
-    const estimate::Repeats repeats = estimate::repeats_of(document);
-    json answer = estimate::as_json(costs, repeats);
-    answer["lines"] = estimate::lines_of(costs, repeats);
-    return answer;
+    return estimate::as_json(cost_here(service, draft.scene), estimate::repeats_of(document));
 }
 
 }  // namespace breach::orchestrator

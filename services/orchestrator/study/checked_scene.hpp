@@ -11,7 +11,8 @@
 namespace breach::orchestrator {
 
 /// check::checked_text, and a fault for each file that is not named by an absolute path: what is sent
-/// has no folder; files that were sent (file:sha256/...) are looked for below `folder`. As read_study checks its scene. Throws BadInput only where it is no object.
+/// has no folder. Files that were sent (file:sha256/...) are looked for below `folder`. Throws BadInput
+/// only where it is no object.
 check::Checked check_sent_scene(const nlohmann::json& document,
                                 const std::vector<std::string>& overrides,
                                 const std::filesystem::path& folder);

@@ -5,7 +5,6 @@
 
 #include "core/check/check.hpp"
 #include "core/criteria/expression.hpp"
-#include "core/scene/file_paths.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -100,37 +99,6 @@ Reach reach_of(const json& scene) {
     if (scene.contains(phases::fem.part)) return Reach::chain;
     if (scene.contains(phases::mpm.part)) return Reach::filled_mpm;
     return scene.contains(phases::lem.part) ? Reach::lem : Reach::chain;
-}
-
-/// A scene that was sent has no folder: its files are named by absolute paths, in overrides too.
-void need_absolute_files(json scene, const std::vector<std::string>& overrides,
-                         std::vector<Fault>& faults) {
-    for (const std::string& each : overrides) scene::apply_override(scene, each);
-    for (const std::string& key : scene::file_entries) {
-        const json::json_pointer at(key);
-        if (!scene.contains(at) || !scene[at].is_string() ||
-            scene[at].get_ref<const std::string&>().starts_with('/') ||
-            scene::file_reference(scene[at].get_ref<const std::string&>()))
-            continue;
-        faults.push_back(
-            {key, "the path is relative, but a scene sent to the service has no folder",
-             "send the file (POST /v1/files; breach submit does it) and give the "
-             "reference of the answer, or the absolute path on the service's machine"});
-    }
-}
-
-/// The scene's own check; what it could read, and everything that is wrong.
-check::Checked checked_scene(const json& document, const std::vector<std::string>& overrides,
-                             const std::filesystem::path& folder) {
-    std::vector<Fault> faults;
-    need_absolute_files(document, overrides, faults);
-    check::Checked checked = check::checked_text(document.dump(), "scene", folder, overrides);
-    // A relative path was looked for below the root: one fault is enough.
-    std::erase_if(checked.faults, [&](const Fault& each) {
-        return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
-    });
-    checked.faults.insert(checked.faults.begin(), faults.begin(), faults.end());
-    return checked;
 }
 
 /// The faults with their pointers moved below `prefix`.
@@ -292,7 +260,7 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
         }
         std::vector<std::string> overrides = base.overrides;
         overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
-        const check::Checked changed = checked_scene(base.scene, overrides, base.folder);
+        const check::Checked changed = check_sent_scene(base.scene, overrides, base.folder);
         for (const Fault& each : faults_of_variant(changed, base, times)) {
             const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
             const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
@@ -454,7 +422,7 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
-        scene = checked_scene(base.scene, base.overrides, folder);
+        scene = check_sent_scene(base.scene, base.overrides, folder);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
@@ -518,14 +486,9 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
 }
 
 json read_whole_scene(std::string_view text, const std::filesystem::path& folder) {
-    const check::Checked checked = checked_scene(scene::parse_json(text, "scene"), {}, folder);
+    const check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, folder);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return json::parse(checked.scene.completed);
-}
-
-check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
-                                const std::filesystem::path& folder) {
-    return checked_scene(document, overrides, folder);
 }
 
 }  // namespace breach::orchestrator
