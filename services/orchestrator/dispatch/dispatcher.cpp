@@ -222,7 +222,7 @@ void Dispatcher::start_ready_tasks() {
 /// alone.
 std::vector<Task> Dispatcher::tasks_that_fit() {
     constexpr std::size_t look_ahead = 8;  // the cache needs no slot
-    std::int64_t cores = static_cast<std::int64_t>(settings_.slots);
+    auto cores = static_cast<std::int64_t>(settings_.slots);
     std::int64_t memory = settings_.memory_mb;
     std::map<std::string, std::size_t> running;
     const auto take = [&](const Task& task) {

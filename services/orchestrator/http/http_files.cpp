@@ -38,7 +38,7 @@ std::string ending_of(const std::string& name) {
 /// As its sender calls it: to be shown, never a path.
 std::string sent_name(const Call& call) {
     constexpr std::size_t longest = 200;
-    const std::string name = fs::path(call.parameter("name").value_or("")).filename();
+    std::string name = fs::path(call.parameter("name").value_or("")).filename();
     const bool plain = std::ranges::none_of(
         name, [](unsigned char c) { return c < ' ' || c == 0x7f || c == '"' || c == '\\'; });
     if (name.empty() || name.size() > longest || !plain)
