@@ -16,6 +16,8 @@ import urllib.request
 
 build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 source = pathlib.Path(os.environ["BREACH_ROOT"])
+# Programs under sanitizers are not asked for their help while they are built.
+instrumented = re.search(r"^BREACH_SANITIZE:\w+=(address|thread)", (build / "CMakeCache.txt").read_text(), re.MULTILINE)
 programs = {"breachline", "breach", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "report",
             "breachline-backup", "breachline-restore"}
 
@@ -109,7 +111,7 @@ class DebianPackage(unittest.TestCase):
                          {str(each.relative_to(source / "services/python/breachline"))
                           for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").glob(pattern)})
         manuals = self.root / "usr/share/man/man1"
-        if shutil.which("help2man"):
+        if shutil.which("help2man") and not instrumented:
             self.assertEqual({each.stem for each in manuals.iterdir()}, {each for each in programs if "-" not in each})
             self.assertIn("--until\\-rest", (manuals / "mpm_solver.1").read_text().replace("\\-\\-", "--"))
         pages = self.root / "usr/share/doc/breachline"

@@ -7,80 +7,9 @@
 #include "core/check/section.hpp"
 #include "core/motion/plausibility.hpp"
 #include "services/report/chart/axis.hpp"
-#include "services/report/chart/frame.hpp"
+#include "services/report/section/strokes.hpp"
 
 namespace breach::report {
-
-namespace {
-
-using Line = std::vector<Vec2>;
-
-constexpr const char* blue = "#0b5fa5";
-constexpr const char* violet = "#7a1fa2";
-constexpr const char* brown = "#5d4037";
-constexpr const char* green = "#00695c";
-
-std::string stroke(const std::string& colour, double width, const std::string& more = "") {
-    return " fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + short_number(width) +
-           "\" " + more;
-}
-
-std::string shape(const std::string& path, const std::string& look) {
-    return "<path d=\"" + path + "\"" + look + "/>\n";
-}
-
-/// A line on white, so that it is seen on every fill.
-void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
-               const std::string& dashes = "") {
-    const std::string path = path_of(canvas.panel, line);
-    canvas.svg << shape(path, stroke("#fff", 4, "stroke-opacity=\"0.7\""))
-               << shape(path, stroke(colour, 2, "class=\"" + name + "\"" + dashes));
-}
-
-Key line_key(const std::string& colour, const std::string& text, const std::string& dashes = "") {
-    return {shape("M0 6h24", stroke(colour, 2, dashes)), text};
-}
-
-std::string place(const Vec2& at) {
-    return "(" + short_number(at.x()) + ", " + short_number(at.y()) + ")";
-}
-
-/// The line over the whole panel, as it goes on beyond its ends.
-Line across(const Panel& panel, const Line& line, check::Level level) {
-    const scene::Box world = panel.world();
-    Line whole{{world.low.x(), level(line, world.low.x())}};
-    for (const Vec2& each : line)
-        if (each.x() > world.low.x() && each.x() < world.high.x()) whole.push_back(each);
-    whole.push_back({world.high.x(), level(line, world.high.x())});
-    return whole;
-}
-
-bool same(const Line& a, const Line& b) { return a == b; }
-
-/// Where a line of water stands above the ground.
-void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) {
-    const scene::Box world = canvas.panel.world();
-    for (const Line& ground : ground_between(scene, world.low.x(), world.high.x())) {
-        std::vector<double> xs;
-        for (const Vec2& each : ground) xs.push_back(each.x());
-        for (const Vec2& each : line)
-            if (each.x() > ground.front().x() && each.x() < ground.back().x())
-                xs.push_back(each.x());
-        std::ranges::sort(xs);
-        Line surface, bed;
-        for (const double x : xs) {
-            const double soil = check::level_at(ground, x);
-            surface.push_back({x, std::max(check::level_at(line, x), soil)});
-            bed.push_back({x, soil});
-        }
-        std::ranges::reverse(bed);
-        surface.insert(surface.end(), bed.begin(), bed.end());
-        canvas.svg << shape(path_of(canvas.panel, surface) + "Z",
-                            " class=\"water\" fill=\"#9fd3f5\" fill-opacity=\"0.6\"");
-    }
-}
-
-}  // namespace
 
 std::vector<Line> ground_between(const scene::Scene& scene, double from, double to) {
     std::vector<double> xs;
@@ -102,130 +31,6 @@ std::vector<Line> ground_between(const scene::Scene& scene, double from, double 
         pieces.back().push_back(b);
     }
     return pieces;
-}
-
-void draw_water(Canvas& canvas, const scene::Scene& scene) {
-    struct Found {
-        Line line;
-        std::string of;
-    };
-    std::vector<Found> found;
-    const auto add = [&](const Line& line, const std::string& of) {
-        if (line.empty()) return;
-        const auto known =
-            std::ranges::find_if(found, [&](const Found& each) { return same(each.line, line); });
-        if (known == found.end()) {
-            found.push_back({line, of});
-        } else {
-            known->of += ", " + of;
-        }
-    };
-    if (scene.lem && scene.lem->water) {
-        draw_standing(canvas, scene, scene.lem->water->line);
-        add(scene.lem->water->line, "LEM");
-    }
-    if (scene.fem && scene.fem->water) add(scene.fem->water->line, "FEM");
-    if (scene.transfer) add(scene.transfer->phreatic_line, "transfer");
-    const std::vector<std::string> dashes{"", " stroke-dasharray=\"9 4\"",
-                                          " stroke-dasharray=\"3 3\""};
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const std::string& dash = dashes[std::min(i, dashes.size() - 1)];
-        draw_line(canvas, "phreatic", across(canvas.panel, found[i].line, check::level_at), blue,
-                  dash);
-        canvas.keys.push_back(line_key(blue, "phreatic line (" + found[i].of + ")", dash));
-    }
-    if (!scene.lem || scene.lem->piezometric_lines.empty()) return;
-    const std::string dash = " stroke-dasharray=\"1 4\" stroke-linecap=\"round\"";
-    for (const scene::Water& each : scene.lem->piezometric_lines)
-        draw_line(canvas, "piezometric", across(canvas.panel, each.line, check::level_at), blue,
-                  dash);
-    canvas.keys.push_back(line_key(blue, "piezometric line (LEM)", dash));
-}
-
-namespace {
-
-void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<double, 2>& range,
-                const std::string& name, const std::string& colour) {
-    const double lift = 5.0 / canvas.panel.scale();
-    for (Line ground : ground_between(scene, range[0], range[1])) {
-        for (Vec2& each : ground) each.y() += lift;
-        canvas.svg << shape(path_of(canvas.panel, ground),
-                            stroke(colour, 5, "class=\"search\" stroke-opacity=\"0.85\""));
-    }
-    canvas.keys.push_back({shape("M0 6h24", stroke(colour, 5)),
-                           "LEM: " + name + " searched from x = " + short_number(range[0]) +
-                               " to " + short_number(range[1]) + " m"});
-}
-
-void draw_loads(Canvas& canvas, const scene::Scene& scene,
-                const std::vector<scene::Surcharge>& loads, const std::string& of) {
-    for (const scene::Surcharge& each : loads) {
-        for (const Line& ground : ground_between(scene, each.from, each.to)) {
-            const Vec2 a = canvas.panel.at(ground.front()), b = canvas.panel.at(ground.back());
-            const int arrows = std::max(2, static_cast<int>((b.x() - a.x()) / 14.0));
-            std::string path;
-            for (int i = 0; i <= arrows; ++i) {
-                const double x = a.x() + (b.x() - a.x()) * i / arrows;
-                const double y =
-                    canvas.panel.at({0.0, check::level_at(ground, canvas.panel.back({x, 0.0}).x())})
-                        .y();
-                path += "M" + px(x) + " " + px(y - 16) + "V" + px(y - 2) + "m-3 -4l3 4l3 -4";
-            }
-            canvas.svg << shape(path, stroke(violet, 1.2, "class=\"load\""));
-        }
-        canvas.keys.push_back(
-            {shape("M6 0v10m-3 -4l3 4l3 -4M16 0v10m-3 -4l3 4l3 -4", stroke(violet, 1.2)),
-             of + ": surcharge of " + short_number(each.pressure / 1e3) +
-                 " kPa, x = " + short_number(each.from) + " to " + short_number(each.to) + " m"});
-    }
-}
-
-}  // namespace
-
-void draw_stability(Canvas& canvas, const scene::Scene& scene) {
-    if (!scene.lem) return;
-    const scene::Lem& lem = *scene.lem;
-    if (lem.search) {
-        draw_range(canvas, scene, lem.search->entry, "upper ends", "#d55e00");
-        draw_range(canvas, scene, lem.search->exit, "lower ends", violet);
-        if (lem.search->lowest_level) {
-            const scene::Box world = canvas.panel.world();
-            const double y = *lem.search->lowest_level;
-            const std::string dash = " stroke-dasharray=\"2 4\"";
-            draw_line(canvas, "search", {{world.low.x(), y}, {world.high.x(), y}}, violet, dash);
-            canvas.keys.push_back(
-                line_key(violet, "LEM: no surface below y = " + short_number(y) + " m", dash));
-        }
-    }
-    if (lem.circle) {
-        const Vec2 centre = canvas.panel.at(lem.circle->center);
-        canvas.svg << "<circle class=\"slip\" cx=\"" << px(centre.x()) << "\" cy=\""
-                   << px(centre.y()) << "\" r=\"" << px(lem.circle->radius * canvas.panel.scale())
-                   << "\"" << stroke(violet, 1.6, "stroke-dasharray=\"6 3\"") << "/>\n";
-        canvas.keys.push_back(line_key(violet, "LEM: given circle", " stroke-dasharray=\"6 3\""));
-    }
-    if (lem.non_circular && !lem.non_circular->given.empty()) {
-        draw_line(canvas, "slip", lem.non_circular->given, violet);
-        canvas.keys.push_back(line_key(violet, "LEM: given surface"));
-    }
-    if (!lem.floor.empty()) {
-        draw_line(canvas, "floor", across(canvas.panel, lem.floor, check::level_at), brown,
-                  " stroke-dasharray=\"8 3 2 3\"");
-        canvas.keys.push_back(
-            line_key(brown, "LEM: floor of all surfaces", " stroke-dasharray=\"8 3 2 3\""));
-    }
-    draw_loads(canvas, scene, lem.surcharge, "LEM");
-    for (const scene::LineLoad& each : lem.line_loads) {
-        const auto ground = ground_between(scene, each.x - 0.01, each.x + 0.01);
-        if (ground.empty()) continue;
-        const Vec2 at = canvas.panel.at(ground.front().front());
-        canvas.svg << shape("M" + px(at.x()) + " " + px(at.y() - 26) + "v24m-4 -6l4 6l4 -6",
-                            stroke(violet, 2, "class=\"load\""));
-        canvas.keys.push_back({shape("M12 0v11m-4 -5l4 5l4 -5", stroke(violet, 2)),
-                               "LEM: line load at x = " + short_number(each.x) + " m, " +
-                                   short_number(each.down / 1e3) + " kN/m down, " +
-                                   short_number(each.right / 1e3) + " kN/m right"});
-    }
 }
 
 namespace {
@@ -337,9 +142,9 @@ void draw_toe(Canvas& canvas, const Vec2& place) {
     if (!canvas.panel.shows(place)) return;
     const Vec2 toe = canvas.panel.at(place);
     canvas.over << "<path class=\"toe\" d=\"M" << px(toe.x()) << " " << px(toe.y())
-                << "l-6 10h12z\" fill=\"#b3261e\" stroke=\"#fff\"/>\n";
+                << "l-6 10h12z\" fill=\"" << dark_red << "\" stroke=\"#fff\"/>\n";
     canvas.labels.take({toe.x() - 6, toe.y(), toe.x() + 6, toe.y() + 10});
-    canvas.labels.beside(canvas.over, toe + Vec2(0, 5), "toe", "#b3261e");
+    canvas.labels.beside(canvas.over, toe + Vec2(0, 5), "toe", dark_red);
 }
 
 }  // namespace
@@ -348,7 +153,7 @@ void draw_runout_marks(Canvas& canvas, const scene::Scene& scene) {
     if (!scene.mpm) return;
     const scene::Mpm& mpm = *scene.mpm;
     draw_toe(canvas, mpm.runout.toe);
-    canvas.keys.push_back({"<path d=\"M12 1l-6 10h12z\" fill=\"#b3261e\"/>\n",
+    canvas.keys.push_back({"<path d=\"M12 1l-6 10h12z\" fill=\"" + std::string(dark_red) + "\"/>\n",
                            "MPM: toe, runout counts from " + place(mpm.runout.toe)});
     if (mpm.gauges.empty()) return;
     const Room room = canvas.panel.room();

@@ -28,9 +28,9 @@ struct Canvas {
 /// The ground's line over [from, to], piece by piece where soil lies [m].
 std::vector<std::vector<Vec2>> ground_between(const scene::Scene& scene, double from, double to);
 
-/// Phreatic and piezometric lines of all phases, each line once; standing water.
+/// Phreatic and piezometric lines of all phases, each line once; standing water; held pore pressures.
 void draw_water(Canvas& canvas, const scene::Scene& scene);
-/// Search ranges, given surfaces, floor, loads.
+/// What liquefies, tension crack, search ranges, given surfaces, floor, loads.
 void draw_stability(Canvas& canvas, const scene::Scene& scene);
 /// Supports, free-field columns, crest.
 void draw_supports(Canvas& canvas, const scene::Scene& scene);

@@ -151,6 +151,21 @@ TEST(SectionDrawing, ShowsWhatTheSceneHasAndNothingElse) {
     EXPECT_EQ(count(soil, "region"), 1u);
 }
 
+TEST(SectionDrawing, ShowsWhatLiquefiesWhereItCracksAndWherePressureIsHeld) {
+    const std::string held =
+        "/fem/water/boundaries=[{\"name\": \"drain\", \"from\": [220, 0], \"to\": [280, 0], "
+        "\"level\": 1}]";
+    const std::string dam = drawn("mochikoshi", {"/lem/tension_crack={\"depth\": 3}", held});
+    EXPECT_EQ(count(dam, "liquefaction"), 5u);
+    EXPECT_NE(dam.find("LEM: liquefies in stages 1 to 5"), std::string::npos);
+    EXPECT_GT(count(dam, "crack"), 0u);
+    EXPECT_NE(dam.find("tension crack, 3 m deep"), std::string::npos);
+    EXPECT_EQ(count(dam, "pressure"), 1u);
+    EXPECT_NE(dam.find("pore pressure held on drain, water at y = 1 m"), std::string::npos);
+    for (const char* name : {"liquefaction", "crack", "pressure"})
+        EXPECT_EQ(count(drawn("slope"), name), 0u) << name;
+}
+
 TEST(SectionDrawing, WaterAboveTheGroundIsSeen) {
     const std::string ponded =
         drawn("mochikoshi", {"/lem/water/line=[[-40,32],[60,32],[100,25],[280,0]]"});

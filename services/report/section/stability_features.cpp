@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cmath>
+
+#include "services/report/chart/axis.hpp"
+#include "services/report/section/strokes.hpp"
+
+namespace breach::report {
+
+namespace {
+
+void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<double, 2>& range,
+                const std::string& name, const std::string& colour) {
+    const double lift = 5.0 / canvas.panel.scale();
+    for (Line ground : ground_between(scene, range[0], range[1])) {
+        for (Vec2& each : ground) each.y() += lift;
+        canvas.svg << shape(path_of(canvas.panel, ground),
+                            stroke(colour, 5, "class=\"search\" stroke-opacity=\"0.85\""));
+    }
+    canvas.keys.push_back({shape("M0 6h24", stroke(colour, 5)),
+                           "LEM: " + name + " searched from x = " + short_number(range[0]) +
+                               " to " + short_number(range[1]) + " m"});
+}
+
+/// Where soil liquefies stage by stage, from the first to the last: outlined and numbered.
+void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
+    const std::vector<scene::UndrainedRegion>& layers = scene.lem->liquefaction;
+    if (layers.empty()) return;
+    const std::string dash = " stroke-dasharray=\"6 3\"";
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        scene::Polygon part = scene.section.regions[layers[i].region].polygon;
+        if (layers[i].levels) {
+            const auto [low, high] = *layers[i].levels;
+            part = scene::clipped_left(part, {0.0, low}, {1.0, low});
+            part = scene::clipped_left(part, {1.0, high}, {0.0, high});
+        }
+        if (part.empty()) continue;
+        canvas.svg << shape(path_of(canvas.panel, part) + "Z",
+                            stroke(dark_red, 1.3, "class=\"liquefaction\"" + dash));
+        const scene::Box box = scene::bounding_box(part);
+        const Vec2 inside = canvas.panel.inside(0.5 * (box.low + box.high));
+        canvas.labels.write(canvas.over, canvas.panel.at(inside), std::to_string(i + 1), dark_red);
+    }
+    canvas.keys.push_back(line_key(
+        dark_red,
+        layers.size() == 1 ? "LEM: liquefies in stage 1"
+                           : "LEM: liquefies in stages 1 to " + std::to_string(layers.size()),
+        dash));
+}
+
+/// Down from the ground where surfaces begin, or from wherever the search lets them begin.
+void draw_crack(Canvas& canvas, const scene::Scene& scene) {
+    const scene::Lem& lem = *scene.lem;
+    if (!lem.tension_crack) return;
+    const scene::TensionCrack& crack = *lem.tension_crack;
+    const scene::Box world = canvas.panel.world();
+    const auto [from, to] =
+        lem.search ? lem.search->entry : std::array<double, 2>{world.low.x(), world.high.x()};
+    const std::string dash = " stroke-dasharray=\"1 3\"";
+    for (Line foot : ground_between(scene, from, to)) {
+        for (Vec2& each : foot)
+            each.y() = crack.depth ? each.y() - *crack.depth : std::min(each.y(), *crack.level);
+        draw_line(canvas, "crack", foot, dark_red, dash);
+    }
+    canvas.keys.push_back(line_key(
+        dark_red,
+        "LEM: foot of the tension crack, " +
+            (crack.depth ? short_number(*crack.depth) + " m deep"
+                         : "at y = " + short_number(*crack.level) + " m") +
+            (crack.filled > 0.0 ? ", water in " + short_number(100.0 * crack.filled) + " %" : ""),
+        dash));
+}
+
+}  // namespace
+
+void draw_stability(Canvas& canvas, const scene::Scene& scene) {
+    if (!scene.lem) return;
+    const scene::Lem& lem = *scene.lem;
+    draw_liquefaction(canvas, scene);
+    draw_crack(canvas, scene);
+    if (lem.search) {
+        draw_range(canvas, scene, lem.search->entry, "upper ends", "#d55e00");
+        draw_range(canvas, scene, lem.search->exit, "lower ends", violet);
+        if (lem.search->lowest_level) {
+            const scene::Box world = canvas.panel.world();
+            const double y = *lem.search->lowest_level;
+            const std::string dash = " stroke-dasharray=\"2 4\"";
+            draw_line(canvas, "search", {{world.low.x(), y}, {world.high.x(), y}}, violet, dash);
+            canvas.keys.push_back(
+                line_key(violet, "LEM: no surface below y = " + short_number(y) + " m", dash));
+        }
+    }
+    if (lem.circle) {
+        const Vec2 centre = canvas.panel.at(lem.circle->center);
+        canvas.svg << "<circle class=\"slip\" cx=\"" << px(centre.x()) << "\" cy=\""
+                   << px(centre.y()) << "\" r=\"" << px(lem.circle->radius * canvas.panel.scale())
+                   << "\"" << stroke(violet, 1.6, "stroke-dasharray=\"6 3\"") << "/>\n";
+        canvas.keys.push_back(line_key(violet, "LEM: given circle", " stroke-dasharray=\"6 3\""));
+    }
+    if (lem.non_circular && !lem.non_circular->given.empty()) {
+        draw_line(canvas, "slip", lem.non_circular->given, violet);
+        canvas.keys.push_back(line_key(violet, "LEM: given surface"));
+    }
+    if (!lem.floor.empty()) {
+        draw_line(canvas, "floor", across(canvas.panel, lem.floor, check::level_at), brown,
+                  " stroke-dasharray=\"8 3 2 3\"");
+        canvas.keys.push_back(
+            line_key(brown, "LEM: floor of all surfaces", " stroke-dasharray=\"8 3 2 3\""));
+    }
+    draw_loads(canvas, scene, lem.surcharge, "LEM");
+    for (const scene::LineLoad& each : lem.line_loads) {
+        const auto ground = ground_between(scene, each.x - 0.01, each.x + 0.01);
+        if (ground.empty()) continue;
+        const Vec2 at = canvas.panel.at(ground.front().front());
+        canvas.svg << shape("M" + px(at.x()) + " " + px(at.y() - 26) + "v24m-4 -6l4 6l4 -6",
+                            stroke(violet, 2, "class=\"load\""));
+        canvas.keys.push_back({shape("M12 0v11m-4 -5l4 5l4 -5", stroke(violet, 2)),
+                               "LEM: line load at x = " + short_number(each.x) + " m, " +
+                                   short_number(each.down / 1e3) + " kN/m down, " +
+                                   short_number(each.right / 1e3) + " kN/m right"});
+    }
+}
+
+}  // namespace breach::report

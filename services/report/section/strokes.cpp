@@ -1,0 +1,68 @@
+#include "services/report/section/strokes.hpp"
+
+#include <algorithm>
+
+#include "services/report/chart/axis.hpp"
+#include "services/report/chart/frame.hpp"
+
+namespace breach::report {
+
+std::string stroke(const std::string& colour, double width, const std::string& more) {
+    return " fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + short_number(width) +
+           "\" " + more;
+}
+
+std::string shape(const std::string& path, const std::string& look) {
+    return "<path d=\"" + path + "\"" + look + "/>\n";
+}
+
+/// A line on white, so that it is seen on every fill.
+void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
+               const std::string& dashes) {
+    const std::string path = path_of(canvas.panel, line);
+    canvas.svg << shape(path, stroke("#fff", 4, "stroke-opacity=\"0.7\""))
+               << shape(path, stroke(colour, 2, "class=\"" + name + "\"" + dashes));
+}
+
+Key line_key(const std::string& colour, const std::string& text, const std::string& dashes) {
+    return {shape("M0 6h24", stroke(colour, 2, dashes)), text};
+}
+
+std::string place(const Vec2& at) {
+    return "(" + short_number(at.x()) + ", " + short_number(at.y()) + ")";
+}
+
+/// The line over the whole panel, as it goes on beyond its ends.
+Line across(const Panel& panel, const Line& line, check::Level level) {
+    const scene::Box world = panel.world();
+    Line whole{{world.low.x(), level(line, world.low.x())}};
+    for (const Vec2& each : line)
+        if (each.x() > world.low.x() && each.x() < world.high.x()) whole.push_back(each);
+    whole.push_back({world.high.x(), level(line, world.high.x())});
+    return whole;
+}
+
+void draw_loads(Canvas& canvas, const scene::Scene& scene,
+                const std::vector<scene::Surcharge>& loads, const std::string& of) {
+    for (const scene::Surcharge& each : loads) {
+        for (const Line& ground : ground_between(scene, each.from, each.to)) {
+            const Vec2 a = canvas.panel.at(ground.front()), b = canvas.panel.at(ground.back());
+            const int arrows = std::max(2, static_cast<int>((b.x() - a.x()) / 14.0));
+            std::string path;
+            for (int i = 0; i <= arrows; ++i) {
+                const double x = a.x() + (b.x() - a.x()) * i / arrows;
+                const double y =
+                    canvas.panel.at({0.0, check::level_at(ground, canvas.panel.back({x, 0.0}).x())})
+                        .y();
+                path += "M" + px(x) + " " + px(y - 16) + "V" + px(y - 2) + "m-3 -4l3 4l3 -4";
+            }
+            canvas.svg << shape(path, stroke(violet, 1.2, "class=\"load\""));
+        }
+        canvas.keys.push_back(
+            {shape("M6 0v10m-3 -4l3 4l3 -4M16 0v10m-3 -4l3 4l3 -4", stroke(violet, 1.2)),
+             of + ": surcharge of " + short_number(each.pressure / 1e3) +
+                 " kPa, x = " + short_number(each.from) + " to " + short_number(each.to) + " m"});
+    }
+}
+
+}  // namespace breach::report

@@ -1,0 +1,35 @@
+// How lines and marks look that are drawn over a section. Private to the section's drawing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/check/section.hpp"
+#include "services/report/section/features.hpp"
+
+namespace breach::report {
+
+using Line = std::vector<Vec2>;
+
+constexpr const char* blue = "#0b5fa5";
+constexpr const char* violet = "#7a1fa2";
+constexpr const char* brown = "#5d4037";
+constexpr const char* green = "#00695c";
+constexpr const char* dark_red = "#b3261e";
+
+/// Attributes of an outline [px].
+std::string stroke(const std::string& colour, double width, const std::string& more = "");
+std::string shape(const std::string& path, const std::string& look);
+/// A line on white, so that it is seen on every fill.
+void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
+               const std::string& dashes = "");
+Key line_key(const std::string& colour, const std::string& text, const std::string& dashes = "");
+/// "(12, 4)"
+std::string place(const Vec2& at);
+/// The line over the whole panel, as it goes on beyond its ends.
+Line across(const Panel& panel, const Line& line, check::Level level);
+/// Arrows on the ground; `of` is the phase that they act in.
+void draw_loads(Canvas& canvas, const scene::Scene& scene,
+                const std::vector<scene::Surcharge>& loads, const std::string& of);
+
+}  // namespace breach::report
