@@ -1,11 +1,13 @@
-// breachline serve | supervise
+// breachline serve | check | supervise
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <functional>
 #include <iostream>
 
 #include "core/fault/fault.hpp"
 #include "core/version/version.hpp"
+#include "services/orchestrator/audit/check_command.hpp"
 #include "services/orchestrator/executors/supervisor.hpp"
 #include "services/orchestrator/serve_options.hpp"
 
@@ -14,11 +16,11 @@ using namespace breach::orchestrator;
 
 namespace {
 
-int guarded_serve(const ServeOptions& options) {
+int guarded(const std::function<int()>& work) {
     spdlog::set_default_logger(spdlog::stderr_color_mt("breachline"));
     spdlog::set_pattern("%H:%M:%S %n %l: %v");
     try {
-        return serve(options.settings());
+        return work();
     } catch (const breach::fault::BadInput& error) {
         std::cerr << "breachline: " << error.what() << "\n";
         return static_cast<int>(ExitCode::usage);
@@ -37,6 +39,8 @@ int main(int argc, char** argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     ServeOptions options(std::filesystem::canonical("/proc/self/exe"));
     CLI::App* serving = options.add_to(app);
+    CheckOptions checks;
+    CLI::App* checking = checks.add_to(app);
     CLI::App* supervising = app.add_subcommand("supervise", "run one attempt (started by serve)");
     std::filesystem::path attempt;
     supervising->add_option("folder", attempt, "the attempt's folder")->required();
@@ -46,7 +50,8 @@ int main(int argc, char** argv) {
     supervising->add_flag("--end-strays", ending, "the supervisor was killed: end what it left");
     CLI11_PARSE(app, argc, argv);
 
-    if (*serving) return guarded_serve(options);
+    if (*serving) return guarded([&] { return serve(options.settings()); });
+    if (*checking) return guarded([&] { return static_cast<int>(check(checks)); });
     if (ending) {
         end_strays(attempt);
         return 0;

@@ -6,9 +6,9 @@
 
 namespace breach::testing {
 
-/// Reads the event log and the tables of a service that has stopped; every violation is a failure
-/// of the running test: a move that the lifecycle does not allow, two live attempts of one task, a
-/// success told twice, a state that is not the last event's, an artifact whose hash is not its own.
+/// `breachline check` of a service that has stopped, its outputs read whole; every finding is a failure of the running
+/// test: a move that the lifecycle does not allow, two live attempts of one task, a success told twice, a state that is
+/// not the last event's, counts that are not those of the tasks, an artifact whose hash is not its own, a stray folder.
 void expect_sound_history(const Sandbox& sandbox);
 
 }  // namespace breach::testing

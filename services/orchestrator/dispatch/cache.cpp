@@ -7,6 +7,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
+#include "services/orchestrator/files/damage.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/sync_folder.hpp"
 
@@ -56,7 +57,7 @@ void Cache::look_up(const Task& task) {
             exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
     std::optional<std::string> refusal;
     for (const Task& earlier : store_.answers_to(*task.recipe, input_sha256, most_candidates)) {
-        const auto damage = damage_of(earlier);
+        const auto damage = damage_to(earlier);
         if (damage) {
             if (store_.task(earlier.id)) refusal = damage;  // else its run was removed meanwhile
             continue;
@@ -96,15 +97,10 @@ bool Cache::take(const Task& earlier, const Task& task) const {
     return taken;
 }
 
-std::optional<std::string> Cache::damage_of(const Task& earlier) const {
+std::optional<std::string> Cache::damage_to(const Task& earlier) const {
     for (const Artifact& each : store_.artifacts_of(earlier.id)) {
-        const fs::path file = data_.output(earlier) / each.name;
-        std::error_code error;
-        const auto size = fs::file_size(file, error);
-        if (error) return each.name + " of task " + earlier.id + " is missing";
-        if (static_cast<std::int64_t>(size) != each.bytes ||
-            exchange::sha256_of_file(file) != each.sha256)
-            return each.name + " of task " + earlier.id + " is not what was stored";
+        const auto damage = damage_of(data_.output(earlier) / each.name, each.bytes, each.sha256);
+        if (damage) return each.name + " of task " + earlier.id + " " + *damage;
     }
     return std::nullopt;
 }

@@ -32,7 +32,7 @@ class Cache {
     void serve(const Task& task);
     void look_up(const Task& task);
     /// Why the outputs of `earlier` cannot be used; nothing when they can.
-    std::optional<std::string> damage_of(const Task& earlier) const;
+    std::optional<std::string> damage_to(const Task& earlier) const;
     /// False: `earlier` or the task is not what it was any more; nothing of it is left.
     bool take(const Task& earlier, const Task& task) const;
     void place_outputs(const Task& earlier, const Task& task) const;

@@ -20,52 +20,53 @@ std::filesystem::path made(const std::filesystem::path& root) {
     return std::filesystem::canonical(root);
 }
 
-FileLock owned(const std::filesystem::path& root) {
+FileLock owned(const DataPaths& data) {
     // A service that was killed while it started a supervisor leaves the lock to it for a moment.
     constexpr auto pause = std::chrono::milliseconds(50);
     for (int i = 0; i < 20; ++i) {
-        auto lock = FileLock::try_take(root / "instance.lock");
+        auto lock = FileLock::try_take(data.instance_lock());
         if (lock) return std::move(*lock);
         std::this_thread::sleep_for(pause);
     }
     throw fault::IoError(
-        root.string() +
+        data.root().string() +
         ": another breachline service is running on this data folder; stop it first, or "
         "choose another folder with --data");
 }
 
 }  // namespace
 
-DataFolder::DataFolder(const std::filesystem::path& root) : root_(made(root)), lock_(owned(root_)) {
+DataFolder::DataFolder(const std::filesystem::path& root)
+    : DataPaths(made(root)), lock_(owned(*this)) {
     // What a service that was killed had under way for a moment.
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(scratch(), error))
         std::filesystem::remove_all(entry.path(), error);
 }
 
-std::filesystem::path DataFolder::run(const std::string& run) const {
+std::filesystem::path DataPaths::run(const std::string& run) const {
     if (run.empty()) throw std::logic_error("a run without an id has no folder");
     return root_ / "runs" / run;
 }
 
-std::filesystem::path DataFolder::scene(const std::string& run) const {
+std::filesystem::path DataPaths::scene(const std::string& run) const {
     return root_ / "runs" / run / "scene.json";
 }
 
-std::filesystem::path DataFolder::task(const Task& task) const {
+std::filesystem::path DataPaths::task(const Task& task) const {
     return root_ / "runs" / task.run / task.label;
 }
 
-std::filesystem::path DataFolder::output(const Task& task) const {
-    return this->task(task) / "output";
+std::filesystem::path DataPaths::output(const std::string& run, const std::string& label) const {
+    return this->run(run) / label / "output";
 }
 
-std::filesystem::path DataFolder::input(const Task& task, const Task& parent) const {
+std::filesystem::path DataPaths::input(const Task& task, const Task& parent) const {
     assert(task.parent == parent.id && !task.input.empty());
     return output(parent) / task.input;
 }
 
-AttemptFolder DataFolder::attempt(const Task& task, std::int64_t number) const {
+AttemptFolder DataPaths::attempt(const Task& task, std::int64_t number) const {
     return {this->task(task) / "attempts" / std::to_string(number)};
 }
 

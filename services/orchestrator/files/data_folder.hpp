@@ -35,11 +35,10 @@ struct AttemptFolder {
     std::filesystem::path fence() const { return root.parent_path() / "fence"; }
 };
 
-class DataFolder {
+/// The names alone; nothing is made and nothing is locked.
+class DataPaths {
   public:
-    /// Makes the folder and takes its lock. Throws IoError, naming the folder, when another service
-    /// has it.
-    explicit DataFolder(const std::filesystem::path& root);
+    explicit DataPaths(std::filesystem::path root) : root_(std::move(root)) {}
 
     std::filesystem::path database() const { return root_ / "breachline.sqlite"; }
     std::filesystem::path runs() const { return root_ / "runs"; }
@@ -50,15 +49,26 @@ class DataFolder {
     std::filesystem::path run(const std::string& run) const;
     std::filesystem::path scene(const std::string& run) const;
     std::filesystem::path reused(const Task& task) const { return this->task(task) / "reused"; }
-    std::filesystem::path output(const Task& task) const;
+    std::filesystem::path output(const Task& task) const { return output(task.run, task.label); }
+    std::filesystem::path output(const std::string& run, const std::string& label) const;
     /// The file that a task reads, in its parent's output folder; the task reads one.
     std::filesystem::path input(const Task& task, const Task& parent) const;
     AttemptFolder attempt(const Task& task, std::int64_t number) const;
     std::filesystem::path scratch() const { return root_ / "scratch"; }
+    std::filesystem::path instance_lock() const { return root_ / "instance.lock"; }
 
   private:
     std::filesystem::path task(const Task& task) const;
     std::filesystem::path root_;
+};
+
+class DataFolder : public DataPaths {
+  public:
+    /// Makes the folder and takes its lock. Throws IoError, naming the folder, when another service
+    /// has it.
+    explicit DataFolder(const std::filesystem::path& root);
+
+  private:
     FileLock lock_;
 };
 

@@ -35,9 +35,13 @@ void let_it_shrink(Connection& database, const std::filesystem::path& file) {
 
 }  // namespace
 
+std::int64_t version_of(Connection& database) { return number_in(database, "user_version"); }
+
+std::int64_t newest_version() { return static_cast<std::int64_t>(versions.size()); }
+
 void migrate(Connection& database, const std::filesystem::path& file) {
-    const std::int64_t version = number_in(database, "user_version");
-    const auto newest = static_cast<std::int64_t>(versions.size());
+    const std::int64_t version = version_of(database);
+    const std::int64_t newest = newest_version();
     if (version == newest && views_are_current(database)) {
         let_it_shrink(database, file);
         return;

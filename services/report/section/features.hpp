@@ -3,30 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <sstream>
+#include <string>
 
 #include "core/scene/scene.hpp"
-#include "services/report/section/sheet.hpp"
+#include "services/report/section/canvas.hpp"
 
 namespace breach::report {
-
-/// A line of the legend: a picture 24 px wide and 12 high, and what it means.
-struct Key {
-    std::string symbol;
-    std::string text;
-};
-
-/// A panel being drawn on.
-struct Canvas {
-    Panel panel;
-    Labels labels;
-    std::vector<Key> keys = {};
-    std::ostringstream svg = {};   ///< cut off at the panel
-    std::ostringstream over = {};  ///< marks and writing above it
-};
-
-/// The ground's line over [from, to], piece by piece where soil lies [m].
-std::vector<std::vector<Vec2>> ground_between(const scene::Scene& scene, double from, double to);
 
 /// Phreatic and piezometric lines of all phases, each line once; standing water; held pore pressures.
 void draw_water(Canvas& canvas, const scene::Scene& scene);

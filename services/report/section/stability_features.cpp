@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "services/report/chart/axis.hpp"
+#include "services/report/section/features.hpp"
+#include "services/report/section/ground_line.hpp"
 #include "services/report/section/strokes.hpp"
 
 namespace breach::report {

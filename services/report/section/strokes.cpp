@@ -4,6 +4,7 @@
 
 #include "services/report/chart/axis.hpp"
 #include "services/report/chart/frame.hpp"
+#include "services/report/section/ground_line.hpp"
 
 namespace breach::report {
 

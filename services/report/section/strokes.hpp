@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "core/check/section.hpp"
-#include "services/report/section/features.hpp"
+#include "core/scene/scene.hpp"
+#include "services/report/section/canvas.hpp"
 
 namespace breach::report {
 

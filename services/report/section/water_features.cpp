@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "services/report/chart/axis.hpp"
+#include "services/report/section/features.hpp"
+#include "services/report/section/ground_line.hpp"
 #include "services/report/section/strokes.hpp"
 
 namespace breach::report {

@@ -1,0 +1,222 @@
+#include "services/orchestrator/audit/audit.hpp"
+
+#include <chrono>
+#include <functional>
+#include <set>
+
+#include "core/fault/fault.hpp"
+#include "services/orchestrator/audit/history.hpp"
+#include "services/orchestrator/store/migrations.hpp"
+
+namespace breach::orchestrator {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto young = std::chrono::minutes(1);
+
+const std::string from_backup =
+    "restore it from a backup of the data folder; until then no equal question is answered with it";
+
+class Auditor {
+  public:
+    Auditor(const DataPaths& data, Look look, bool in_service)
+        : data_(data), look_(look), database_(data.database(), Access::read_only) {
+        database_.script("BEGIN");  // one state, whatever a service does meanwhile
+        audit_.in_service = in_service;
+        audit_.version = version_of(database_);
+    }
+
+    Audit audit() && {
+        look_at_database();
+        if (audit_.version != newest_version()) return std::move(audit_);
+        look_at_history();
+        look_at_counts();
+        look_at_outputs();
+        look_at_files();
+        look_for_strays();
+        return std::move(audit_);
+    }
+
+  private:
+    void find(Finding finding) { audit_.findings.push_back(std::move(finding)); }
+
+    std::int64_t count(const std::string& table) {
+        std::int64_t rows = 0;
+        database_.query("SELECT count(*) FROM " + table, {},
+                        [&](const Row& row) { rows = row.integer(0); });
+        return rows;
+    }
+
+    void look_at_database() {
+        const std::string file = data_.database().string();
+        const std::int64_t newest = newest_version();
+        if (audit_.version > newest)
+            find({"database", file,
+                  "is of version " + std::to_string(audit_.version) + ", this program knows " +
+                      std::to_string(newest),
+                  "check it with the program that made it"});
+        if (audit_.version < newest)
+            find({"database", file,
+                  "is of version " + std::to_string(audit_.version) + ", this program's is " +
+                      std::to_string(newest),
+                  "start the service once: it keeps a copy and brings it up to date"});
+        database_.query("PRAGMA integrity_check(20)", {}, [&](const Row& row) {
+            if (row.text(0) != "ok")
+                find(
+                    {"database", file, row.text(0),
+                     "restore a backup (breachline-restore); SQLite's .recover saves what it can"});
+        });
+        database_.query("PRAGMA foreign_key_check", {}, [&](const Row& row) {
+            find({"database", row.text(0) + " row " + std::to_string(row.integer(1)),
+                  "names a row of " + row.text(2) + " that is not there",
+                  "restore a backup (breachline-restore)"});
+        });
+        for (const auto& [table, counted] : {std::pair{"runs", &audit_.runs},
+                                             {"tasks", &audit_.tasks},
+                                             {"events", &audit_.events}})
+            if (audit_.version > 0) *counted = count(table);
+    }
+
+    void look_at_history() {
+        History history;
+        database_.query(
+            "SELECT seq, time, run, task, kind, detail FROM events ORDER BY seq", {},
+            [&](const Row& row) {
+                history.take({row.integer(0), row.text(1), row.text(2), row.optional_text(3),
+                              row.text(4), nlohmann::json::parse(row.text(5), nullptr, false)});
+            });
+        const std::string remedy = "report it with the database: a program wrote what it must not";
+        for (const std::string& each : history.violations())
+            find({"history", "events", each, remedy});
+        database_.query("SELECT id, state FROM tasks", {}, [&](const Row& row) {
+            const auto told = history.state_of(row.text(0));
+            if (told && name_of(*told) != row.text(1))
+                find({"history", "task " + row.text(0),
+                      "is " + row.text(1) + ", its last event says " + std::string(name_of(*told)),
+                      remedy});
+        });
+    }
+
+    void look_at_counts() {
+        database_.query(
+            "SELECT run FROM (SELECT run, count(*) AS total, count(finished) AS ended, "
+            "sum(state IN ('succeeded', 'cached')) AS reached, sum(state='cancelled') AS cancelled "
+            "FROM tasks GROUP BY run) AS now JOIN run_counts AS kept USING (run) WHERE "
+            "(now.total, now.ended, now.reached, now.cancelled) <> "
+            "(kept.total, kept.ended, kept.reached, kept.cancelled)",
+            {}, [&](const Row& row) {
+                find({"counts", "run " + row.text(0), "its counts are not those of its tasks",
+                      "--repair counts them anew", true});
+            });
+    }
+
+    void look_at_outputs() {
+        database_.query(
+            "SELECT tasks.run, tasks.label, artifacts.name, artifacts.bytes, artifacts.sha256 FROM "
+            "artifacts JOIN tasks ON tasks.id=artifacts.task WHERE tasks.finished IS NOT NULL",
+            {}, [&](const Row& row) {
+                ++audit_.outputs;
+                const fs::path file = data_.output(row.text(0), row.text(1)) / row.text(2);
+                if (const auto damage = damage_of(file, row.integer(3), row.text(4), look_))
+                    find({"output", file.string(), *damage, from_backup});
+            });
+        database_.query(
+            "SELECT id, state FROM tasks WHERE state IN ('succeeded', 'cached') AND NOT EXISTS "
+            "(SELECT 1 FROM artifacts WHERE task=tasks.id)",
+            {}, [&](const Row& row) {
+                find({"output", "task " + row.text(0), "is " + row.text(1) + " without any output",
+                      "report it with the database: a program wrote what it must not"});
+            });
+    }
+
+    void look_at_files() {
+        database_.query("SELECT file, bytes, sha256, name FROM files", {}, [&](const Row& row) {
+            ++audit_.files;
+            known_files_.insert(row.text(0));
+            const fs::path file = data_.files() / row.text(0);
+            if (const auto damage = damage_of(file, row.integer(1), row.text(2), look_))
+                find({"file", file.string(), *damage,
+                      "send " + row.text(3) + " again (breach files FILE)"});
+        });
+    }
+
+    bool is_young(const fs::path& path) const {
+        std::error_code error;
+        const auto changed = fs::last_write_time(path, error);
+        return error || fs::file_time_type::clock::now() - changed < young;
+    }
+
+    void stray(const fs::path& path, const std::string& cause) {
+        if (audit_.in_service && is_young(path)) return;
+        find({"stray", path.string(), cause,
+              "--repair moves it to " + (data_.root() / "strays").string(), true});
+    }
+
+    static void each_in(const fs::path& folder, const std::function<void(const fs::path&)>& visit) {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(folder, error)) visit(entry.path());
+    }
+
+    void look_for_strays() {
+        std::set<std::string> leaving;
+        std::map<std::string, std::set<std::string>> labels;
+        database_.query("SELECT run FROM removals", {},
+                        [&](const Row& row) { leaving.insert(row.text(0)); });
+        database_.query("SELECT id FROM runs", {}, [&](const Row& row) { labels[row.text(0)]; });
+        database_.query("SELECT run, label FROM tasks", {},
+                        [&](const Row& row) { labels[row.text(0)].insert(row.text(1)); });
+        each_in(data_.runs(), [&](const fs::path& folder) {
+            const std::string run = folder.filename();
+            if (leaving.contains(run)) return;
+            if (!labels.contains(run)) return stray(folder, "belongs to no run");
+            each_in(folder, [&](const fs::path& inside) {
+                if (fs::is_directory(inside) && inside.filename() != "files" &&
+                    !labels.at(run).contains(inside.filename()))
+                    stray(inside, "belongs to no task of its run");
+            });
+        });
+        each_in(data_.files(), [&](const fs::path& file) {
+            if (!known_files_.contains(file.filename())) stray(file, "was sent by nobody");
+        });
+    }
+
+    const DataPaths& data_;
+    Look look_;
+    Connection database_;
+    std::set<std::string> known_files_;
+    Audit audit_;
+};
+
+}  // namespace
+
+Audit audited(const DataPaths& data, Look look) {
+    if (!fs::exists(data.database()))
+        throw fault::BadInput("command line",
+                              {{"--data", data.root().string() + " holds no breachline.sqlite",
+                                "give the folder that the service was started with"}});
+    return Auditor(data, look, is_held(data.instance_lock())).audit();
+}
+
+Audit audited(const DataFolder& data, Look look) { return Auditor(data, look, false).audit(); }
+
+void mend(const DataFolder& data, const std::vector<Finding>& findings) {
+    const fs::path strays = data.root() / "strays";
+    for (const Finding& each : findings) {
+        if (each.part != "stray") continue;
+        const fs::path to = strays / fs::relative(each.where, data.root());
+        fs::create_directories(to.parent_path());
+        fs::rename(each.where, to);
+    }
+    Connection database(data.database(), Access::read_write);
+    database.change(
+        "UPDATE run_counts SET (total, ended, reached, failed, cancelled, runouts) = (SELECT "
+        "count(*), count(finished), sum(state IN ('succeeded', 'cached')), "
+        "sum(state IN ('failed', 'skipped') AND NOT not_reached), sum(state='cancelled'), "
+        "sum(phase='mpm_solver' AND state IN ('succeeded', 'cached')) FROM tasks WHERE "
+        "tasks.run=run_counts.run) WHERE EXISTS (SELECT 1 FROM tasks WHERE "
+        "tasks.run=run_counts.run)");
+}
+
+}  // namespace breach::orchestrator

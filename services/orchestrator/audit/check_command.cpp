@@ -1,0 +1,79 @@
+#include "services/orchestrator/audit/check_command.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "services/orchestrator/audit/audit.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+void print(const Audit& audit, Look look) {
+    for (const Finding& each : audit.findings)
+        std::cout << each.part << ": " << each.where << ": " << each.cause << "\n    "
+                  << each.remedy << "\n";
+    std::cout << "database of version " << audit.version << ", " << audit.runs << " runs, "
+              << audit.tasks << " tasks, " << audit.events << " events; " << audit.outputs
+              << " outputs and " << audit.files << " sent files "
+              << (look == Look::at_contents ? "read whole" : "looked at by their sizes") << ": "
+              << (audit.findings.empty() ? "sound"
+                                         : std::to_string(audit.findings.size()) + " findings")
+              << "\n";
+    if (audit.in_service)
+        std::cout
+            << "a service works on this folder: what is younger than a minute was passed over\n";
+}
+
+void print_json(const Audit& audit) {
+    nlohmann::json findings = nlohmann::json::array();
+    for (const Finding& each : audit.findings)
+        findings.push_back({{"part", each.part},
+                            {"where", each.where},
+                            {"cause", each.cause},
+                            {"remedy", each.remedy},
+                            {"mendable", each.mendable}});
+    std::cout << nlohmann::json{{"version", audit.version},       {"runs", audit.runs},
+                                {"tasks", audit.tasks},           {"events", audit.events},
+                                {"outputs", audit.outputs},       {"files", audit.files},
+                                {"in_service", audit.in_service}, {"findings", findings}}
+                     .dump()
+              << "\n";
+}
+
+}  // namespace
+
+CLI::App* CheckOptions::add_to(CLI::App& program) {
+    CLI::App* checking = program.add_subcommand(
+        "check", "whether database, history and files of a data folder say the same");
+    checking->add_option("--data", data, "the service's data folder")->required();
+    checking->add_flag(
+        "--repair", repair,
+        "move what no run knows to strays/ in the data folder, count tasks anew; the "
+        "service must not run");
+    checking->add_flag("--sizes", sizes, "look at the sizes of files only, not at their contents");
+    checking->add_flag("--json", json, "one JSON object instead of lines");
+    checking->footer(
+        "\nExample:\n  breachline check --data var/breachline\n\nExit code 0: sound; 65: not.");
+    return checking;
+}
+
+fault::ExitCode check(const CheckOptions& options) {
+    const Look look = options.sizes ? Look::at_sizes : Look::at_contents;
+    const DataPaths paths(options.data);
+    Audit audit = audited(paths, look);
+    if (options.repair && std::ranges::any_of(audit.findings, &Finding::mendable)) {
+        const DataFolder owned(options.data);
+        mend(owned, audited(owned, Look::at_sizes).findings);
+        audit = audited(owned, look);
+    }
+    if (options.json) {
+        print_json(audit);
+    } else {
+        print(audit, look);
+    }
+    return audit.findings.empty() ? fault::ExitCode::done : fault::ExitCode::bad_input;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,35 @@
+// The event log, read again from its beginning: every move must be one that the lifecycle allows, and
+// must begin where the one before it ended.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/orchestrator/records/lifecycle.hpp"
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+class History {
+  public:
+    /// In the order of their numbers.
+    void take(const Event& event);
+
+    /// Where the log says that the task is; none: it has not moved.
+    std::optional<TaskState> state_of(const std::string& task) const;
+    /// What was not as it must be, a sentence each.
+    const std::vector<std::string>& violations() const { return violations_; }
+
+  private:
+    void take_task_move(const Event& event);
+    void take_attempt_move(const Event& event);
+    void complain(const Event& event, const std::string& what);
+
+    std::map<std::string, TaskState> tasks_;
+    std::map<std::string, int> successes_;  ///< ends with exit code 0, by task
+    std::map<std::string, std::map<std::int64_t, AttemptState>> attempts_;
+    std::vector<std::string> violations_;
+};
+
+}  // namespace breach::orchestrator

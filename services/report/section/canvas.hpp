@@ -1,0 +1,27 @@
+// A panel being drawn on, and its legend. Private to the section's drawing.
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "services/report/section/sheet.hpp"
+
+namespace breach::report {
+
+/// A line of the legend: a picture 24 px wide and 12 high, and what it means.
+struct Key {
+    std::string symbol;
+    std::string text;
+};
+
+/// A panel being drawn on.
+struct Canvas {
+    Panel panel;
+    Labels labels;
+    std::vector<Key> keys = {};
+    std::ostringstream svg = {};   ///< cut off at the panel
+    std::ostringstream over = {};  ///< marks and writing above it
+};
+
+}  // namespace breach::report
