@@ -150,11 +150,13 @@ void add_strength(const scene::Ground& ground, const scene::Material& material, 
     state.strength.tan_phi_residual.push_back(of.tan_phi_residual);
 }
 
-/// Some soil's points have strengths of their own.
-bool have_strengths(const scene::Scene& scene) {
-    return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
-        return materials::has_strength_of_points(scene.materials[region.material].law);
-    });
+/// What the points of each region become.
+std::vector<const scene::Material*> materials_of_regions(const scene::Scene& scene) {
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    std::vector<const scene::Material*> become;
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r)
+        become.push_back(&scene.materials[soils[r].material]);
+    return become;
 }
 
 }  // namespace
@@ -166,7 +168,10 @@ FilledSection fill_section(const scene::Scene& scene) {
                       mpm.floor.level + mpm.fill_shift[1] * square};
     FilledSection filled;
     filled.state.thickness = scene.thickness;
-    const bool strengths = have_strengths(scene);
+    const std::vector<const scene::Material*> become = materials_of_regions(scene);
+    const bool strengths = std::ranges::any_of(become, [](const scene::Material* each) {
+        return materials::has_strength_of_points(each->law);
+    });
     const scene::Ground ground(scene);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Region& region = scene.section.regions[r];
@@ -174,8 +179,7 @@ FilledSection fill_section(const scene::Scene& scene) {
         filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
         for (const auto& [place, patch] : sample(region.polygon, origin, square)) {
             add_point(scene, r, patch, filled.state);
-            if (strengths)
-                add_strength(ground, scene.materials[region.material], r, filled.state);
+            if (strengths) add_strength(ground, *become[r], r, filled.state);
         }
     }
     filled.regions = sampling_of(scene, filled.state);

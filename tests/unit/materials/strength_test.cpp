@@ -1,11 +1,10 @@
 // Strength profiles, and the published relations for liquefied soil at points that others give.
-#include "core/materials/strength/profile.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/materials/law.hpp"
+#include "core/materials/strength/profile.hpp"
 #include "core/mechanics/atmosphere.hpp"
 
 namespace breach::materials {
@@ -19,7 +18,7 @@ constexpr double p_a = mechanics::standard_atmosphere;
 // Sordo et al. (2024) took the residual strengths of Mochikoshi's tailings from Weber (2015); their
 // eight values are those of (N1)60cs = 6, printed to one decimal: within 0.14 kPa.
 TEST(ResidualStrength, OfWeberIsThatOfMochikoshisTailings) {
-    const double published[][2] = {{25, 3.0}, {50, 4.3},  {75, 5.6},   {100, 6.5},
+    const double published[][2] = {{25, 3.0},  {50, 4.3},  {75, 5.6},   {100, 6.5},
                                    {125, 7.4}, {175, 9.1}, {225, 10.6}, {250, 11.1}};
     for (const auto& [sigma_v0, s_r] : published)
         EXPECT_NEAR(residual_strength(weber_2015, 6.0, sigma_v0 * kPa), s_r * kPa, 0.145 * kPa);
@@ -44,8 +43,9 @@ TEST(ResidualStrength, OfOlsonAndStarkIsALineInTheSounding) {
               residual_strength(olson_stark_2002_spt, 12.0, 100 * kPa));
 }
 
-// The monograph's curves: both soundings meet where negligible redistribution doubles the ratio, at
-// (N1)60cs-Sr = 15.84 and q_c1Ncs-Sr = 109.0, near 0.134.
+// The monograph has one pair of curves over two axes: soundings with the same strength after
+// redistribution have the same without. Negligible redistribution doubles the ratio at (N1)60cs-Sr =
+// 15.84 and q_c1Ncs-Sr = 109.0.
 TEST(ResidualStrength, OfIdrissAndBoulangerIsOneCurveForBothSoundings) {
     const auto ratio = [](Relation relation, double sounding) {
         return residual_strength(relation, sounding, 100 * kPa) / (100 * kPa);
@@ -55,9 +55,18 @@ TEST(ResidualStrength, OfIdrissAndBoulangerIsOneCurveForBothSoundings) {
     EXPECT_NEAR(ratio(idriss_boulanger_2008_spt, 15.84), 2.0 * 0.134, 0.002);
     EXPECT_NEAR(ratio(idriss_boulanger_2008_cpt, 109.0), 2.0 * 0.134, 0.003);
     EXPECT_NEAR(ratio(idriss_boulanger_2008_spt, 0.0), 0.0324, 1e-4);
-    for (const double N : {2.0, 8.0, 14.0})
-        EXPECT_LT(ratio(idriss_boulanger_2008_spt_redistribution, N),
-                  ratio(idriss_boulanger_2008_spt, N));
+    for (double N = 4.0; N <= 15.5; N += 0.5) {
+        const double redistributed = ratio(idriss_boulanger_2008_spt_redistribution, N);
+        double low = 0.0, high = 110.0;
+        while (high - low > 1e-9) {
+            const double q = 0.5 * (low + high);
+            const bool below = ratio(idriss_boulanger_2008_cpt_redistribution, q) < redistributed;
+            (below ? low : high) = q;
+        }
+        const double undisturbed = ratio(idriss_boulanger_2008_spt, N);
+        EXPECT_NEAR(ratio(idriss_boulanger_2008_cpt, low), undisturbed, 0.02 * undisturbed) << N;
+        EXPECT_LT(redistributed, undisturbed);
+    }
 }
 
 TEST(ResidualStrength, OfEveryRelationGrowsWithSoundingAndStress) {
@@ -97,7 +106,8 @@ TEST(StrengthProfile, KindsAreWhatTheySay) {
 
 TEST(StrengthProfile, PointsSoftenFromPeakToResidualUnlessLiquefied) {
     const Place place{};
-    StrengthProfile profile{{Effective{4 * kPa, 0.6}}, StrengthCurve{Undrained{.constant = 1e3}}, {}};
+    StrengthProfile profile{
+        {Effective{4 * kPa, 0.6}}, StrengthCurve{Undrained{.constant = 1e3}}, {}};
     const PointStrength firm = strength_of_point(profile, place, Liquefaction::before);
     EXPECT_EQ(firm.c_residual, 4 * kPa) << "no strains: it does not soften";
     profile.softening = SofteningStrains{0.01, 0.1, SofteningDriver::plastic};

@@ -39,8 +39,7 @@ json slope(const json& material) {
                  {"polygon", {{0, 0}, {12, 0}, {12, 4}, {10, 4}, {5, 10}, {0, 10}, {0, 0}}}}}}}},
             {"lem",
              {{"circle", {{"center", {10, 12}}, {"radius", 9}}},
-              {"search",
-               {{"entry", {1, 4}}, {"exit", {10, 12}}}},
+              {"search", {{"entry", {1, 4}}, {"exit", {10, 12}}}},
               {"water", {{"line", {{0, 8}, {8, 5}, {12, 5}}}, {"correction", "cos2"}}},
               {"liquefaction", {{{"region", "strip 0"}}}}}},
             {"transfer", {{"liquefied", {{"regions", {"strip 0"}}}}}},
@@ -120,7 +119,8 @@ TEST(OneProfile, LiquefiedPointsComeWithTheirResidualStrengthAndKeepItInTheMPM) 
     json text = slope(soil(profile()));
     text["section"]["regions"][0]["polygon"] = {{0, 0}, {12, 0}, {12, 10}, {0, 10}, {0, 0}};
     const scene::Scene scene = parsed(text);
-    const auto snapshot = mesh([](const Vec2& x) { return x.x() < 5.5 && x.y() > 4.5 ? 1.0 : 0.0; });
+    const auto snapshot =
+        mesh([](const Vec2& x) { return x.x() < 5.5 && x.y() > 4.5 ? 1.0 : 0.0; });
     const auto t = transfer::meshes::transferred(snapshot, scene);
     const scene::Ground ground(scene);
     const mpm::ZonedPoints zoned = mpm::zoned_points(scene, t.state, "transferred");
@@ -172,7 +172,8 @@ TEST(OneProfile, ThatIsUniformMovesTheSoilAsTheLawsOwnEntriesDo) {
         text.erase("transfer");
         const scene::Scene scene = parsed(text);
         mpm::Body body = mpm::make_body(
-            scene, mpm::zoned_points(scene, mpm::fill_section(scene).state, "filled"), "filled", {});
+            scene, mpm::zoned_points(scene, mpm::fill_section(scene).state, "filled"), "filled",
+            {});
         for (int k = 0; k < 400; ++k) mpm::step(body, 1e-3);
         ends.push_back(body.points);
     }
@@ -187,12 +188,11 @@ TEST(OneProfile, ThatIsUniformMovesTheSoilAsTheLawsOwnEntriesDo) {
 
 /// Residual by depth: each point ends at its own.
 TEST(OneProfile, SoftensEveryPointToItsOwnResidualStrength) {
-    json text = slope(soil({{"peak", {{"type", "undrained"}, {"s_u_kPa", 20}}},
-                            {"residual",
-                             {{"type", "undrained_by_depth"},
-                              {"at_ground_kPa", 0.5},
-                              {"per_metre_kPa", 0.25}}},
-                            {"softening", {{"epsilon_q_start", 0}, {"epsilon_q_end", 0.02}}}}));
+    json text = slope(
+        soil({{"peak", {{"type", "undrained"}, {"s_u_kPa", 20}}},
+              {"residual",
+               {{"type", "undrained_by_depth"}, {"at_ground_kPa", 0.5}, {"per_metre_kPa", 0.25}}},
+              {"softening", {{"epsilon_q_start", 0}, {"epsilon_q_end", 0.02}}}}));
     text["mpm"]["anti_locking"] = "off";
     text["mpm"]["gap_closure"] = false;
     const scene::Scene scene = parsed(text);
@@ -206,8 +206,8 @@ TEST(OneProfile, SoftensEveryPointToItsOwnResidualStrength) {
     const scene::Ground ground(scene);
     for (std::size_t p = 0; p < body.points.size(); ++p) {
         const double depth = ground.at({body.points.x[p], body.points.y[p]}, 0).depth;
-        const double tau = std::hypot(body.points.sxy[p],
-                                      0.5 * (body.points.sxx[p] - body.points.syy[p]));
+        const double tau =
+            std::hypot(body.points.sxy[p], 0.5 * (body.points.sxx[p] - body.points.syy[p]));
         EXPECT_NEAR(tau, 500.0 + 250.0 * depth, 1e-6);
     }
 }
@@ -262,9 +262,8 @@ TEST(TwoStrengths, AreFoundWithoutAProfileToo) {
 TEST(Relations, OutsideTheirRangeAreToldWithIt) {
     json text = slope(soil(profile()));
     EXPECT_TRUE(warned(text, "outside_relation").empty());
-    text["materials"]["soil"]["strength"]["residual"] = {{"type", "relation"},
-                                                         {"relation", "olson_stark_2002_cpt"},
-                                                         {"points", {{0, 5}, {10, 9}}}};
+    text["materials"]["soil"]["strength"]["residual"] = {
+        {"type", "relation"}, {"relation", "olson_stark_2002_cpt"}, {"points", {{0, 5}, {10, 9}}}};
     const auto told = warned(text, "outside_relation");
     ASSERT_EQ(told.size(), 1u);
     EXPECT_NE(told[0].find("from 0 to 6.5"), std::string::npos) << told[0];
@@ -286,9 +285,9 @@ TEST(Profiles, AreRefusedWhereTheyCannotBeMeant) {
     EXPECT_EQ(with({{"peak", peak},
                     {"residual", {{"type", "relation"}, {"relation", "kramer_wang_2015"}}}}),
               "/materials/soil/strength/residual/relation");
-    EXPECT_EQ(with({{"peak", peak},
-                    {"residual", {{"type", "relation"}, {"relation", "weber_2015"}}}}),
-              "/materials/soil/strength/residual");
+    EXPECT_EQ(
+        with({{"peak", peak}, {"residual", {{"type", "relation"}, {"relation", "weber_2015"}}}}),
+        "/materials/soil/strength/residual");
     EXPECT_EQ(with({{"peak", {{"type", "undrained_table"}, {"points", {{4, 5}, {2, 6}}}}}}),
               "/materials/soil/strength/peak/points/1");
     EXPECT_EQ(with({{"peak", peak}, {"softening", {{"epsilon_q_start", 0}, {"epsilon_q_end", 1}}}}),
