@@ -119,8 +119,7 @@ double SliceMaker::by_profile(const Strip& strip, const Layer& layer, const Soil
     double u = soil.line ? strata_.pressures[strip.pressures + *soil.line].at(x, y) : 0.0;
     if (u == 0.0) u = soil.r_u * weight;
     weight += strata_.gamma_w * std::max(0.0, strip.water.at(x) - ground.at(x));
-    return soil.factor *
-           materials::strength_at(*soil.profile, {ground.at(x) - y, y, weight - u}).c;
+    return soil.factor * materials::strength_at(*soil.profile, {ground.at(x) - y, y, weight - u}).c;
 }
 
 /// The weight of water above ground, and its thrust on the slope, whose moment over R is returned.

@@ -126,10 +126,10 @@ materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& x
     if (!profile) return {};
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
     const Vec2 place = undeformed_corners(mesh_, element) * shape_functions(xi);
-    const bool liquefied = rule.liquefies && liquefied_->holds(place);
-    using enum materials::Liquefaction;
-    return materials::strength_of_point(*profile, ground_.at(place, rule.region),
-                                        liquefied ? materials::Liquefaction::liquefied : before);
+    const bool flows = rule.liquefies && liquefied_->holds(place);
+    return materials::strength_of_point(
+        *profile, ground_.at(place, rule.region),
+        flows ? materials::Liquefaction::liquefied : materials::Liquefaction::before);
 }
 
 namespace {

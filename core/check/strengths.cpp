@@ -59,10 +59,10 @@ View view_of(std::string pointer, const scene::UndrainedRegion& entry) {
                                                      place.elevation > (*entry.levels)[1]);
                 if (beside) return std::nullopt;
                 const scene::UndrainedStrength& s = entry.strength;
-                const double s_u = s.constant + s.coefficient *
-                                                    std::pow(std::max(place.sigma_v0, 0.0) /
-                                                                 mechanics::standard_atmosphere,
-                                                             s.exponent);
+                const double s_u =
+                    s.constant + s.coefficient * std::pow(std::max(place.sigma_v0, 0.0) /
+                                                              mechanics::standard_atmosphere,
+                                                          s.exponent);
                 return Shear{s_u, s_u, true};
             }};
 }
@@ -84,14 +84,14 @@ class Region {
         if (scene_.mpm)
             for (const scene::Material* each : points_) {
                 if (materials::has_strength_of_points(each->law))
-                    views.push_back(view_of("MPM", at_material(*each, "/strength/peak"),
-                                            each->strength->peak));
+                    views.push_back(
+                        view_of("MPM", at_material(*each, "/strength/peak"), each->strength->peak));
                 else
                     add_law("MPM", *each, views);
             }
         for (const scene::Material* each : profiles())
-            views.push_back(view_of("profile", at_material(*each, "/strength/peak"),
-                                    each->strength->peak));
+            views.push_back(
+                view_of("profile", at_material(*each, "/strength/peak"), each->strength->peak));
         return views;
     }
 
@@ -100,8 +100,8 @@ class Region {
         if (scene_.lem)
             for (std::size_t i = 0; i < scene_.lem->liquefaction.size(); ++i) {
                 const scene::UndrainedRegion& entry = scene_.lem->liquefaction[i];
-                const bool of_profile = entry.strength.is_of_profile() && own_.strength &&
-                                        own_.strength->residual;
+                const bool of_profile =
+                    entry.strength.is_of_profile() && own_.strength && own_.strength->residual;
                 if (entry.region == region_ && !of_profile)
                     views.push_back(view_of("/lem/liquefaction/" + std::to_string(i), entry));
             }
@@ -140,8 +140,7 @@ class Region {
 
     void add_law(const std::string& phase, const scene::Material& soil,
                  std::vector<View>& views) const {
-        if (!materials::traits(soil.law).c_and_phi ||
-            materials::has_strength_of_points(soil.law))
+        if (!materials::traits(soil.law).c_and_phi || materials::has_strength_of_points(soil.law))
             return;
         views.push_back(
             view_of(phase, at_material(soil, "/law"), *materials::limit_strength(soil.law)));
@@ -244,10 +243,10 @@ void compare(const std::vector<View>& views, const std::string& region, const st
             const auto means = means_of(views[i], views[j], places);
             if (!means || !differ(means->a, means->b)) continue;
             warn(findings, "strengths_differ", views[i].pointer,
-                 "\"" + region + "\" has two " + which + " strengths, averaged over it: " +
-                     kilopascals(means->a.high) + " here (" + views[i].phase + ") and " +
-                     kilopascals(means->b.high) + " by " + views[j].pointer + " (" +
-                     views[j].phase +
+                 "\"" + region + "\" has two " + which +
+                     " strengths, averaged over it: " + kilopascals(means->a.high) + " here (" +
+                     views[i].phase + ") and " + kilopascals(means->b.high) + " by " +
+                     views[j].pointer + " (" + views[j].phase +
                      "); write it once, in its material's \"strength\", and leave the others out");
             return;
         }
@@ -285,8 +284,8 @@ void check_fall(const scene::Material& soil, const std::vector<Place>& places, F
     if (residual <= peak * (1.0 + 1e-9)) return;
     const auto n = static_cast<double>(places.size());
     refuse(findings, at_material(soil, "/strength/residual"),
-           "is above the peak: " + kilopascals(residual / n) + " against " +
-               kilopascals(peak / n) + ", averaged over its soil",
+           "is above the peak: " + kilopascals(residual / n) + " against " + kilopascals(peak / n) +
+               ", averaged over its soil",
            "soil softens, it does not harden: lower the residual, or raise the peak");
 }
 

@@ -60,8 +60,8 @@ struct ParticleState {
     std::vector<double> gap;                ///< volume strain still to be closed after tension [-]
     std::vector<std::int32_t> region;
     std::vector<double> pore_pressure;  ///< u [Pa]; empty when there is no water
-    StrengthOfPoints strength;  ///< empty where no soil's material has a strength profile
-    std::vector<double> r_u;    ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
+    StrengthOfPoints strength;          ///< empty where no soil's material has a strength profile
+    std::vector<double> r_u;  ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
 
     /// On the FEM's clock; only what the transfer wrote has it, as velocities there are still those
     /// against far rock.

@@ -37,16 +37,16 @@ constexpr double density_of_water = 1000.0;  // kg/m3, where only a line is give
 
 Ground::Ground(const Scene& scene) {
     for (const Region& region : scene.section.regions)
-        layers_.push_back({region.polygon,
-                           scene.materials[region.material].density * scene.gravity,
-                           {}});
+        layers_.push_back(
+            {region.polygon, scene.materials[region.material].density * scene.gravity, {}});
     const auto fill = [&](const Line& line, const std::vector<std::size_t>& regions) {
         if (regions.empty())
             for (Layer& layer : layers_) layer.line = line;
         for (const std::size_t region : regions) layers_[region].line = line;
     };
-    const bool lem_knows = scene.lem && (scene.lem->water || !scene.lem->piezometric_lines.empty() ||
-                                         !scene.lem->pore_pressure_ratios.empty());
+    const bool lem_knows =
+        scene.lem && (scene.lem->water || !scene.lem->piezometric_lines.empty() ||
+                      !scene.lem->pore_pressure_ratios.empty());
     if (lem_knows) {
         const auto line_of = [&](const Water& water, bool stands_free) {
             return Line{water.line, water.density * scene.gravity, water.correction, stands_free};
@@ -89,8 +89,7 @@ materials::Place Ground::at(const Vec2& place, std::size_t region) const {
         const std::vector<double> heights = crossings(layer.polygon, place.x());
         for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {
             ground = std::max(ground, heights[k + 1]);
-            weight += layer.gamma *
-                      std::max(heights[k + 1] - std::max(heights[k], place.y()), 0.0);
+            weight += layer.gamma * std::max(heights[k + 1] - std::max(heights[k], place.y()), 0.0);
         }
     }
     if (!(ground > place.y())) return {0.0, place.y(), 0.0};  // on the ground, or beside it

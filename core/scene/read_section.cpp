@@ -79,8 +79,8 @@ using Profile = std::optional<materials::StrengthProfile>;
 /// A law that leaves its strength to the profile. Its own numbers are those of a place 10 m deep
 /// under 100 kPa: exact where the profile is the same everywhere.
 materials::MohrCoulomb mohr_coulomb_of(const materials::StrengthProfile& profile, const json& law) {
-    const materials::PointStrength strength = materials::strength_of_point(
-        profile, {10.0, 0.0, 1e5}, materials::Liquefaction::before);
+    const materials::PointStrength strength =
+        materials::strength_of_point(profile, {10.0, 0.0, 1e5}, materials::Liquefaction::before);
     materials::MohrCoulomb made{
         .elasticity = elasticity_from(law),
         .c = strength.c,
@@ -298,16 +298,16 @@ void read_materials(Reader& reader, Scene& scene) {
             permeability = range_from(material.at("permeability"));
         }
         const Profile profile = strength_from(reader, name);
-        scene.materials.push_back({.name = name,
-                                   .density = material.at("density"),
-                                   .law = law_from(reader, material.at("law"), profile,
-                                                   pointer + "/law"),
-                                   .viscosity = material.at("viscosity"),
-                                   .nonlocal_length = nonlocal_length,
-                                   .void_ratio = void_ratio,
-                                   .permeability = permeability,
-                                   .limit_strength = limit_strength_from(material),
-                                   .strength = profile});
+        scene.materials.push_back(
+            {.name = name,
+             .density = material.at("density"),
+             .law = law_from(reader, material.at("law"), profile, pointer + "/law"),
+             .viscosity = material.at("viscosity"),
+             .nonlocal_length = nonlocal_length,
+             .void_ratio = void_ratio,
+             .permeability = permeability,
+             .limit_strength = limit_strength_from(material),
+             .strength = profile});
     }
 }
 

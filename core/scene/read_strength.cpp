@@ -39,9 +39,10 @@ materials::Table table_from(Reader& reader, const json& kind, const std::string&
 materials::BySounding relation_from(Reader& reader, const json& kind, const std::string& pointer) {
     materials::BySounding result{word_at<materials::Relation>(kind, "relation"), {}};
     if (kind.contains("value") == kind.contains("points")) {
-        reader.add(pointer,
-                   kind.contains("value") ? "has a value and points" : "has no value of the sounding",
-                   "give value, or points over depth or elevation");
+        reader.add(
+            pointer,
+            kind.contains("value") ? "has a value and points" : "has no value of the sounding",
+            "give value, or points over depth or elevation");
         result.sounding.points = {{0.0, 0.0}};
         return result;
     }
@@ -68,8 +69,8 @@ StrengthCurve curve_from(Reader& reader, const json& kind, const std::string& po
         curve.kind = materials::Undrained{.constant = stress("at_ground_kPa"),
                                           .per_metre = stress("per_metre_kPa")};
     } else if (type == "undrained_ratio") {
-        curve.kind = materials::Undrained{
-            .coefficient = kind.at("ratio").get<double>() * mechanics::standard_atmosphere};
+        curve.kind = materials::Undrained{.coefficient = kind.at("ratio").get<double>() *
+                                                         mechanics::standard_atmosphere};
     } else if (type == "undrained_power") {
         curve.kind = materials::Undrained{.constant = stress("constant_kPa"),
                                           .coefficient = stress("coefficient_kPa"),
@@ -132,8 +133,7 @@ std::optional<StrengthProfile> strength_from(Reader& reader, const std::string& 
     if (strength.contains("residual"))
         profile.residual = curve_from(told, strength.at("residual"), pointer + "/residual");
     if (strength.contains("softening")) {
-        profile.softening =
-            strains_from(told, strength.at("softening"), pointer + "/softening");
+        profile.softening = strains_from(told, strength.at("softening"), pointer + "/softening");
         if (!profile.residual)
             told.add(pointer + "/softening", "has no residual strength to end at",
                      "give \"residual\", or leave softening out");

@@ -174,11 +174,11 @@ void refuse_without_strength(const scene::Scene& scene, const Points& points,
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (!have[points.region[p]]) continue;
         const scene::Soil soil = scene::soils_of(scene)[points.region[p]];
-        throw fault::BadInput(
-            file, {{"/VTKHDF/PointData/cohesion",
-                    "points of \"" + scene.materials[soil.material].name +
-                        "\" have no strengths, and its strength profile asks for them",
-                    "make the points with this scene: run the transfer again"}});
+        throw fault::BadInput(file,
+                              {{"/VTKHDF/PointData/cohesion",
+                                "points of \"" + scene.materials[soil.material].name +
+                                    "\" have no strengths, and its strength profile asks for them",
+                                "make the points with this scene: run the transfer again"}});
     }
 }
 

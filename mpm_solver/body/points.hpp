@@ -30,8 +30,8 @@ struct Points {
     std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
     std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
     std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
-    std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-];
-                                       ///< empty unless the body corrects it
+    std::vector<double> excess;  ///< overlap beyond what is tolerated; see OverlapMeter [-];
+                                 ///< empty unless the body corrects it
     /// Strengths before and after softening [Pa, -], of soils whose material has a profile, 0 of
     /// others; empty where there is none
     std::vector<double> c, tan_phi, c_residual, tan_phi_residual;

@@ -22,9 +22,7 @@ double weber(double N, double sigma_v0) {
 
 /// Idriss & Boulanger (2008), ratios to sigma'_v0 with significant void redistribution, and the
 /// factor where it is negligible.
-double ratio_by_spt(double N) {
-    return std::exp(N / 16.0 + std::pow((N - 16.0) / 21.2, 3) - 3.0);
-}
+double ratio_by_spt(double N) { return std::exp(N / 16.0 + std::pow((N - 16.0) / 21.2, 3) - 3.0); }
 double undisturbed_by_spt(double N) { return 1.0 + std::exp(N / 2.4 - 6.6); }
 double ratio_by_cpt(double q) {
     return std::exp(q / 24.5 - std::pow(q / 61.7, 2) + std::pow(q / 106.0, 3) - 4.42);
@@ -39,19 +37,34 @@ const RelationFacts& facts_of(Relation relation) {
     static constexpr const char* olson_stark =
         "Olson & Stark (2002), Can. Geotech. J. 39(3), 629-647";
     static constexpr RelationFacts all[] = {
-        {"Weber 2015", "(N1)60cs", {0.0, 16.0}, atmospheres_4,
+        {"Weber 2015",
+         "(N1)60cs",
+         {0.0, 16.0},
+         atmospheres_4,
          "Weber, Seed, Pestana, Moss et al. (2015), Engineering evaluation of post-liquefaction "
          "strength, UC Berkeley"},
         {"Olson & Stark 2002, SPT", "(N1)60", {0.0, 12.0}, atmospheres_4, olson_stark},
         {"Olson & Stark 2002, CPT", "q_c1 [MPa]", {0.0, 6.5}, atmospheres_4, olson_stark},
-        {"Idriss & Boulanger 2008, SPT", "(N1)60cs-Sr", {0.0, 16.0}, atmospheres_4,
+        {"Idriss & Boulanger 2008, SPT",
+         "(N1)60cs-Sr",
+         {0.0, 16.0},
+         atmospheres_4,
          idriss_boulanger},
-        {"Idriss & Boulanger 2008, SPT, void redistribution", "(N1)60cs-Sr", {0.0, 16.0},
-         atmospheres_4, idriss_boulanger},
-        {"Idriss & Boulanger 2008, CPT", "q_c1Ncs-Sr", {0.0, 110.0}, atmospheres_4,
+        {"Idriss & Boulanger 2008, SPT, void redistribution",
+         "(N1)60cs-Sr",
+         {0.0, 16.0},
+         atmospheres_4,
          idriss_boulanger},
-        {"Idriss & Boulanger 2008, CPT, void redistribution", "q_c1Ncs-Sr", {0.0, 110.0},
-         atmospheres_4, idriss_boulanger},
+        {"Idriss & Boulanger 2008, CPT",
+         "q_c1Ncs-Sr",
+         {0.0, 110.0},
+         atmospheres_4,
+         idriss_boulanger},
+        {"Idriss & Boulanger 2008, CPT, void redistribution",
+         "q_c1Ncs-Sr",
+         {0.0, 110.0},
+         atmospheres_4,
+         idriss_boulanger},
     };
     return all[static_cast<std::size_t>(relation)];
 }
