@@ -9,20 +9,6 @@ namespace breach::scene {
 
 namespace {
 
-/// Heights at which the border crosses the upright through x, ascending. Edges count at their left
-/// end only, so a vertex on the upright is met once, or not at all where the border turns back.
-std::vector<double> crossings(const Polygon& polygon, double x) {
-    std::vector<double> heights;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Vec2& from = polygon[k];
-        const Vec2& to = polygon[(k + 1) % polygon.size()];
-        if ((from.x() <= x) == (to.x() <= x)) continue;
-        heights.push_back(from.y() + (to.y() - from.y()) * (x - from.x()) / (to.x() - from.x()));
-    }
-    std::sort(heights.begin(), heights.end());
-    return heights;
-}
-
 double slope_at(const std::vector<Vec2>& line, double x) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         if (x < line[i].x() || x >= line[i + 1].x()) continue;
@@ -34,6 +20,18 @@ double slope_at(const std::vector<Vec2>& line, double x) {
 constexpr double density_of_water = 1000.0;  // kg/m3, where only a line is given
 
 }  // namespace
+
+std::vector<double> crossings(const Polygon& polygon, double x) {
+    std::vector<double> heights;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec2& from = polygon[k];
+        const Vec2& to = polygon[(k + 1) % polygon.size()];
+        if ((from.x() <= x) == (to.x() <= x)) continue;
+        heights.push_back(from.y() + (to.y() - from.y()) * (x - from.x()) / (to.x() - from.x()));
+    }
+    std::sort(heights.begin(), heights.end());
+    return heights;
+}
 
 Ground::Ground(const Scene& scene) {
     for (const Region& region : scene.section.regions)
