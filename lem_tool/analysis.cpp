@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -157,6 +158,7 @@ process::Plan plan(const scene::Scene& whole) {
     const Model model = make_model(scene);
     const scene::Lem& lem = scene::lem_of(scene);
     const auto use = [](bool on) { return on ? Use::on : Use::left_out; };
+    const auto profiles = std::ranges::count_if(whole.materials, scene::lem_takes_profile);
     const std::string strata = std::to_string(model.strata.strips.size()) + " strips with " +
                                std::to_string(model.strata.layers.size()) + " layer pieces";
     return {
@@ -190,6 +192,8 @@ process::Plan plan(const scene::Scene& whole) {
          "/lem/non_circular"},
         {"limit on m_alpha", use(lem.m_alpha.least > 0.0),
          "surfaces below " + spelt("%.3g", lem.m_alpha.least) + " do not count", "/lem/m_alpha"},
+        {"strength profiles", use(profiles > 0),
+         std::to_string(profiles) + " materials take theirs at each slice's base", "/materials"},
         {"undrained strength", use(!lem.undrained.empty()),
          std::to_string(lem.undrained.size()) + " regions fail undrained", "/lem/undrained"},
         {"seismic coefficient", use(lem.seismic_coefficient > 0.0),
@@ -200,7 +204,8 @@ process::Plan plan(const scene::Scene& whole) {
         {"line loads", use(!lem.line_loads.empty()),
          std::to_string(lem.line_loads.size()) + " forces on the ground", "/lem/line_loads"},
         {"liquefied layers", use(!lem.liquefaction.empty()),
-         std::to_string(lem.liquefaction.size()) + " layers, one search per stage",
+         std::to_string(lem.liquefaction.size()) +
+             " layers, one search per stage, below the phreatic line",
          "/lem/liquefaction"},
         {"sensitivity", use(lem.sensitivity.has_value()),
          lem.sensitivity ? "every strength parameter alone" : "not asked for", "/lem/sensitivity"},

@@ -6,7 +6,8 @@
 
 namespace breach::lem {
 
-/// Materials with a `limit_strength` have a Mohr-Coulomb law of that strength; regions that
+/// Materials with a `limit_strength`, or a strength profile in its place, have a Mohr-Coulomb law of
+/// that strength; regions that
 /// /lem/liquefaction divides by levels are cut there, and the entries of /lem name the parts.
 /// Throws BadInput when a layer's levels leave nothing of its region.
 scene::Scene limit_scene(const scene::Scene& scene);

@@ -11,6 +11,21 @@ Soil soil_of(const materials::Law& law) {
     return {.c = strength->c, .tan_phi = strength->tan_phi, .passage = Soil::Passage::open};
 }
 
+/// c and phi where they are the same everywhere, otherwise s_u by place.
+void give(const materials::StrengthCurve& curve, Soil& soil) {
+    soil.passage = Soil::Passage::open;
+    soil.coefficient = 0.0;
+    const auto [c, tan_phi] = materials::strength_at(curve, {});
+    soil.tan_phi = tan_phi;
+    if (materials::is_uniform(curve)) {
+        soil.c = c;
+        soil.profile.reset();
+    } else {
+        soil.c = 0.0;
+        soil.profile = std::make_shared<const materials::StrengthCurve>(curve);
+    }
+}
+
 /// phi = 0; the pore pressure still says what sigma'_v0 was.
 void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soils) {
     Soil& soil = soils[entry.region];
@@ -19,6 +34,7 @@ void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soil
     soil.passage = Soil::Passage::open;
     soil.coefficient = entry.strength.coefficient;
     soil.exponent = entry.strength.exponent;
+    soil.profile.reset();
 }
 
 /// Each region's phreatic line: its own, or /lem/water unless that is for other regions only.
@@ -43,7 +59,12 @@ Model make_model(const scene::Scene& scene) {
     const scene::Lem& lem = scene::lem_of(scene);
     Model model{make_strata(scene), {}, lem.slices, lem.seismic_coefficient, lem.m_alpha};
     for (const scene::Region& region : scene.section.regions) {
-        model.soils.push_back(soil_of(scene.materials[region.material].law));
+        const scene::Material& material = scene.materials[region.material];
+        model.soils.push_back(soil_of(material.law));
+        const auto& profile = material.strength;
+        if (materials::has_strength_of_points(material.law))
+            give(profile->peak, model.soils.back());
+        model.residual.push_back(profile ? profile->residual : std::nullopt);
     }
     assign_lines(lem, model.soils);
     for (const scene::PorePressureRatio& each : lem.pore_pressure_ratios) {
@@ -56,7 +77,20 @@ Model make_model(const scene::Scene& scene) {
 std::vector<Soil> liquefied(const Model& model, const std::vector<scene::UndrainedRegion>& layers,
                             std::size_t count) {
     std::vector<Soil> soils = model.soils;
-    for (std::size_t i = 0; i < count; ++i) make_undrained(layers[i], soils);
+    for (std::size_t i = 0; i < count; ++i) {
+        const scene::UndrainedRegion& layer = layers[i];
+        Soil& soil = soils[layer.region];
+        const auto sound = std::make_shared<const Soil>(model.soils[layer.region]);
+        const auto& residual = model.residual[layer.region];
+        if (residual && layer.strength.is_of_profile()) {
+            give(*residual, soil);
+            soil.factor = layer.strength.factor;
+            if (!soil.profile) soil.c *= soil.factor;
+        } else {
+            make_undrained(layer, soils);
+        }
+        soil.above_water = sound;
+    }
     return soils;
 }
 

@@ -19,10 +19,13 @@ struct Model {
     int slices;
     double k_h = 0.0;  ///< horizontal seismic coefficient [-]
     scene::MAlphaLimit m_alpha{};
+    /// By region: the residual strength of its material's profile, where it has one
+    std::vector<std::optional<materials::StrengthCurve>> residual{};
 };
 Model make_model(const scene::Scene& scene);
 
-/// The soils after the first `count` layers have liquefied: c = s_r, phi = 0.
+/// The soils after the first `count` layers have liquefied, below their phreatic line: c = s_r, phi =
+/// 0. Above it they keep what they had.
 std::vector<Soil> liquefied(const Model& model, const std::vector<scene::UndrainedRegion>& layers,
                             std::size_t count);
 

@@ -96,6 +96,7 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     slices_.driving[i] += turned_sideways;
     slices_.c[i] = soil.c;
     if (soil.coefficient > 0.0) slices_.c[i] += undrained(strip, soil, i);
+    if (soil.profile) slices_.c[i] = by_profile(strip, layer, soil, middle, i);
     slices_.tan_phi[i] = soil.tan_phi;
     const double flat = slices_.length[i] * slices_.cos_a[i];
     slices_.force[i] =
@@ -107,6 +108,18 @@ double SliceMaker::undrained(const Strip& strip, const Soil& soil, std::size_t i
     const double dx = slices_.width[i];
     const double sigma_v0 = slices_.weight[i] / dx - strip.surcharge - slices_.u[i];
     return soil.coefficient * std::pow(std::max(0.0, sigma_v0) / p_a, soil.exponent);
+}
+
+/// s_u of the profile at the middle of the base's chord; the place is that of scene::Ground.
+double SliceMaker::by_profile(const Strip& strip, const Layer& layer, const Soil& soil, double x,
+                              std::size_t i) const {
+    const double y = slices_.base[i];
+    const Line& ground = strata_.ground(strip);
+    double weight = layer.weight_above.at(x) + layer.gamma * (layer.top.at(x) - y);
+    double u = soil.line ? strata_.pressures[strip.pressures + *soil.line].at(x, y) : 0.0;
+    if (u == 0.0) u = soil.r_u * weight;
+    weight += strata_.gamma_w * std::max(0.0, strip.water.at(x) - ground.at(x));
+    return soil.factor * materials::strength_at(*soil.profile, {ground.at(x) - y, y, weight - u}).c;
 }
 
 /// The weight of water above ground, and its thrust on the slope, whose moment over R is returned.

@@ -40,7 +40,7 @@ class SliceMaker {
         // a straight base may coincide with a boundary: the soil on it counts
         const double above = level(middle) + (kind == Base::straight ? tolerance_ : 0.0);
         const Layer& layer = layer_at(strip, middle, above);
-        const Soil& soil = soils_[layer.region];
+        const Soil& soil = in_force(strip, soils_[layer.region], middle, above);
         if (soil.passage == Soil::Passage::closed) return Cut::closed_region;
         const int parts =
             std::max(1, static_cast<int>(std::ceil((to - from) / target_width_ - 1e-6)));
@@ -64,9 +64,18 @@ class SliceMaker {
         return strata_.layers[k];
     }
 
+    /// Only what lies below its phreatic line liquefies; soil that no line fills has none to lie
+    /// above.
+    const Soil& in_force(const Strip& strip, const Soil& soil, double x, double y) const {
+        if (!soil.above_water || !soil.line) return soil;
+        const PorePressure& water = strata_.pressures[strip.pressures + *soil.line];
+        return water.at(x, y) > 0.0 ? soil : *soil.above_water;
+    }
     void add_slice(const Strip& strip, const Layer& layer, const Soil& soil, Base kind,
                    const Chord& ends);
     double undrained(const Strip& strip, const Soil& soil, std::size_t i) const;
+    double by_profile(const Strip& strip, const Layer& layer, const Soil& soil, double x,
+                      std::size_t i) const;
     double add_free_water(const Strip& strip, std::size_t i, const Chord& ends);
 
     const Strata& strata_;

@@ -21,6 +21,7 @@ constexpr double steepest_friction = 89.0 * M_PI / 180.0;
 void scale(scene::UndrainedStrength& strength, double factor) {
     strength.constant *= factor;
     strength.coefficient *= factor;
+    strength.factor *= factor;
 }
 
 /// Changes one parameter of the scene by a factor.
@@ -28,6 +29,7 @@ void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double facto
     switch (parameter) {
         case Parameter::cohesion:
             *materials::strength_entries(scene.materials[of].law).c *= factor;
+            if (scene.materials[of].strength) scene.materials[of].strength->peak.factor *= factor;
             break;
         case Parameter::friction_angle: {
             double& phi = *materials::strength_entries(scene.materials[of].law).phi;

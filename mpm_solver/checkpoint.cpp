@@ -137,6 +137,7 @@ Points load_points(const Archive& archive, const std::string& file) {
     if (const auto excess = archive.reals.find("excess"); excess != archive.reals.end()) {
         points.excess = excess->second;
     }
+    if (archive.reals.contains("c")) points.c.resize(1);
     for_each_real(points, [&](const char* name, std::vector<double>& values) {
         values = archive.reals.at(name);
     });
@@ -206,6 +207,7 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
     try {
         ZonedPoints points{load_points(archive, file.string()), {}};
         refuse_if_ragged(points.points, scene::soils_of(scene).size(), file.string());
+        refuse_without_strength(scene, points.points, file.string());
         refuse_if_homeless(points.points, archive.reals.at("run.strayed").at(0),
                            make_grid(scene::mpm_of(scene)), file.string());
         points.zones = zones_of(scene, points.points);

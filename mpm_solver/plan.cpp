@@ -15,7 +15,9 @@ using words::text_of;
 
 void plan_softening(const scene::Scene& scene, const scene::Material& material, Plan& plan) {
     const std::string& name = material.name;
-    const std::string pointer = "/materials/" + name + "/law/softening";
+    const bool of_points = materials::has_strength_of_points(material.law);
+    const std::string pointer =
+        "/materials/" + name + (of_points ? "/strength/softening" : "/law/softening");
     if (!materials::softening(material.law)) {
         plan.push_back({"softening of " + name, Use::left_out,
                         "the law has none: its strength is constant", pointer});
@@ -54,6 +56,10 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
         plan.push_back(decided.averages.line);
         plan.push_back({"law of " + material.name, Use::on,
                         law.opens ? name + " with tension cut-off" : name, pointer});
+        if (materials::has_strength_of_points(material.law))
+            plan.push_back({"strength of " + material.name + " by point", Use::on,
+                            "each point has its own from the material's profile",
+                            "/materials/" + material.name + "/strength"});
         if (law.yields) plan_softening(scene, material, plan);
     }
     plan.push_back({"dispatch of laws", scene.materials.size() > 1 ? Use::on : Use::left_out,

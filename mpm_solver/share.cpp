@@ -30,6 +30,10 @@ PointArrays arrays_of(Body& body) {
             .excess = p.excess.empty() ? nullptr : p.excess.data(),
             .drift_x = body.drift_x.empty() ? nullptr : body.drift_x.data(),
             .drift_y = body.drift_y.empty() ? nullptr : body.drift_y.data(),
+            .c = p.c.empty() ? nullptr : p.c.data(),
+            .tan_phi = p.c.empty() ? nullptr : p.tan_phi.data(),
+            .c_residual = p.c.empty() ? nullptr : p.c_residual.data(),
+            .tan_phi_residual = p.c.empty() ? nullptr : p.tan_phi_residual.data(),
             .cell = p.cell.data()};
 }
 

@@ -7,6 +7,28 @@ namespace {
 
 constexpr double round_off = 1e-9;  // of the stress itself
 
+/// The law of one point, with the point's own strength where it has one.
+class LawOfPoint {
+  public:
+    LawOfPoint(std::span<const materials::Law> laws, const exchange::ParticleState& state)
+        : laws_(laws), state_(state) {}
+
+    /// Valid until the next call.
+    const materials::Law& operator()(std::size_t p) {
+        const materials::Law& law = laws_[state_.region[p]];
+        if (!materials::has_strength_of_points(law)) return law;
+        const exchange::StrengthOfPoints& s = state_.strength;
+        own_ = materials::with_strength(
+            law, {s.c[p], s.tan_phi[p], s.c_residual[p], s.tan_phi_residual[p]});
+        return own_;
+    }
+
+  private:
+    std::span<const materials::Law> laws_;
+    const exchange::ParticleState& state_;
+    materials::Law own_{};
+};
+
 }  // namespace
 
 std::vector<materials::Law> laws_of(std::span<const SoilOfPoints> soils) {
@@ -48,8 +70,9 @@ std::vector<SofteningShare> softening_of(std::span<const materials::Law> laws,
 YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
                                     exchange::ParticleState& state) {
     YieldReport report;
+    LawOfPoint law_of(laws, state);
     for (std::size_t p = 0; p < state.size(); ++p) {
-        const materials::Law& law = laws[state.region[p]];
+        const materials::Law& law = law_of(p);
         const materials::State old{state.stress[p], state.epsilon_q_plastic[p]};
         const double excess = materials::yield_excess(law, old);
         if (excess <= 0.0) continue;

@@ -69,6 +69,10 @@ PlanLine cells_line(const scene::Transfer& settings) {
 PlanLine liquefied_line(const scene::Transfer& settings) {
     if (!settings.liquefied)
         return {"liquefied layers", Use::left_out, "the scene names none", "/transfer/liquefied"};
+    if (settings.liquefied->layers.empty())
+        return {"liquefied layers", Use::on,
+                "each point above the deepest liquefied node at its own residual strength",
+                "/transfer/liquefied"};
     char reason[128];
     std::snprintf(reason, sizeof reason, "%zu layers above the deepest node with r_u > %g",
                   settings.liquefied->layers.size(), settings.liquefied->r_u);

@@ -55,7 +55,7 @@ StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wa
 }
 
 SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std::string& file)
-    : mesh_(mesh) {
+    : mesh_(mesh), ground_(scene) {
     const scene::Transfer& settings = scene::transfer_of(scene);
     std::vector<fault::Fault> faults;
     const std::vector<std::size_t> match = match_regions(mesh, scene, faults);
@@ -66,7 +66,9 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     for (const scene::Soil& soil : soils) {
         const scene::Material& material = scene.materials[soil.material];
         soils_.push_back({scene.section.regions[soil.region].name, material.name, material.law,
-                          measure_for(material.law, settings.stress)});
+                          measure_for(material.law, settings.stress), std::nullopt});
+        if (materials::has_strength_of_points(material.law))
+            soils_.back().strength = material.strength;
     }
     for (const std::size_t region : match) {
         if (const materials::Law& law = soils_[region].law; !materials::is_for_particles(law))
@@ -83,7 +85,7 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
         layer_ends_.push_back(layer.to);
     std::vector<char> can_liquefy;
-    for (const RegionRule& rule : rules_) can_liquefy.push_back(rule.layers.empty() ? 0 : 1);
+    for (const RegionRule& rule : rules_) can_liquefy.push_back(rule.liquefies ? 1 : 0);
     liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u);
 }
 
@@ -94,10 +96,12 @@ void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>
         return static_cast<std::int32_t>(std::ranges::find(soils, scene::Soil{region, material}) -
                                          soils.begin());
     };
-    RegionRule rule{static_cast<std::int32_t>(region), std::nullopt, {}};
+    RegionRule rule{static_cast<std::int32_t>(region), std::nullopt, {}, false, region};
     for (const scene::SoilMapping& each : settings.mapping)
         if (each.region == region && each.saturated) rule.saturated = index(*each.saturated);
-    if (settings.liquefied && std::ranges::count(settings.liquefied->regions, region) > 0)
+    rule.liquefies =
+        settings.liquefied && std::ranges::count(settings.liquefied->regions, region) > 0;
+    if (rule.liquefies)
         for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
             rule.layers.push_back(index(layer.material));
     rules_.push_back(std::move(rule));
@@ -117,6 +121,38 @@ std::int32_t SoilMap::at(std::size_t element, const Vec2& xi) const {
     return rule.soil;
 }
 
+materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& xi) const {
+    const auto& profile = soils_[at(element, xi)].strength;
+    if (!profile) return {};
+    const RegionRule& rule = rules_[mesh_.region_of_element[element]];
+    const Vec2 place = undeformed_corners(mesh_, element) * shape_functions(xi);
+    const bool flows = rule.liquefies && liquefied_->holds(place);
+    return materials::strength_of_point(
+        *profile, ground_.at(place, rule.region),
+        flows ? materials::Liquefaction::liquefied : materials::Liquefaction::before);
+}
+
+namespace {
+
+void assign_strengths(const SoilMap& map, Points& points) {
+    const auto has_profile = [](const SoilOfPoints& soil) { return soil.strength.has_value(); };
+    if (std::ranges::none_of(map.soils(), has_profile)) return;
+    exchange::StrengthOfPoints& s = points.state.strength;
+    for (auto* values : {&s.c, &s.tan_phi, &s.c_residual, &s.tan_phi_residual})
+        values->resize(points.state.size());
+    for (std::size_t e = 0; e + 1 < points.first.size(); ++e) {
+        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
+            const materials::PointStrength of = map.strength_at(e, points.xi[p]);
+            s.c[p] = of.c;
+            s.tan_phi[p] = of.tan_phi;
+            s.c_residual[p] = of.c_residual;
+            s.tan_phi_residual[p] = of.tan_phi_residual;
+        }
+    }
+}
+
+}  // namespace
+
 void assign_soils(const SoilMap& map, Points& points) {
     exchange::ParticleState& s = points.state;
     s.regions.clear();
@@ -129,6 +165,7 @@ void assign_soils(const SoilMap& map, Points& points) {
     for (std::size_t e = 0; e + 1 < points.first.size(); ++e)
         for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
             s.region[p] = map.at(e, points.xi[p]);
+    assign_strengths(map, points);
 }
 
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,

@@ -7,6 +7,7 @@
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"
 #include "core/geometry/polyline.hpp"
+#include "core/scene/ground.hpp"
 #include "core/scene/scene.hpp"
 #include "transfer_tool/liquefied_zone.hpp"
 #include "transfer_tool/points.hpp"
@@ -21,6 +22,8 @@ struct SoilOfPoints {
     std::string material;
     materials::Law law;
     exchange::StressMeasure stress;
+    /// Where its points have strengths of their own
+    std::optional<materials::StrengthProfile> strength{};
 };
 
 class SoilMap {
@@ -35,6 +38,9 @@ class SoilMap {
     /// Index into soils() at natural coordinates xi of an element. Columns and the phreatic line
     /// are those of the undeformed mesh: soil takes its past along.
     std::int32_t at(std::size_t element, const Vec2& xi) const;
+    /// Of such a point: by its soil's profile and where it lay in the undeformed section; zero
+    /// where the soil has none. A liquefied one has its residual strength.
+    materials::PointStrength strength_at(std::size_t element, const Vec2& xi) const;
     /// Nothing when the scene names no liquefied layers.
     const std::optional<LiquefiedZone>& liquefied() const { return liquefied_; }
 
@@ -42,7 +48,9 @@ class SoilMap {
     struct RegionRule {
         std::int32_t soil;                      ///< of what is neither saturated nor liquefied
         std::optional<std::int32_t> saturated;  ///< below the phreatic line
-        std::vector<std::int32_t> layers;       ///< empty: does not liquefy
+        std::vector<std::int32_t> layers;       ///< of liquefied soil; empty: it keeps its own
+        bool liquefies = false;
+        std::size_t region = 0;  ///< of the section
     };
     void add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
                   std::size_t region);
@@ -53,6 +61,7 @@ class SoilMap {
     std::vector<Vec2> phreatic_line_;
     std::vector<double> layer_ends_;  ///< [Pa]
     std::optional<LiquefiedZone> liquefied_;
+    scene::Ground ground_;
 };
 
 /// What the points of such a soil get. Only a law with friction can tell an effective stress from a

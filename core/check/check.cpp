@@ -19,6 +19,7 @@ Findings findings_of(const scene::Scene& scene) {
         check_motion(scene, findings);
     }
     check_soils(scene, findings);
+    check_strengths(scene, findings);
     if (scene.transfer) check_transfer(scene, findings);
     if (scene.mpm) check_ground(scene, findings);
     return findings;

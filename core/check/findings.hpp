@@ -32,6 +32,8 @@ void check_supports(const scene::Scene& scene, Findings& findings);
 void check_water(const scene::Scene& scene, Findings& findings);
 /// /fem/motion: the file and what is in it.
 void check_motion(const scene::Scene& scene, Findings& findings);
+/// Strengths of one soil that differ between phases, and relations outside their range.
+void check_strengths(const scene::Scene& scene, Findings& findings);
 /// Laws that points can have, for the transfer and the MPM.
 void check_soils(const scene::Scene& scene, Findings& findings);
 /// /transfer: what it needs of the FEM, and its window.

@@ -177,8 +177,8 @@ void check_strength(const scene::Scene& scene, Findings& findings) {
     for (const scene::UndrainedRegion& each : lem.undrained) open.insert(each.region);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Material* material = material_of(scene, scene.section.regions[r]);
-        if (material == nullptr || material->limit_strength || open.contains(r) ||
-            materials::limit_strength(material->law))
+        if (material == nullptr || material->limit_strength || material->strength ||
+            open.contains(r) || materials::limit_strength(material->law))
             return;
     }
     refuse(findings, "/lem", "finds no soil that can fail: no region has a strength",

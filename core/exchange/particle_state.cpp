@@ -26,7 +26,11 @@ void check_sizes(const ParticleState& s) {
         s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
         (s.stress_of_regions.empty() || s.stress_of_regions.size() == s.regions.size()) &&
         (s.pore_pressure.empty() || s.pore_pressure.size() == n) &&
-        (s.r_u.empty() || s.r_u.size() == n);
+        (s.r_u.empty() || s.r_u.size() == n) &&
+        (s.strength.c.empty() || s.strength.c.size() == n) &&
+        s.strength.tan_phi.size() == s.strength.c.size() &&
+        s.strength.c_residual.size() == s.strength.c.size() &&
+        s.strength.tan_phi_residual.size() == s.strength.c.size();
     if (!agree) throw std::logic_error("particle state: arrays of different lengths");
 }
 
@@ -60,6 +64,11 @@ const Field fields_of_points[] = {
     {"gap", 0, "1", [](const ParticleState& s) { return s.gap; }},
     {"pore_pressure", 0, "Pa", [](const ParticleState& s) { return s.pore_pressure; }},
     {"r_u", 0, "1", [](const ParticleState& s) { return s.r_u; }},
+    {"cohesion", 0, "Pa", [](const ParticleState& s) { return s.strength.c; }},
+    {"tan_phi", 0, "1", [](const ParticleState& s) { return s.strength.tan_phi; }},
+    {"cohesion_residual", 0, "Pa", [](const ParticleState& s) { return s.strength.c_residual; }},
+    {"tan_phi_residual", 0, "1",
+     [](const ParticleState& s) { return s.strength.tan_phi_residual; }},
 };
 
 /// Real: double, or float for what is only looked at.
@@ -191,6 +200,11 @@ void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n, Wanted wan
     field("gap", all, s.gap, number);
     field("pore_pressure", false, s.pore_pressure, number);
     field("r_u", false, s.r_u, number);
+    const bool has_strength = reader.exists(at_points + "cohesion");
+    field("cohesion", false, s.strength.c, number);
+    field("tan_phi", has_strength, s.strength.tan_phi, number);
+    field("cohesion_residual", has_strength, s.strength.c_residual, number);
+    field("tan_phi_residual", has_strength, s.strength.tan_phi_residual, number);
 }
 
 ParticleState read_state(Hdf5Reader& reader, Wanted wanted) {

@@ -26,6 +26,14 @@ constexpr auto words_of(StressMeasure) {
     return words::in_order<StressMeasure>({{effective, "effective"}, {total, "total"}});
 }
 
+/// [n_particles] before and after softening; 0 for soils that have no profile.
+struct StrengthOfPoints {
+    std::vector<double> c;                 ///< [Pa]
+    std::vector<double> tan_phi;           ///< [-]
+    std::vector<double> c_residual;        ///< [Pa]
+    std::vector<double> tan_phi_residual;  ///< [-]
+};
+
 struct ParticleState {
     double time = 0.0;           ///< [s] on the MPM's clock; 0 at the transfer
     double transfer_time = 0.0;  ///< t_T [s] on the FEM's clock
@@ -52,6 +60,7 @@ struct ParticleState {
     std::vector<double> gap;                ///< volume strain still to be closed after tension [-]
     std::vector<std::int32_t> region;
     std::vector<double> pore_pressure;  ///< u [Pa]; empty when there is no water
+    StrengthOfPoints strength;          ///< empty where no soil's material has a strength profile
     std::vector<double> r_u;  ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
 
     /// On the FEM's clock; only what the transfer wrote has it, as velocities there are still those

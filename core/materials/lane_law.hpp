@@ -22,6 +22,15 @@ struct StressOf {
 /// Which strain accumulates and weakens the soil.
 enum class Softens { never, with_plastic_strain, with_total_strain };
 
+/// Whose strength a law takes: its own, or that of each point.
+enum class StrengthOf { law, point };
+
+/// Strength of a point before and after softening.
+template <class Real>
+struct StrengthOfPoint {
+    Real c, tan_phi, c_residual, tan_phi_residual;
+};
+
 /// What a law answers to a trial stress.
 template <class Real>
 struct UpdateOf {

@@ -25,6 +25,11 @@ std::string types_of_laws_that(bool (*does)(const Law&)) {
     return list;
 }
 
+Law with_strength(Law law, const StrengthOfPoint<double>& strength) {
+    if (!has_strength_of_points(law)) return law;
+    return with_strength(std::get<MohrCoulomb>(law), strength);
+}
+
 Law scaled(Law law, double stiffness, double softening_strains) {
     std::visit([&](auto& each) { each.elasticity.E *= stiffness; }, law);
     if (Softening* softens = softening(law)) {

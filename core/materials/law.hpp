@@ -130,6 +130,14 @@ inline LawMemory memory_for(const Law& law, std::size_t points) {
     return std::visit(made, law);
 }
 
+/// Its points have strengths of their own.
+inline bool has_strength_of_points(const Law& law) {
+    const auto* mohr_coulomb = std::get_if<MohrCoulomb>(&law);
+    return mohr_coulomb != nullptr && mohr_coulomb->strength_of == StrengthOf::point;
+}
+/// Such a law with the strength of one of its points; any other as it is.
+Law with_strength(Law law, const StrengthOfPoint<double>& strength);
+
 /// E and, where given, the strains of softening multiplied.
 Law scaled(Law law, double stiffness, double softening_strains);
 

@@ -13,6 +13,8 @@ struct LawList {};
 
 using LaneLaws = LawList<LinearElasticLanes, MohrCoulombLanes<Softens::never>,
                          MohrCoulombLanes<Softens::with_plastic_strain>,
-                         MohrCoulombLanes<Softens::with_total_strain>, DruckerPragerLanes>;
+                         MohrCoulombLanes<Softens::with_total_strain>,
+                         MohrCoulombOfPointsLanes<Softens::with_plastic_strain>,
+                         MohrCoulombOfPointsLanes<Softens::with_total_strain>, DruckerPragerLanes>;
 
 }  // namespace breach::materials

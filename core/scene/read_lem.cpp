@@ -186,7 +186,7 @@ std::optional<std::size_t> varied(Reader& reader, const Scene& scene, const Lem&
             index_of(reader, scene.materials, name, pointer, "give the name of one of /materials");
         if (!material || parameter == Parameter::density) return material;
         const Material& soil = scene.materials[*material];
-        if (soil.limit_strength || materials::traits(soil.law).c_and_phi) {
+        if (soil.limit_strength || soil.strength || materials::traits(soil.law).c_and_phi) {
             return material;
         }
         reader.add(pointer, "has no cohesion or friction",

@@ -74,8 +74,50 @@ CohesionAndFriction cohesion_and_friction_from(Reader& reader, const json& law,
     return {1e3 * law.at("c_kPa").get<double>(), phi, psi};
 }
 
-materials::MohrCoulomb mohr_coulomb_from(Reader& reader, const json& law,
+using Profile = std::optional<materials::StrengthProfile>;
+
+/// A law that leaves its strength to the profile. Its own numbers are those of a place 10 m deep
+/// under 100 kPa: exact where the profile is the same everywhere.
+materials::MohrCoulomb mohr_coulomb_of(const materials::StrengthProfile& profile, const json& law) {
+    const materials::PointStrength strength =
+        materials::strength_of_point(profile, {10.0, 0.0, 1e5}, materials::Liquefaction::before);
+    materials::MohrCoulomb made{
+        .elasticity = elasticity_from(law),
+        .c = strength.c,
+        .phi = std::atan(strength.tan_phi),
+        .psi = radians(law.at("psi_deg")),
+        .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>(),
+        .softening = {},
+        .strength_of = materials::StrengthOf::point,
+    };
+    if (const auto* effective = std::get_if<materials::Effective>(&profile.peak.kind))
+        made.phi = effective->phi;
+    if (profile.softening) {
+        made.softening = materials::Softening{profile.softening->start, profile.softening->end,
+                                              strength.c_residual, strength.tan_phi_residual,
+                                              profile.softening->driver};
+    }
+    return made;
+}
+
+materials::MohrCoulomb mohr_coulomb_from(Reader& reader, const json& law, const Profile& profile,
                                          const std::string& pointer) {
+    const bool has_c = law.contains("c_kPa");
+    if (profile && !has_c && !law.contains("phi_deg")) {
+        if (law.contains("softening"))
+            reader.add(pointer + "/softening", "stands beside a strength profile",
+                       "give the strains in the material's strength/softening");
+        const materials::MohrCoulomb made = mohr_coulomb_of(*profile, law);
+        if (made.psi > made.phi)
+            reader.add(pointer + "/psi_deg", "is above the profile's peak friction angle",
+                       "such a soil would create energy; give less");
+        return made;
+    }
+    if (!has_c || !law.contains("phi_deg")) {
+        reader.add(pointer, std::string("lacks \"") + (has_c ? "phi_deg" : "c_kPa") + "\"",
+                   "give c_kPa and phi_deg, or neither of them and the material's \"strength\"");
+        return {};
+    }
     const auto [c, phi, psi] = cohesion_and_friction_from(reader, law, pointer);
     return {
         .elasticity = elasticity_from(law),
@@ -97,11 +139,12 @@ materials::DruckerPrager drucker_prager_from(Reader& reader, const json& law,
             .tension_cutoff = 1e3 * law.at("tension_cutoff_kPa").get<double>()};
 }
 
-materials::Law law_from(Reader& reader, const json& law, const std::string& pointer) {
+materials::Law law_from(Reader& reader, const json& law, const Profile& profile,
+                        const std::string& pointer) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_from(reader, law, pointer);
     if (type == "linear_elastic") return materials::LinearElastic{elasticity_from(law)};
-    if (type == "mohr_coulomb") return mohr_coulomb_from(reader, law, pointer);
+    if (type == "mohr_coulomb") return mohr_coulomb_from(reader, law, profile, pointer);
     if (type == "drucker_prager") return drucker_prager_from(reader, law, pointer);
     throw std::logic_error("the schema knows a law \"" + type + "\" that nothing reads");
 }
@@ -254,14 +297,17 @@ void read_materials(Reader& reader, Scene& scene) {
         if (material.contains("permeability")) {
             permeability = range_from(material.at("permeability"));
         }
-        scene.materials.push_back({.name = name,
-                                   .density = material.at("density"),
-                                   .law = law_from(reader, material.at("law"), pointer + "/law"),
-                                   .viscosity = material.at("viscosity"),
-                                   .nonlocal_length = nonlocal_length,
-                                   .void_ratio = void_ratio,
-                                   .permeability = permeability,
-                                   .limit_strength = limit_strength_from(material)});
+        const Profile profile = strength_from(reader, name);
+        scene.materials.push_back(
+            {.name = name,
+             .density = material.at("density"),
+             .law = law_from(reader, material.at("law"), profile, pointer + "/law"),
+             .viscosity = material.at("viscosity"),
+             .nonlocal_length = nonlocal_length,
+             .void_ratio = void_ratio,
+             .permeability = permeability,
+             .limit_strength = limit_strength_from(material),
+             .strength = profile});
     }
 }
 

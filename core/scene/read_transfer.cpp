@@ -125,6 +125,36 @@ std::optional<std::size_t> layer_material(Reader& reader, Scene& scene, const js
     return std::nullopt;
 }
 
+/// Without layers every soil that can liquefy needs a profile that says how strong it is then.
+void check_residuals(Reader& reader, const Scene& scene, const json& liquefied,
+                     const Transfer& transfer, const LiquefiedZone& zone) {
+    if (liquefied.contains("residual_strength")) {
+        reader.add("/transfer/liquefied/layers", "are missing, and residual_strength is for them",
+                   "give the layers, or leave residual_strength out");
+    }
+    for (std::size_t i = 0; i < zone.regions.size(); ++i) {
+        const std::size_t region = zone.regions[i];
+        std::vector<std::size_t> materials{scene.section.regions[region].material};
+        for (const SoilMapping& each : transfer.mapping) {
+            if (each.region != region) continue;
+            materials = {each.material};
+            if (each.saturated) materials.push_back(*each.saturated);
+        }
+        for (const std::size_t index : materials) {
+            if (index >= scene.materials.size()) continue;
+            const Material& soil = scene.materials[index];
+            if (soil.strength && soil.strength->residual &&
+                materials::has_strength_of_points(soil.law))
+                continue;
+            reader.add("/transfer/liquefied/regions/" + std::to_string(i),
+                       "becomes \"" + soil.name +
+                           "\", which has no residual strength, and no layers are given",
+                       "give /transfer/liquefied/layers, or that mohr_coulomb material a strength "
+                       "with a residual in place of its law's c_kPa and phi_deg");
+        }
+    }
+}
+
 void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer& result) {
     if (!transfer.contains("liquefied")) return;
     const json& liquefied = transfer.at("liquefied");
@@ -136,6 +166,7 @@ void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer
         if (region) zone.regions.push_back(*region);
     }
     const auto s_r = strength_function(reader, scene, liquefied);
+    if (liquefied.at("layers").empty()) check_residuals(reader, scene, liquefied, result, zone);
     double reached = 0.0;
     for (std::size_t i = 0; i < liquefied.at("layers").size(); ++i) {
         const json& layer = liquefied.at("layers")[i];

@@ -60,6 +60,9 @@ inline std::array<double, 2> range_from(const nlohmann::json& value) {
     return {value.at(0).get<double>(), value.at(1).get<double>()};
 }
 
+/// The strength profile of /materials/<name>; nothing where it has none, or a faulty one.
+std::optional<materials::StrengthProfile> strength_from(Reader& reader, const std::string& name);
+
 /// Materials and section. Each checks what the schema cannot say, and fills `scene` as far as it is
 /// sound.
 void read_materials(Reader& reader, Scene& scene);

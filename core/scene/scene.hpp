@@ -14,6 +14,7 @@
 #include "core/fault/flag.hpp"
 #include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
+#include "core/materials/strength/profile.hpp"
 #include "core/scene/polygon.hpp"
 
 namespace breach::scene {
@@ -37,7 +38,16 @@ struct Material {
     std::optional<double> void_ratio{};                   ///< fem with water [-]
     std::optional<std::array<double, 2>> permeability{};  ///< hydraulic conductivity, x, y [m/s]
     std::optional<LimitStrength> limit_strength{};        ///< lem: instead of the law's
+    /// For every phase that has no entry of its own for this soil
+    std::optional<materials::StrengthProfile> strength{};
 };
+
+/// An entry of a phase's own keeps that phase. lem: limit_strength, or a law with c_kPa and phi_deg.
+inline bool lem_takes_profile(const Material& material) {
+    const bool law_has_own = materials::traits(material.law).c_and_phi &&
+                             !materials::has_strength_of_points(material.law);
+    return material.strength && !material.limit_strength && !law_has_own;
+}
 
 /// How a region is meshed: a block mapped between four of its vertices, or unstructured quads.
 enum class RegionMesh { block, unstructured };
@@ -140,9 +150,13 @@ struct LineLoad {
 
 /// s = constant + coefficient (sigma'_v0 / p_a)^exponent, p_a = 101.325 kPa; phi = 0.
 struct UndrainedStrength {
-    double constant;     ///< [Pa]
-    double coefficient;  ///< [Pa]
-    double exponent;     ///< [-]
+    double constant;      ///< [Pa]
+    double coefficient;   ///< [Pa]
+    double exponent;      ///< [-]
+    double factor = 1.0;  ///< on the profile's where the entry takes that [-]
+
+    /// Gives nothing of its own: the residual strength of the material's profile, if it has one.
+    bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0; }
 };
 
 struct UndrainedRegion {
@@ -369,7 +383,8 @@ struct LiquefiedLayer {
 struct LiquefiedZone {
     std::vector<std::size_t> regions;  ///< whose soil can liquefy
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
-    /// From 0, without gaps; the last also holds what is beyond
+    /// From 0, without gaps; the last also holds what is beyond. Empty: soil keeps its material,
+    /// with the residual strength of that material's profile
     std::vector<LiquefiedLayer> layers;
 };
 

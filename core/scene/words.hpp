@@ -27,6 +27,24 @@ constexpr auto words_of(SofteningDriver) {
     return words::in_order<SofteningDriver>({{plastic, "plastic"}, {total, "total"}});
 }
 
+constexpr auto words_of(Along) {
+    using enum Along;
+    return words::in_order<Along>(
+        {{depth, "depth"}, {elevation, "elevation"}, {sigma_v0, "sigma_v0"}});
+}
+
+constexpr auto words_of(Relation) {
+    using enum Relation;
+    return words::in_order<Relation>(
+        {{weber_2015, "weber_2015"},
+         {olson_stark_2002_spt, "olson_stark_2002_spt"},
+         {olson_stark_2002_cpt, "olson_stark_2002_cpt"},
+         {idriss_boulanger_2008_spt, "idriss_boulanger_2008_spt"},
+         {idriss_boulanger_2008_spt_redistribution, "idriss_boulanger_2008_spt_redistribution"},
+         {idriss_boulanger_2008_cpt, "idriss_boulanger_2008_cpt"},
+         {idriss_boulanger_2008_cpt_redistribution, "idriss_boulanger_2008_cpt_redistribution"}});
+}
+
 }  // namespace breach::materials
 
 namespace breach::scene {

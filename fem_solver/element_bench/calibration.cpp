@@ -59,15 +59,23 @@ double& parameter(SandParameters& parameters, const std::string& name) {
 
 Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(problem)) {
     for (const CyclicTarget& target : problem_.cyclic) {
-        N_reference_.push_back(cycles(problem_.reference, target));
+        if (!target.N && !problem_.reference)
+            throw std::invalid_argument("a cyclic target has neither cycles nor a reference soil");
+        if (target.N)  // or a soil that is too strong would look like one that is right
+            problem_.most_cycles =
+                std::max(problem_.most_cycles, static_cast<int>(std::ceil(3.0 * *target.N)));
     }
-    // Slope of each confinement's reference curve, by least squares in the logarithms.
+    for (const CyclicTarget& target : problem_.cyclic)
+        N_wanted_.push_back(target.N ? *target.N : cycles(*problem_.reference, target));
+    // Slope of each confinement's wanted curve, by least squares in the logarithms.
     for (const CyclicTarget& target : problem_.cyclic) {
         double n = 0, x = 0, y = 0, xx = 0, xy = 0;
         for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
             const CyclicTarget& other = problem_.cyclic[k];
-            if (other.sigma_v != target.sigma_v || N_reference_[k] <= 0.0) continue;
-            const double ln_N = std::log(N_reference_[k]), ln_CSR = std::log(other.CSR);
+            const bool same_curve = other.sigma_v == target.sigma_v && other.K0 == target.K0 &&
+                                    other.N.has_value() == target.N.has_value();
+            if (!same_curve || N_wanted_[k] <= 0.0) continue;
+            const double ln_N = std::log(N_wanted_[k]), ln_CSR = std::log(other.CSR);
             n += 1, x += ln_N, y += ln_CSR, xx += ln_N * ln_N, xy += ln_N * ln_CSR;
         }
         const double spread = n * xx - x * x;
@@ -106,10 +114,10 @@ std::vector<Term> Calibration::cyclic_terms(const SandParameters& parameters) co
         const CyclicTarget& target = problem_.cyclic[k];
         const double N = cycles(parameters, target);
         // More cycles at the same stress ratio is more resistance: minus the slope.
-        const double deviation = -slope_[k] * std::log(N / N_reference_[k]);
+        const double deviation = -slope_[k] * std::log(N / N_wanted_[k]);
         terms.push_back({"N at " + kPa(target.sigma_v) + ", CSR " + two_digits(target.CSR),
-                         N_reference_[k], N, deviation,
-                         std::pow(deviation / problem_.cyclic_spread, 2)});
+                         N_wanted_[k], N, deviation,
+                         target.weight * std::pow(deviation / problem_.cyclic_spread, 2)});
     }
     return terms;
 }

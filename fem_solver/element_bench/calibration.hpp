@@ -1,8 +1,10 @@
 // Finds parameters of PM4Sand whose undrained strengths meet targets while their cyclic strength
-// stays that of a reference soil: the calibration of Sordo et al. made automatic. Deterministic.
+// stays that of a reference soil (the calibration of Sordo et al. made automatic) or meets measured
+// curves. Deterministic.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +22,15 @@ struct StrengthTarget {
     double s_u;     ///< wanted [Pa]
 };
 
-/// One point of a cyclic strength curve; wanted is what the reference soil needs.
+/// One point of a cyclic strength curve; wanted are the cycles that a laboratory counted, or those
+/// that the reference soil needs.
 struct CyclicTarget {
     double sigma_v;  ///< [Pa]
     double K0;
     double CSR;
-    double strain;  ///< single amplitude that counts as failure
+    double strain;              ///< single amplitude that counts as failure
+    std::optional<double> N{};  ///< measured
+    double weight = 1.0;        ///< of its share in the misfit
 };
 
 /// A parameter that may move; found by its name in SandParameters.
@@ -36,7 +41,7 @@ struct FreeParameter {
 
 struct CalibrationProblem {
     SandParameters start;
-    SandParameters reference;  ///< keeps the cyclic strength
+    std::optional<SandParameters> reference;  ///< of targets that were not measured
     std::vector<FreeParameter> free;
     std::vector<StrengthTarget> strength;
     std::vector<CyclicTarget> cyclic;
@@ -55,12 +60,12 @@ double& parameter(SandParameters& parameters, const std::string& name);
 
 /// One deviation: computed against wanted. For cyclic terms both are cycles to failure, and the
 /// deviation is that of the stress ratio at the same number of cycles, read off the slope of the
-/// reference soil's curve.
+/// wanted curve at this stress.
 struct Term {
     std::string name;
     double wanted, computed;
     double deviation;  ///< relative
-    double share;      ///< (deviation / spread)^2, its part of the misfit
+    double share;      ///< weight (deviation / spread)^2, its part of the misfit
 };
 
 struct Fit {
@@ -69,7 +74,8 @@ struct Fit {
     std::vector<Term> terms;
 };
 
-/// The problem with the reference soil's cycles and slopes computed.
+/// The problem with the wanted cycles and the slopes of their curves. Throws std::invalid_argument
+/// where a target has neither cycles nor a reference soil.
 class Calibration {
   public:
     explicit Calibration(CalibrationProblem problem);
@@ -85,7 +91,7 @@ class Calibration {
     double cycles(const SandParameters& parameters, const CyclicTarget& target) const;
 
     CalibrationProblem problem_;
-    std::vector<double> N_reference_;
+    std::vector<double> N_wanted_;
     std::vector<double> slope_;  ///< d ln CSR / d ln N, one per cyclic target
 };
 

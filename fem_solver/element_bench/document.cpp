@@ -1,6 +1,8 @@
 #include "fem_solver/element_bench/document.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -239,7 +241,7 @@ void check_tests(const json& document, std::vector<Fault>& faults) {
 
 CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
     CalibrationProblem problem{.start = start.parameters,
-                               .reference = sand_of(entry.at("reference")).parameters,
+                               .reference = {},
                                .free = {},
                                .strength = {},
                                .cyclic = {},
@@ -254,17 +256,109 @@ CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
         problem.strength.push_back({1e3 * each.at("sigma_v_kPa").get<double>(), each.at("K0"),
                                     each.at("strain"), 1e3 * each.at("s_u_kPa").get<double>()});
     }
+    for (const json& curve : entry.at("cyclic_strength")) {
+        for (const json& point : curve.at("points")) {
+            problem.cyclic.push_back({.sigma_v = 1e3 * curve.at("sigma_v_kPa").get<double>(),
+                                      .K0 = curve.at("K0"),
+                                      .CSR = point.at("CSR"),
+                                      .strain = curve.at("strain_limit"),
+                                      .N = point.at("N").get<double>(),
+                                      .weight = point.at("weight")});
+        }
+    }
+    if (!entry.contains("cyclic")) return problem;
+    problem.reference = sand_of(entry.at("reference")).parameters;
     const json& cyclic = entry.at("cyclic");
     for (const double sigma_v : scaled(cyclic.at("sigma_v_kPa"), 1e3)) {
         for (const double CSR : scaled(cyclic.at("CSR"), 1.0)) {
-            problem.cyclic.push_back({sigma_v, cyclic.at("K0"), CSR, cyclic.at("strain_limit")});
+            problem.cyclic.push_back(
+                {sigma_v, cyclic.at("K0"), CSR, cyclic.at("strain_limit"), {}, 1.0});
         }
     }
     return problem;
 }
 
+/// A laboratory's curve: CSR, N and, where given, weight per line, in SI's pure numbers; a line of
+/// names may come first, '#' begins a comment.
+json points_of_file(const std::filesystem::path& file, const std::string& pointer,
+                    std::vector<Fault>& faults) {
+    std::ifstream stream(file);
+    json points = json::array();
+    const auto fault = [&](int line, const std::string& what) {
+        faults.push_back({pointer, file.string() + ", line " + std::to_string(line) + " " + what,
+                          "write CSR,N or CSR,N,weight: 0.12,15"});
+    };
+    if (!stream) {
+        faults.push_back({pointer, "names " + file.string() + ", which cannot be read",
+                          "give a path from the document's folder, or an absolute one"});
+        return points;
+    }
+    std::string text;
+    for (int line = 1; std::getline(stream, text); ++line) {
+        text = text.substr(0, text.find('#'));
+        std::ranges::replace_if(
+            text, [](char c) { return c == ',' || c == ';' || c == '\t' || c == '\r'; }, ' ');
+        std::istringstream words(text);
+        std::vector<double> numbers;
+        bool sound = true;
+        for (std::string word; words >> word;) {
+            char* end = nullptr;
+            const double value = std::strtod(word.c_str(), &end);
+            sound = sound && *end == '\0' && std::isfinite(value);
+            numbers.push_back(value);
+        }
+        const bool names =
+            !sound && points.empty() && text.find_first_of("0123456789") == std::string::npos;
+        if (numbers.empty() || names) continue;
+        if (!sound || numbers.size() < 2 || numbers.size() > 3) {
+            fault(line, "is not two or three numbers");
+        } else if (numbers[0] <= 0.0 || numbers[0] > 2.0) {
+            fault(line, "has a CSR that is not in (0, 2]");
+        } else if (numbers[1] < 0.25 || numbers[1] > 10000.0) {
+            fault(line, "has an N that is not in [0.25, 10000]");
+        } else if (numbers.size() == 3 && numbers[2] < 0.0) {
+            fault(line, "has a negative weight");
+        } else {
+            points.push_back({{"CSR", numbers[0]},
+                              {"N", numbers[1]},
+                              {"weight", numbers.size() == 3 ? numbers[2] : 1.0}});
+        }
+    }
+    if (points.empty() && faults.empty())
+        faults.push_back({pointer, file.string() + " holds no points", "give at least one"});
+    return points;
+}
+
+/// From here on the document holds the points, wherever they came from.
+void take_in_curves(json& document, const std::filesystem::path& folder,
+                    std::vector<Fault>& faults) {
+    json& curves = document.at("calibration").at("cyclic_strength");
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        json& curve = curves[i];
+        const std::string pointer = "/calibration/cyclic_strength/" + std::to_string(i);
+        const bool from_file = curve.contains("file");
+        if (from_file == curve.contains("points"))
+            faults.push_back({pointer, from_file ? "has points and a file" : "has no points",
+                              "give \"points\", or \"file\" with lines CSR,N"});
+        if (!from_file || curve.contains("points")) continue;
+        std::filesystem::path file = curve.at("file").get<std::string>();
+        if (file.is_relative()) file = folder / file;
+        curve["points"] = points_of_file(file, pointer + "/file", faults);
+    }
+}
+
 void check_calibration(const json& document, std::vector<Fault>& faults) {
     if (!document.contains("calibration")) return;
+    const json& calibration = document.at("calibration");
+    if (calibration.contains("cyclic") != calibration.contains("reference"))
+        faults.push_back({"/calibration",
+                          calibration.contains("cyclic") ? "has cyclic and no reference soil"
+                                                         : "has a reference soil and no cyclic",
+                          "give both, or neither of them"});
+    if (!calibration.contains("cyclic") && calibration.at("strength").empty() &&
+        calibration.at("cyclic_strength").empty())
+        faults.push_back({"/calibration", "has no targets",
+                          "give strength, cyclic_strength, or cyclic with a reference"});
     if (document.at("law").at("type") != "pm4sand") {
         faults.push_back({"/calibration", "needs PM4Sand", "set /law/type to \"pm4sand\""});
     }
@@ -303,7 +397,10 @@ scene::Scene read_document(const std::filesystem::path& file,
     if (!faults.empty()) throw fault::BadInput(file.string(), faults);
     complete_sand(document.at("law"), "/law", faults);
     if (document.contains("calibration")) {
-        complete_sand(document.at("calibration").at("reference"), "/calibration/reference", faults);
+        json& calibration = document.at("calibration");
+        if (calibration.contains("reference"))
+            complete_sand(calibration.at("reference"), "/calibration/reference", faults);
+        take_in_curves(document, file.parent_path(), faults);
     }
     check_calibration(document, faults);
     check_tests(document, faults);

@@ -297,9 +297,11 @@ Outcome run_calibration(Session& session) {
                                        {"evaluations", result.evaluations},
                                        {"path", path},
                                        {"law", scene::sand_as_json(result.parameters)}};
+    spdlog::info("{:<26} {:>10} {:>10} {:>11} {:>10}", "target", "wanted", "computed", "deviation",
+                 "misfit");
     for (const Term& term : result.best.terms) {
-        spdlog::info("{}: wanted {:.4g}, computed {:.4g}, share of the misfit {:.4g}", term.name,
-                     term.wanted, term.computed, term.share);
+        spdlog::info("{:<26} {:>10.4g} {:>10.4g} {:>10.2f}% {:>10.4g}", term.name, term.wanted,
+                     term.computed, 100.0 * term.deviation, term.share);
     }
     spdlog::info("misfit {:.4g} after {} evaluations, {:.4g} at the start", result.best.misfit,
                  result.evaluations, result.first.misfit);
@@ -331,7 +333,7 @@ process::Phase element_test_phase() {
 
 process::Phase calibrate_phase() {
     return {.name = "fem_solver calibrate",
-            .purpose = "Parameters of PM4Sand from strengths and a reference soil",
+            .purpose = "Parameters of PM4Sand from strengths and cyclic strength curves",
             .inputs = {0, 0, "takes no input beside the document"},
             .plan = calibration_plan,
             .run = run_calibration,

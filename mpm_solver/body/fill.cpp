@@ -1,9 +1,11 @@
 #include "mpm_solver/body/fill.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "core/scene/ground.hpp"
 #include "mpm_solver/body/overburden.hpp"
 
 namespace breach::mpm {
@@ -134,6 +136,29 @@ void add_point(const scene::Scene& scene, std::size_t region, const Patch& patch
     state.region.push_back(static_cast<std::int32_t>(region));
 }
 
+/// Of the point that was added last.
+void add_strength(const scene::Ground& ground, const scene::Material& material, std::size_t region,
+                  exchange::ParticleState& state) {
+    materials::PointStrength of{};
+    if (materials::has_strength_of_points(material.law))
+        of = materials::strength_of_point(*material.strength,
+                                          ground.at(state.position.back(), region),
+                                          materials::Liquefaction::before);
+    state.strength.c.push_back(of.c);
+    state.strength.tan_phi.push_back(of.tan_phi);
+    state.strength.c_residual.push_back(of.c_residual);
+    state.strength.tan_phi_residual.push_back(of.tan_phi_residual);
+}
+
+/// What the points of each region become.
+std::vector<const scene::Material*> materials_of_regions(const scene::Scene& scene) {
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    std::vector<const scene::Material*> become;
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r)
+        become.push_back(&scene.materials[soils[r].material]);
+    return become;
+}
+
 }  // namespace
 
 FilledSection fill_section(const scene::Scene& scene) {
@@ -143,12 +168,18 @@ FilledSection fill_section(const scene::Scene& scene) {
                       mpm.floor.level + mpm.fill_shift[1] * square};
     FilledSection filled;
     filled.state.thickness = scene.thickness;
+    const std::vector<const scene::Material*> become = materials_of_regions(scene);
+    const bool strengths = std::ranges::any_of(become, [](const scene::Material* each) {
+        return materials::has_strength_of_points(each->law);
+    });
+    const scene::Ground ground(scene);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Region& region = scene.section.regions[r];
         filled.state.regions.push_back(region.name);
         filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
         for (const auto& [place, patch] : sample(region.polygon, origin, square)) {
             add_point(scene, r, patch, filled.state);
+            if (strengths) add_strength(ground, *become[r], r, filled.state);
         }
     }
     filled.regions = sampling_of(scene, filled.state);

@@ -100,6 +100,25 @@ void refuse_water(const exchange::ParticleState& state, const std::string& file)
     }
 }
 
+/// Of every soil's material: whether its points have strengths of their own.
+std::vector<bool> strengths_of_points(const scene::Scene& scene) {
+    std::vector<bool> have;
+    for (const scene::Soil& soil : scene::soils_of(scene))
+        have.push_back(materials::has_strength_of_points(scene.materials[soil.material].law));
+    return have;
+}
+
+void copy_strengths(Points& points, const exchange::ParticleState& state,
+                    const std::vector<std::size_t>& order) {
+    const exchange::StrengthOfPoints& from = state.strength;
+    if (from.c.empty()) return;
+    for (const auto& [to, values] : {std::pair{&points.c, &from.c},
+                                     {&points.tan_phi, &from.tan_phi},
+                                     {&points.c_residual, &from.c_residual},
+                                     {&points.tan_phi_residual, &from.tan_phi_residual}})
+        for (const std::size_t p : order) to->push_back((*values)[p]);
+}
+
 void copy_point(Points& points, std::size_t p, const exchange::ParticleState& state,
                 std::size_t from) {
     points.x[p] = state.position[from].x();
@@ -148,6 +167,21 @@ void Points::resize(std::size_t n) {
                      [n](const char*, std::vector<std::int32_t>& values) { values.resize(n, -1); });
 }
 
+void refuse_without_strength(const scene::Scene& scene, const Points& points,
+                             const std::string& file) {
+    if (!points.c.empty()) return;
+    const std::vector<bool> have = strengths_of_points(scene);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (!have[points.region[p]]) continue;
+        const scene::Soil soil = scene::soils_of(scene)[points.region[p]];
+        throw fault::BadInput(file,
+                              {{"/VTKHDF/PointData/cohesion",
+                                "points of \"" + scene.materials[soil.material].name +
+                                    "\" have no strengths, and its strength profile asks for them",
+                                "make the points with this scene: run the transfer again"}});
+    }
+}
+
 std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points) {
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     const auto material_of = [&](std::size_t p) { return soils[points.region[p]].material; };
@@ -183,6 +217,8 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
         copy_point(points, p, state, order[p]);
         points.region[p] = match[state.region[order[p]]];
     }
+    copy_strengths(points, state, order);
+    refuse_without_strength(scene, points, file);
     points.carried.r_u = state.r_u;
     if (!state.stress_of_regions.empty()) {
         points.carried.stress_of_soils.assign(soils.size(), exchange::StressMeasure::effective);
@@ -224,6 +260,17 @@ exchange::ParticleState particle_state(const scene::Scene& scene, const Points& 
         state.epsilon_q_plastic[to] = points.epsilon_q_plastic[p];
         state.gap[to] = points.gap[p];
         state.region[to] = points.region[p];
+    }
+    if (points.c.empty()) return state;
+    for (auto* values : {&state.strength.c, &state.strength.tan_phi, &state.strength.c_residual,
+                         &state.strength.tan_phi_residual})
+        values->resize(n);
+    for (std::size_t p = 0; p < n; ++p) {
+        const auto to = static_cast<std::size_t>(points.number[p]);
+        state.strength.c[to] = points.c[p];
+        state.strength.tan_phi[to] = points.tan_phi[p];
+        state.strength.c_residual[to] = points.c_residual[p];
+        state.strength.tan_phi_residual[to] = points.tan_phi_residual[p];
     }
     return state;
 }

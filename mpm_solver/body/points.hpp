@@ -30,8 +30,11 @@ struct Points {
     std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
     std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
     std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
-    std::vector<double> excess;        ///< overlap beyond what is tolerated; see OverlapMeter [-];
-                                       ///< empty unless the body corrects it
+    std::vector<double> excess;  ///< overlap beyond what is tolerated; see OverlapMeter [-];
+                                 ///< empty unless the body corrects it
+    /// Strengths before and after softening [Pa, -], of soils whose material has a profile, 0 of
+    /// others; empty where there is none
+    std::vector<double> c, tan_phi, c_residual, tan_phi_residual;
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
     std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
     std::vector<std::int32_t> home;    ///< cell when the points were last sorted
@@ -57,6 +60,10 @@ void for_each_real(AnyPoints& points, Visit&& visit) {
     visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
     visit("gap", points.gap);
     if (!points.excess.empty()) visit("excess", points.excess);
+    if (points.c.empty()) return;
+    visit("c", points.c), visit("tan_phi", points.tan_phi);
+    visit("c_residual", points.c_residual);
+    visit("tan_phi_residual", points.tan_phi_residual);
 }
 
 template <class AnyPoints, class Visit>
@@ -88,6 +95,11 @@ struct ZonedPoints {
 /// `file`.
 ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleState& state,
                          const std::string& file);
+
+/// Throws BadInput naming `file` where a soil's points should have strengths of their own and do
+/// not.
+void refuse_without_strength(const scene::Scene& scene, const Points& points,
+                             const std::string& file);
 
 /// The zones alone, for points that are grouped already (a checkpoint).
 std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points);

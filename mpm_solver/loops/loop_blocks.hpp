@@ -58,10 +58,12 @@ class Tail {
         visit(p.epsilon_q, t.epsilon_q), visit(p.epsilon_q_plastic, t.epsilon_q_plastic);
         visit(p.gap, t.gap), visit(p.excess, t.excess);
         visit(p.drift_x, t.drift_x), visit(p.drift_y, t.drift_y);
+        visit(p.c, t.c), visit(p.tan_phi, t.tan_phi);
+        visit(p.c_residual, t.c_residual), visit(p.tan_phi_residual, t.tan_phi_residual);
     }
 
     static constexpr int N = Isa::lanes;
-    static constexpr int arrays_of_reals = 22;
+    static constexpr int arrays_of_reals = 26;
     double values_[arrays_of_reals][N];
     std::int32_t cells_[N];
     PointArrays arrays_{};

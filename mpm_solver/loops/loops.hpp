@@ -30,7 +30,8 @@ struct Span {
 struct PointArrays {
     double *x, *y, *vx, *vy, *Lxx, *Lxy, *Lyx, *Lyy, *m, *V_0, *V, *volume, *sxx, *syy, *szz, *sxy,
         *epsilon_q, *epsilon_q_plastic, *gap, *excess;
-    double *drift_x, *drift_y;  ///< null unless MUSL
+    double *drift_x, *drift_y;                            ///< null unless MUSL
+    double *c, *tan_phi, *c_residual, *tan_phi_residual;  ///< null unless points have strengths
     std::int32_t* cell;
 };
 

@@ -133,6 +133,22 @@ class Increments {
     const Real dt_, lambda_, G_, two_G_;
 };
 
+/// The law's answer, where its points have strengths of their own with these.
+template <class Law, class Real, class InLoop>
+[[gnu::always_inline]] inline materials::UpdateOf<Real> answer(InLoop& law, const Block& block,
+                                                               const Increment<Real>& increment) {
+    const auto& [a, p, first, count] = block;
+    const Real epsilon_q = load<Real>(a.epsilon_q_plastic + p);
+    if constexpr (requires { Law::strength_of; }) {
+        return law.update(increment.trial, epsilon_q,
+                          materials::StrengthOfPoint<Real>{
+                              load<Real>(a.c + p), load<Real>(a.tan_phi + p),
+                              load<Real>(a.c_residual + p), load<Real>(a.tan_phi_residual + p)});
+    } else {
+        return law.update(increment.trial, epsilon_q);
+    }
+}
+
 /// What the block's points keep of the step.
 template <class Law, VolumeRule volume_rule, class Real>
 [[gnu::always_inline]] inline void keep(const Block& block, const Increment<Real>& increment,
@@ -177,8 +193,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
             const Real V =
                 materials::lanes::select(own_lanes<Real>(block), load<Real>(a.V + p), Real(0.0));
             const Increment<Real> increment = increments.of(block);
-            const materials::UpdateOf<Real> update =
-                law.update(increment.trial, load<Real>(a.epsilon_q_plastic + p));
+            const materials::UpdateOf<Real> update = answer<Law>(law, block, increment);
             keep<Law, volume_rule>(block, increment, update);
             if constexpr (Law::yields) plastic = plastic + V * update.plastic_work;
             if constexpr (overlap == Overlap::corrected) {

@@ -90,6 +90,8 @@ cases = [
     Case("viscosity of a rock", M, "warned|refused", r"viscosity", {"/materials/liquefied_1/viscosity": 1e9}),
     Case("r_u threshold in per cent", M, "refused|warned", r"r_u", {"/transfer/liquefied/r_u": 70}),
     Case("floor friction as an angle", M, "refused|warned", r"coefficient", {"/mpm/floor/friction/0/coefficient": 35}),
+    Case("residual strengths of LEM and MPM that differ", M, "warned", r"two residual strengths.*layers", {"/lem/liquefaction/0/residual_strength_kPa": 40}),
+    Case("strengths of LEM and MPM that differ", M, "warned", r"two peak strengths.*law", {"/materials/embankment/limit_strength/c_kPa": 75}),
     Case("residual strength in Pa", M, "warned|refused", r"residual_strength_kPa", {"/lem/liquefaction/0/residual_strength_kPa": 3000}),
     Case("section in mm", "slope", "warned|refused", r"(polygon|cell_size|element|section)", {
         "/section/regions/1/polygon": [[x * 1000, y * 1000] for x, y in slope_polygon],

@@ -46,6 +46,15 @@ template <class Real>
             !(cutoff < apex)};
 }
 
+/// Share of the way from peak to residual strength, 0 to 1 [-].
+template <class Real>
+[[gnu::always_inline]] inline Real softened_by(const MohrCoulombNumbers& law,
+                                               const Real& epsilon_q) {
+    using namespace lanes;
+    const Real per_way(1.0 / (law.epsilon_q_end - law.epsilon_q_start));
+    return smaller(positive((epsilon_q - Real(law.epsilon_q_start)) * per_way), Real(1.0));
+}
+
 /// Strength in force at epsilon_q.
 template <Softens softens, class Real>
 [[gnu::always_inline]] inline ConeOf<Real> cone_at(const MohrCoulombNumbers& law,
@@ -57,13 +66,22 @@ template <Softens softens, class Real>
     if constexpr (softens == Softens::never) {
         return cone_of(c, tan_phi, tan_psi, law.tension_cutoff);
     } else {
-        const Real per_way(1.0 / (law.epsilon_q_end - law.epsilon_q_start));
-        const Real way =
-            smaller(positive((epsilon_q - Real(law.epsilon_q_start)) * per_way), Real(1.0));
+        const Real way = softened_by(law, epsilon_q);
         return cone_of(c + way * Real(law.c_residual - law.c),
                        tan_phi + way * Real(law.tan_phi_residual - law.tan_phi), tan_psi,
                        law.tension_cutoff);
     }
+}
+
+/// The same of points that have strengths of their own.
+template <class Real>
+[[gnu::always_inline]] inline ConeOf<Real> cone_at(const MohrCoulombNumbers& law,
+                                                   const StrengthOfPoint<Real>& of,
+                                                   const Real& epsilon_q) {
+    const Real way = softened_by(law, epsilon_q);
+    return cone_of(of.c + way * (of.c_residual - of.c),
+                   of.tan_phi + way * (of.tan_phi_residual - of.tan_phi), Real(law.tan_psi),
+                   law.tension_cutoff);
 }
 
 template <class Real>
@@ -402,6 +420,37 @@ struct MohrCoulombLanes {
       private:
         const Numbers numbers_;
         mohr_coulomb_lanes::ConeOf<Real> cone_;
+    };
+};
+
+/// The law where every point has a strength of its own.
+template <Softens softens_>
+struct MohrCoulombOfPointsLanes {
+    using Numbers = MohrCoulombNumbers;
+    static constexpr bool yields = true;
+    static constexpr Softens softens = softens_;
+    static constexpr StrengthOf strength_of = StrengthOf::point;
+
+    Numbers numbers;
+
+    template <class Isa>
+    class InLoop {
+        using Real = Lanes<Isa::lanes>;
+
+      public:
+        [[gnu::always_inline]] explicit InLoop(const Numbers& numbers) : numbers_(numbers) {}
+        [[gnu::always_inline]] UpdateOf<Real> update(const StressOf<Real>& trial,
+                                                     const Real& epsilon_q,
+                                                     const StrengthOfPoint<Real>& strength) {
+            const auto cone = mohr_coulomb_lanes::cone_at(numbers_, strength, epsilon_q);
+            if (!lanes::any(lies_outside(cone, trial))) return elastic_update(trial);
+            UpdateOf<Real> back = elastic_update(trial);
+            return_block<Isa, softens>(numbers_, cone, back);
+            return copy_of(back);
+        }
+
+      private:
+        const Numbers numbers_;
     };
 };
 

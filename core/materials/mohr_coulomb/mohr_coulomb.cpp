@@ -157,7 +157,9 @@ Matrix4 plastic_tangent(const MohrCoulombNumbers& law, const Cone& cone, const T
 
 MohrCoulombNumbers ready(const MohrCoulomb& law) {
     const double tan_phi = std::tan(law.phi);
-    const double tan_psi = std::min(std::tan(law.psi), tan_phi);
+    const double tan_psi = law.strength_of == StrengthOf::law
+                               ? std::min(std::tan(law.psi), tan_phi)
+                               : std::tan(law.psi);  // each point's own phi bounds it
     const Softening softening = law.softening.value_or(Softening{});
     return {.moduli = make_moduli(law.elasticity),
             .c = law.c,
@@ -234,8 +236,23 @@ Voigt return_to_surface(const MohrCoulomb& law, const State& state) {
     return integrate(law, state, Voigt::Zero()).state.sigma;
 }
 
+MohrCoulomb with_strength(MohrCoulomb law, const StrengthOfPoint<double>& strength) {
+    law.c = strength.c;
+    law.phi = std::atan(strength.tan_phi);
+    if (!law.softening) return law;
+    law.softening->c_residual = strength.c_residual;
+    law.softening->tan_phi_residual = strength.tan_phi_residual;
+    return law;
+}
+
 std::optional<LawLanes> for_particles(const MohrCoulomb& law) {
-    const MohrCoulombNumbers numbers = ready(law);
+    MohrCoulombNumbers numbers = ready(law);
+    if (law.strength_of == StrengthOf::point) {
+        if (numbers.softens == Softens::with_total_strain)
+            return MohrCoulombOfPointsLanes<Softens::with_total_strain>{numbers};
+        if (numbers.softens == Softens::never) numbers.epsilon_q_end = 1.0;  // peak = residual
+        return MohrCoulombOfPointsLanes<Softens::with_plastic_strain>{numbers};
+    }
     switch (numbers.softens) {
         case Softens::never:
             return MohrCoulombLanes<Softens::never>{numbers};

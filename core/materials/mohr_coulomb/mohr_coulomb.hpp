@@ -20,7 +20,13 @@ struct MohrCoulomb {
     double tension_cutoff;  ///< largest principal stress allowed [Pa], clipped to the cone's apex c
                             ///< / tan(phi)
     std::optional<Softening> softening;
+    /// point: in the MPM c, phi and their residuals are each point's own (strength/profile.hpp);
+    /// the law's serve who knows no points
+    StrengthOf strength_of = StrengthOf::law;
 };
+
+/// The law of one point that has a strength of its own.
+MohrCoulomb with_strength(MohrCoulomb law, const StrengthOfPoint<double>& strength);
 
 /// psi is lowered to phi where softening brings phi below it.
 MohrCoulombNumbers ready(const MohrCoulomb& law);

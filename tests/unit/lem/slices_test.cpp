@@ -99,5 +99,41 @@ TEST(SlipCircle, DeepestArcStartsVertically) {
     EXPECT_NEAR(surface.circle.center.y(), 10.0, 1e-9);
 }
 
+// What is above its phreatic line has no water to liquefy by; soil that no line fills has no line to
+// lie above.
+TEST(Slices, OfALiquefiedLayerKeepTheirStrengthAboveThePhreaticLine) {
+    json lem = small::some_search();
+    lem.update(small::some_circle());
+    lem["liquefaction"] = {{{"region", "fill"}, {"residual_strength_kPa", 2}}};
+    const auto slices_with = [](const json& text) {
+        const scene::Scene scene = small::parsed(small::two_layers(text));
+        const Model model = make_model(scene);
+        const std::vector<Soil> soils = liquefied(model, scene.lem->liquefaction, 1);
+        Slices slices = make_slices(model.strata, 30);
+        const Surface surface = masses_of(model.strata, *scene.lem->circle).at(0);
+        EXPECT_EQ(cut(model.strata, soils, surface, 30, slices), Cut::done);
+        return slices;
+    };
+    json wet = lem;
+    wet["water"] = {{"line", {{0, 4}, {60, 4}}}};
+    const Slices slices = slices_with(wet);
+    std::size_t above = 0, below = 0;
+    for (std::size_t i = 0; i < slices.count; ++i) {
+        if (slices.base[i] < 0.0) {
+            EXPECT_EQ(slices.c[i], 15e3);
+            continue;
+        }
+        const bool dry = slices.base[i] > 4.0;
+        EXPECT_EQ(slices.c[i], dry ? 8e3 : 2e3) << slices.base[i];
+        EXPECT_NEAR(slices.tan_phi[i], dry ? std::tan(25.0 * M_PI / 180.0) : 0.0, 1e-12);
+        (dry ? above : below) += 1;
+    }
+    EXPECT_GT(above, 3u);
+    EXPECT_GT(below, 3u);
+    const Slices dry = slices_with(lem);
+    for (std::size_t i = 0; i < dry.count; ++i)
+        EXPECT_EQ(dry.c[i], dry.base[i] < 0.0 ? 15e3 : 2e3) << "no line at all";
+}
+
 }  // namespace
 }  // namespace breach::lem

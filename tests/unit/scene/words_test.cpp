@@ -71,6 +71,11 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<RegionMesh>(
         {"/$defs/block_mesh/properties/type", "/$defs/unstructured_mesh/properties/type"});
     words.are_those_of<materials::SofteningDriver>({"/$defs/softening/properties/driver"});
+    words.are_those_of<materials::SofteningDriver>(
+        {"/$defs/strength/properties/softening/properties/driver"});
+    words.are_those_of<materials::Along>(
+        {"/$defs/table_strength/properties/by", "/$defs/relation_strength/properties/by"});
+    words.are_those_of<materials::Relation>({"/$defs/relation_strength/properties/relation"});
     words.are_those_of<PhreaticCorrection>(
         {lem + "/water/properties/correction",
          lem + "/piezometric_lines/items/properties/correction"});

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 
+#include "fem_solver/element_bench/document.hpp"
 #include "soils.hpp"
 
 namespace breach::testing {
@@ -92,6 +95,89 @@ TEST(CalibrationOfThePaper, SchemesDifferInTheStrengthOfThePapersParameters) {
         }
         EXPECT_LT(fit.misfit, 20.0);
     }
+}
+
+/// Cycles of a soil at two stresses, as if a laboratory had counted them.
+CalibrationProblem measured_on(const SandParameters& truth) {
+    CalibrationProblem problem{.start = soil("tailings_def"),
+                               .reference = truth,
+                               .free = {{"h_po", 0.1, 10.0}, {"Q", 8.0, 15.0}},
+                               .strength = {},
+                               .cyclic = {{100e3, 0.5, 0.10, 0.03},
+                                          {100e3, 0.5, 0.14, 0.03},
+                                          {300e3, 0.5, 0.09, 0.03},
+                                          {300e3, 0.5, 0.12, 0.03}},
+                               .options = {},
+                               .most_evaluations = 160};
+    const Fit fit = Calibration(problem).evaluate({problem.start.h_po, problem.start.Q});
+    for (std::size_t k = 0; k < problem.cyclic.size(); ++k)
+        problem.cyclic[k].N = fit.terms[k].wanted;
+    problem.reference.reset();
+    return problem;
+}
+
+TEST(CalibrationToTheLaboratory, FindsTheSoilThatTheCurvesOfTwoStressesCameFrom) {
+    SandParameters truth = soil("tailings_def");
+    truth.h_po = 1.7;
+    truth.Q = 10.9;
+    const CalibrationProblem problem = measured_on(truth);
+    const Calibration calibration(problem);
+    EXPECT_EQ(calibration.evaluate({truth.h_po, truth.Q}).misfit, 0.0);
+    const CalibrationResult result = calibrate(calibration);
+    std::printf("h_po %.4f Q %.4f, misfit %.5f after %d\n", result.best.values[0],
+                result.best.values[1], result.best.misfit, result.evaluations);
+    for (const Term& term : result.best.terms) EXPECT_LT(std::abs(term.deviation), 0.01);
+    EXPECT_NEAR(result.best.values[0], truth.h_po, 0.03 * truth.h_po);
+    EXPECT_NEAR(result.best.values[1], truth.Q, 0.03 * truth.Q);
+}
+
+TEST(CalibrationToTheLaboratory, WeighsItsTargetsAndNeedsWhatItCountsAgainst) {
+    SandParameters truth = soil("tailings_def");
+    truth.h_po = 1.7;
+    CalibrationProblem problem = measured_on(truth);
+    const std::vector<double> start{problem.start.h_po, problem.start.Q};
+    const Fit plain = Calibration(problem).evaluate(start);
+    problem.cyclic[1].weight = 0.0;
+    problem.cyclic[2].weight = 3.0;
+    const Fit weighted = Calibration(problem).evaluate(start);
+    EXPECT_GT(plain.terms[1].share, 0.0);
+    EXPECT_EQ(weighted.terms[1].share, 0.0);
+    EXPECT_DOUBLE_EQ(weighted.terms[2].share, 3.0 * plain.terms[2].share);
+    problem.cyclic[0].N.reset();
+    EXPECT_THROW(Calibration{problem}, std::invalid_argument);
+}
+
+/// The document of a calibration to one file and one list.
+scene::Scene document_with(const std::string& lines) {
+    const auto folder = std::filesystem::temp_directory_path() / "breach_crr";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "crr.csv") << lines;
+    std::ofstream(folder / "bench.json") << R"({
+        "format": "breachline-element-test/1", "name": "crr", "title": "",
+        "law": {"type": "pm4sand", "D_R": 0.35, "G_0": 476, "h_po": 0.53},
+        "calibration": {
+            "free": {"h_po": {"least": 0.05, "most": 20}},
+            "cyclic_strength": [
+                {"sigma_v_kPa": 100, "file": "crr.csv"},
+                {"sigma_v_kPa": 300, "K0": 1, "points": [{"CSR": 0.1, "N": 12}]}]}})";
+    return read_document(folder / "bench.json", {});
+}
+
+TEST(CalibrationToTheLaboratory, ReadsCurvesFromAFileAndFromTheDocument) {
+    const auto bench =
+        bench_of(document_with("CSR,N,weight\n0.12,15\n\n0.16;4.5;0.5  # the last\n"));
+    const auto& targets = bench.calibration->cyclic;
+    ASSERT_EQ(targets.size(), 3u);
+    EXPECT_EQ(targets[0].CSR, 0.12);
+    EXPECT_EQ(targets[0].N, 15.0);
+    EXPECT_EQ(targets[0].weight, 1.0);
+    EXPECT_EQ(targets[1].weight, 0.5);
+    EXPECT_EQ(targets[1].sigma_v, 100e3);
+    EXPECT_EQ(targets[2].sigma_v, 300e3);
+    EXPECT_EQ(targets[2].K0, 1.0);
+    EXPECT_FALSE(bench.calibration->reference.has_value());
+    for (const char* wrong : {"0.12\n", "0.12,x\n", "12,0.15\n", "0.12,15,-1\n", "\n"})
+        EXPECT_THROW(document_with(wrong), fault::BadInput) << wrong;
 }
 
 }  // namespace
