@@ -35,7 +35,7 @@ const Soil embankment{"embankment", 1900, 0.7, 1e-6, 0.55, 677, 0.4, 10, 35, 1, 
 const Soil foundation{"foundation", 2000, 0.6, 1e-6, 0.75, 890, 0.63, 20, 36, 20, 36, 200, 0.3};
 
 double millimetres(double value) { return std::round(value * 1e3) / 1e3; }
-double digits(double value, double unit) { return std::round(value / unit) * unit; }
+double nanometres(double value) { return std::round(value * 1e9) / 1e9; }
 /// Three significant digits.
 double rounded(double value) {
     if (value == 0.0) return 0.0;
@@ -44,6 +44,8 @@ double rounded(double value) {
 }
 
 Json point(const Vec2& place) { return {millimetres(place.x()), millimetres(place.y())}; }
+/// A vertex within a neighbour's side must lie on it.
+Json corner(const Vec2& place) { return {nanometres(place.x()), nanometres(place.y())}; }
 Json points(const Line& line) {
     Json all = Json::array();
     for (const Vec2& each : line) all.push_back(point(each));
@@ -67,31 +69,45 @@ double sigma_v0_at(const Vec2& place, const Outline& outline, double density) {
     return (density * (ground - place.y()) - pressure) * g / 1e3;
 }
 
-double mean_sigma_v0(const Polygon& polygon, const Outline& outline, double density) {
+struct Sum {
+    double stress_area = 0.0;  ///< [kPa m2]
+    double area = 0.0;         ///< [m2]
+};
+
+/// Adds what lies right of `from`, on a lattice.
+void add(Sum& sum, const Polygon& polygon, const Outline& outline, double density, double from) {
     constexpr int lines = 40;
     const scene::Box box = scene::bounding_box(polygon);
-    double sum = 0.0;
-    int places = 0;
-    for (int i = 0; i < lines; ++i)
+    const Vec2 size = box.high - box.low;
+    const double cell = size.x() * size.y() / (lines * lines);
+    for (int i = 0; i < lines; ++i) {
         for (int j = 0; j < lines; ++j) {
             const Vec2 share{(i + 0.5) / lines, (j + 0.5) / lines};
-            const Vec2 place = box.low + (box.high - box.low).cwiseProduct(share);
-            if (!scene::contains(polygon, place)) continue;
-            sum += sigma_v0_at(place, outline, density);
-            ++places;
+            const Vec2 place = box.low + size.cwiseProduct(share);
+            if (place.x() < from || !scene::contains(polygon, place)) continue;
+            sum.stress_area += cell * sigma_v0_at(place, outline, density);
+            sum.area += cell;
         }
-    return places > 0 ? sum / places : sigma_v0_at(polygon[0], outline, density);
+    }
 }
 
-/// Pieces of a layer get their common mean.
-void average_over_layers(std::vector<Region>& regions) {
-    std::map<int, std::array<double, 2>> sums;  // of stress times area, of area
+/// Of each layer where it can slide, a height behind the crest and downstream; where it has nothing
+/// there, of all of it.
+void find_stresses(std::vector<Region>& regions, const Outline& outline, double density) {
+    std::map<int, std::array<Sum, 2>> sums;
     for (const Region& each : regions) {
-        const double area = scene::area(each.part.polygon);
-        sums[each.layer][0] += each.sigma_v0_kPa * area;
-        sums[each.layer][1] += area;
+        if (each.layer == 0) continue;
+        auto& [sliding, whole] = sums[each.layer];
+        const Polygon& polygon = each.part.polygon;
+        add(sliding, polygon, outline, density, outline.crest_from - outline.crest.y());
+        add(whole, polygon, outline, density, outline.left);
     }
-    for (Region& each : regions) each.sigma_v0_kPa = sums[each.layer][0] / sums[each.layer][1];
+    for (Region& each : regions) {
+        if (each.layer == 0) continue;
+        const auto& [sliding, whole] = sums[each.layer];
+        const Sum& sum = sliding.area > 0.0 ? sliding : whole;
+        each.sigma_v0_kPa = sum.stress_area / sum.area;
+    }
 }
 
 /// "tailings_2", "tailings_2_2" for its second piece, "tailings" above the line.
@@ -118,7 +134,8 @@ std::vector<Region> regions_of(const Values& values, const Outline& outline, con
             layers.push_back(0);
             continue;
         }
-        const Cut cut{values["layer_thickness"], 0.25 * values["cell_size"],
+        const Cut cut{values["layer_thickness"],
+                      std::min(0.25 * values["cell_size"], 0.1 * values["layer_thickness"]),
                       2.2 * values["cell_size"]};
         int piece = 0, number = -1;
         for (const Layer& layer : cut_by_depth(part.polygon, outline.phreatic, cut)) {
@@ -130,12 +147,8 @@ std::vector<Region> regions_of(const Values& values, const Outline& outline, con
     }
     share_vertices(parts);
     std::vector<Region> regions;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        regions.push_back({parts[i], layers[i]});
-        if (layers[i] > 0)
-            regions.back().sigma_v0_kPa = mean_sigma_v0(parts[i].polygon, outline, wet.density);
-    }
-    average_over_layers(regions);
+    for (std::size_t i = 0; i < parts.size(); ++i) regions.push_back({parts[i], layers[i]});
+    find_stresses(regions, outline, wet.density);
     return regions;
 }
 
@@ -248,11 +261,12 @@ Json materials_at_rest(const Context& all) {
     }
     materials[all.wet.name] = frictional(all.wet, strength_note(all.wet));
     for (const Region& each : layers_of(all))
-        materials[material_of(all, each)] = undrained(
-            all.wet, residual_kPa(all, each),
-            "assumed: liquefied, s_r = " + words::text_of(all.values["residual_ratio"]) +
-                " sigma'_v0, mean sigma'_v0 = " + words::text_of(rounded(each.sigma_v0_kPa)) +
-                " kPa; limit_strength is drained, before it liquefies");
+        materials[material_of(all, each)] =
+            undrained(all.wet, residual_kPa(all, each),
+                      "assumed: liquefied, s_r = " + words::text_of(all.values["residual_ratio"]) +
+                          " sigma'_v0, of which the mean from a height behind the crest on is " +
+                          words::text_of(rounded(each.sigma_v0_kPa)) +
+                          " kPa; limit_strength is drained, before it liquefies");
     if (has(all, "foundation")) materials["foundation"] = elastic_ground();
     return materials;
 }
@@ -283,7 +297,8 @@ Json materials_shaken(const Context& all) {
 Json section_of(const Context& all) {
     Json regions = Json::array();
     for (const Region& each : all.regions) {
-        Json ring = points(each.part.polygon);
+        Json ring = Json::array();
+        for (const Vec2& vertex : each.part.polygon) ring.push_back(corner(vertex));
         ring.push_back(ring.front());
         regions.push_back(
             {{"name", each.part.name}, {"material", material_of(all, each)}, {"polygon", ring}});
@@ -304,7 +319,8 @@ Json stability_of(const Context& all) {
         {"notes",
          {"depths below a tenth of the height are left out: a slip in the face is no breach",
           "phreatic line: Dupuit's parabola from the pond (assumed: steady flow over a tight base)",
-          "residual strengths: residual_ratio times sigma'_v0 of every slice"}}};
+          all.with_fem ? "residual strengths: residual_ratio times sigma'_v0 of every slice"
+                       : "residual strengths: those of the layers in the runout"}}};
     lem["search"] = {{"entry", {millimetres(back), millimetres(outline.crest.x() - 0.01 * H)}},
                      {"exit",
                       {millimetres(outline.crest.x() + 0.25 * face),
@@ -312,10 +328,14 @@ Json stability_of(const Context& all) {
                      {"minimum_depth", millimetres(0.1 * H)}};
     lem["water"] = {{"line", points(outline.phreatic)}};
     Json liquefaction = Json::array();
-    for (const Region& each : layers_of(all))
-        liquefaction.push_back(
-            {{"region", each.part.name},
-             {"residual_coefficient_kPa", rounded(all.values["residual_ratio"] * atmosphere)}});
+    for (const Region& each : layers_of(all)) {
+        liquefaction.push_back({{"region", each.part.name}});
+        if (all.with_fem)
+            liquefaction.back()["residual_coefficient_kPa"] =
+                rounded(all.values["residual_ratio"] * atmosphere);
+        else
+            liquefaction.back()["residual_strength_kPa"] = residual_kPa(all, each);
+    }
     if (!liquefaction.empty()) lem["liquefaction"] = liquefaction;
     return lem;
 }
@@ -330,8 +350,8 @@ Json fem_of(const Context& all) {
           "elements are for a first look: halve element_size before relying on the failure"}}};
     fem["element"] = "ssp";
     fem["supports"] = {{{"name", "base"},
-                        {"from", {millimetres(outline.left), millimetres(bottom)}},
-                        {"to", {millimetres(values["foundation_extent"]), millimetres(bottom)}},
+                        {"from", {nanometres(outline.left), nanometres(bottom)}},
+                        {"to", {nanometres(values["foundation_extent"]), nanometres(bottom)}},
                         {"fixes", "xy"}}};
     fem["water"] = {{"line", points(outline.phreatic)}};
     fem["base"] = {{"density", 2243}, {"V_s", 760}, {"motion_at", "outcrop"}};
@@ -346,15 +366,18 @@ Json fem_of(const Context& all) {
                       {"duration", values["shaking"]},
                       {"time_step", 0.005}}};
     fem["force_tolerance"] = 1e-5;
-    fem["crest"] = point(outline.crest);
+    fem["crest"] = corner(outline.crest);
     Json names = Json::array();
-    for (const Region& each : layers_of(all)) names.push_back(each.part.name);
+    double right = outline.left;  // of what can liquefy
+    for (const Region& each : layers_of(all)) {
+        names.push_back(each.part.name);
+        right = std::max(right, scene::bounding_box(each.part.polygon).high.x());
+    }
+    const double from = std::min(outline.crest_from, right) - values["height"];
     if (!names.empty())
         fem["liquefaction"] = {{"regions", names},
-                               {"x",
-                                {millimetres(outline.crest_from - 0.5 * values["height"]),
-                                 millimetres(outline.crest.x())}},
-                               {"level", millimetres(outline.phreatic.front().y())}};
+                               {"x", {nanometres(from), nanometres(outline.crest.x())}},
+                               {"level", nanometres(outline.phreatic.front().y())}};
     fem["telemetry_interval"] = 0.05;
     return fem;
 }
@@ -372,7 +395,7 @@ Json transfer_of(const Context& all) {
     transfer["phreatic_line"] = points(all.outline.phreatic);
     if (names.empty()) return transfer;
     const double step =
-        digits(all.values["layer_thickness"] * (all.wet.density - water_density) * g / 1e3, 0.1);
+        rounded(all.values["layer_thickness"] * (all.wet.density - water_density) * g / 1e3);
     Json layers = Json::array();
     for (double from = 0.0; from < largest || layers.empty(); from += step)
         layers.push_back({{"sigma_v0_kPa", {rounded(from), rounded(from + step)}}});
@@ -390,7 +413,7 @@ Json transfer_of(const Context& all) {
 Json runout_of(const Context& all) {
     const Values& values = all.values;
     const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
-    const double left = millimetres(all.outline.left);
+    const double left = nanometres(all.outline.left);
     const double columns = std::ceil((values["runout_extent"] - left) / h);
     const double below = depth > 0.0 ? std::ceil((depth + h) / h) : 0.0;
     const double above = std::ceil(1.15 * H / h);
@@ -403,12 +426,12 @@ Json runout_of(const Context& all) {
     mpm["cell_size"] = h;
     mpm["domain_x"] = {left, right};
     mpm["domain_y"] = {floor, above * h};
-    const double end = millimetres(values["foundation_extent"]);
+    const double end = nanometres(values["foundation_extent"]);
     mpm["floor"] = {{"level", floor},
                     {"friction", {{{"from", left}, {"to", right}, {"coefficient", 0.5}}}}};
     if (depth > 0.0)
-        mpm["terrain"] = {{left - h, millimetres(-depth)},
-                          {end + 0.2 * h, millimetres(-depth)},
+        mpm["terrain"] = {{left - h, nanometres(-depth)},
+                          {end + 0.2 * h, nanometres(-depth)},
                           {end + 0.4 * h, 0.0},
                           {right, 0.0}};
     mpm["fill_points"] = 3;
@@ -423,9 +446,10 @@ Json runout_of(const Context& all) {
     for (const Region& each : all.regions)
         if (each.part.material != "foundation") mobile.push_back(each.part.name);
     mpm["runout"] = {{"toe", {0, 0}}, {"regions", mobile}};
-    mpm["gauges"] = {{{"name", "toe"}, {"x", 0}},
-                     {{"name", "one_height"}, {"x", H}},
-                     {{"name", "three_heights"}, {"x", 3 * H}}};
+    mpm["gauges"] = {{{"name", "toe"}, {"x", 0}}};
+    for (const auto& [name, heights] :
+         {std::pair("one_height", 1.0), std::pair("three_heights", 3.0)})
+        if (heights * H < right) mpm["gauges"].push_back({{"name", name}, {"x", heights * H}});
     return mpm;
 }
 
@@ -470,13 +494,13 @@ Json study_of(const Values& values, const Json& scene) {
         const std::string material = each.at("material");
         const Json& law = scene.at("materials").at(material).at("law");
         if (law.value("phi_deg", 1.0) != 0.0) continue;
-        const double peak =
-            law.at("c_kPa").get<double>() * values["peak_ratio"] / values["residual_ratio"];
-        overrides.push_back("/materials/" + material +
-                            "/law/c_kPa=" + words::text_of(rounded(peak)));
-        undrained_regions.push_back(
-            {{"region", each.at("name")},
-             {"coefficient_kPa", rounded(values["peak_ratio"] * atmosphere)}});
+        const double peak = rounded(law.at("c_kPa").get<double>() * values["peak_ratio"] /
+                                    values["residual_ratio"]);
+        const std::string override =
+            "/materials/" + material + "/law/c_kPa=" + words::text_of(peak);
+        if (std::ranges::find(overrides, Json(override)) == overrides.end())
+            overrides.push_back(override);
+        undrained_regions.push_back({{"region", each.at("name")}, {"strength_kPa", peak}});
     }
     if (overrides.empty()) return study;
     overrides.push_back("/lem/undrained=" + undrained_regions.dump());

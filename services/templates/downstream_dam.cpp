@@ -81,9 +81,9 @@ Outline downstream_dam(const Values& values) {
     outline.crest = {last.downstream_edge, H};
     outline.crest_from = last.upstream_edge;
     outline.left = left;
-    outline.phreatic =
-        drained_line({edge, surface(edge)}, values.is_on("drain") ? stages.front().toe : 0.0, left,
-                     values["foundation_extent"], outline.ground);
+    const double axis = last.upstream_edge + 0.5 * width;
+    outline.phreatic = drained_line({edge, surface(edge)}, values.is_on("drain") ? axis : 0.0, left,
+                                    values["foundation_extent"], outline.ground);
     return outline;
 }
 

@@ -17,6 +17,7 @@ constexpr const char* name_entry = "name";
 std::string plain(double value) { return words::text_of(value, 6); }
 
 std::string with_unit(double value, const Option& option) {
+    if (option.kind == Kind::yes_or_no) return value > 0.5 ? "true" : "false";
     return plain(value) + (option.unit == "1" ? "" : " " + option.unit);
 }
 

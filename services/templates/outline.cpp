@@ -10,18 +10,20 @@ namespace breach::templates {
 Line drained_line(const Vec2& from, double exit, double left, double right, const Line& ground) {
     constexpr int pieces = 8;
     const double span = exit - from.x();
-    std::vector<double> xs;
+    const double same = 0.005 * span;
+    std::vector<double>
+        xs;  // the ground's kinks, so that no chord leaves it, and places of the parabola
+    for (const Vec2& kink : ground)
+        if (kink.x() > from.x() + same && kink.x() < exit - same) xs.push_back(kink.x());
     for (int i = 1; i < pieces; ++i) {
         const double share = 1.0 - static_cast<double>(i) / pieces;  // of the height that is left
-        xs.push_back(exit - span * share * share);
+        const double x = exit - span * share * share;
+        const auto near = [&](double other) { return std::abs(other - x) < same; };
+        if (std::ranges::none_of(xs, near)) xs.push_back(x);
     }
-    for (const Vec2& kink : ground)
-        if (kink.x() > from.x() && kink.x() < exit) xs.push_back(kink.x());
     std::ranges::sort(xs);
-    const double same = 0.005 * span;
     Line line{{left, from.y()}, from};
     for (const double x : xs) {
-        if (x - line.back().x() < same || exit - x < same) continue;
         const double level = from.y() * std::sqrt((exit - x) / span);
         line.push_back({x, std::min(level, geometry::level_at(ground, x))});
     }

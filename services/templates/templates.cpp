@@ -27,13 +27,20 @@ Outline outline_of(const Values& values) {
 void round_sizes(Values& values) {
     for (const Option& each : values.of().options) {
         if (each.kind != Kind::number || each.follows.empty()) continue;
-        values.set(each.name, std::max(1e-3, std::round(values[each.name] * 1e3) / 1e3));
+        values.set(each.name, std::round(values[each.name] * 1e3) / 1e3);
     }
 }
 
 void check_sizes(const Values& values) {
     const double H = values["height"];
     Refusal refusal(values);
+    refusal.unless(values["cell_size"] <= 0.5 * std::min(values["layer_thickness"], H), "cell_size",
+                   "layers are " + metres(values["layer_thickness"]) +
+                       " thick, and two cells across them are the least",
+                   "give at most half of layer_thickness");
+    const double depth = values["foundation_depth"];
+    refusal.unless(depth == 0.0 || depth >= values["cell_size"], "foundation_depth",
+                   "that is less than a cell", "give 0, or at least cell_size");
     refusal.unless(values["layer_thickness"] <= H, "layer_thickness",
                    "the soil is only " + metres(H) + " high", "give at most height");
     refusal.unless(values["layer_thickness"] >= H / 20, "layer_thickness",
@@ -100,6 +107,9 @@ void check_made(const Values& values, const Json& scene) {
 }
 
 std::string on_a_line(const Json& value) {
+    const double number = value.is_number_float() ? value.get<double>() : 0.5;
+    if (std::abs(number) < 1e9 && number == std::round(number))
+        return std::to_string(std::lround(number));  // 30, not 30.0
     if (value.is_primitive() || value.empty()) return value.dump();
     std::string text;
     for (const auto& [key, each] : value.items())

@@ -64,6 +64,15 @@ void check_beach(const Values& values, const Dyke& last, double at_heel, double 
     refusal.speak();
 }
 
+void check_drain(const Values& values, double span, double level) {
+    Refusal refusal(values);
+    refusal.unless(
+        span > 0.3 * level, "drain",
+        "the starter dam's heel lies only " + metres(span) + " downstream of the pond's edge",
+        "lengthen beach_length, or leave the drain out");
+    refusal.speak();
+}
+
 }  // namespace
 
 Outline upstream_dam(const Values& values) {
@@ -78,6 +87,8 @@ Outline upstream_dam(const Values& values) {
     double left = edge - values["pond_length"];
     for (const Dyke& each : dykes) left = std::min(left, each.heel - 0.1 * values["height"]);
     check_beach(values, last, surface(last.heel), surface(left));
+    const double exit = values.is_on("drain") ? dykes.front().heel : 0.0;
+    check_drain(values, exit - edge, surface(edge));
 
     Outline outline;
     Polygon tailings{{left, 0.0}};
@@ -108,9 +119,8 @@ Outline upstream_dam(const Values& values) {
     outline.crest = {last.downstream_edge, last.top};
     outline.crest_from = last.upstream_edge;
     outline.left = left;
-    outline.phreatic =
-        drained_line({edge, surface(edge)}, values.is_on("drain") ? dykes.front().heel : 0.0, left,
-                     values["foundation_extent"], outline.ground);
+    outline.phreatic = drained_line({edge, surface(edge)}, exit, left, values["foundation_extent"],
+                                    outline.ground);
     return outline;
 }
 
