@@ -1,0 +1,228 @@
+#include "services/templates/templates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "core/check/check.hpp"
+#include "core/geometry/polyline.hpp"
+#include "core/scene/polygon.hpp"
+#include "tests/folder.hpp"
+
+namespace breach::templates {
+namespace {
+
+using nlohmann::json;
+using scene::Vec2;
+using Line = std::vector<Vec2>;
+using Numbers = std::function<double(const std::string&)>;
+
+/// The ground from the crest's edge (or the heap's top) to the toe, walked upwards from the toe by the
+/// options alone.
+Line asked_ground(const std::string& name, const Numbers& option, bool beach) {
+    Line up{Vec2(0.0, 0.0)};
+    const auto walk = [&](double across, double rise) {
+        if (across > 0.0 || rise > 0.0) up.push_back(up.back() + Vec2(-across, rise));
+    };
+    const double H = option("height");
+    if (name == "upstream_dam") {
+        const int raises = static_cast<int>(option("raises"));
+        const double starter = raises > 0 ? option("starter_height") : H;
+        walk(option("starter_slope") * starter, starter);
+        for (int k = 0; k < raises; ++k) {
+            const double rise = (H - starter) / raises;
+            walk(option("bench_width"), 0.0);
+            walk(option("raise_slope") * rise, rise);
+        }
+        walk(option("crest_width"), 0.0);
+    } else if (name == "downstream_dam") {
+        walk(option("downstream_slope") * H, H);
+        walk(option("crest_width"), 0.0);
+    } else if (name == "slope") {
+        walk(option("face_slope") * H, H);
+        walk(option("crest_extent"), 0.0);
+    } else {
+        const int lifts = static_cast<int>(option("lifts"));
+        for (int k = 0; k < lifts; ++k) {
+            walk(option("lift_slope") * H / lifts, H / lifts);
+            if (k + 1 < lifts) walk(option("bench_width"), 0.0);
+        }
+        walk(option("top_width"), 0.0);
+    }
+    if (beach) {
+        const double fall = option("freeboard");
+        up.push_back(up.back() + Vec2(-option("upstream_slope") * fall, -fall));
+        const double far = 1e4;
+        up.push_back(up.back() + Vec2(-far, -far * option("beach_slope")));
+    }
+    std::ranges::reverse(up);
+    return up;
+}
+
+scene::Polygon ring_of(const json& polygon) {
+    scene::Polygon ring;
+    for (std::size_t i = 0; i + 1 < polygon.size(); ++i)
+        ring.emplace_back(polygon[i][0].get<double>(), polygon[i][1].get<double>());
+    return ring;
+}
+
+double area_below(const Line& ground, double left) {
+    double sum = 0.0;
+    Line cut{Vec2(left, geometry::straight_level_at(ground, left))};
+    for (const Vec2& each : ground)
+        if (each.x() > left) cut.push_back(each);
+    for (std::size_t i = 1; i < cut.size(); ++i)
+        sum += 0.5 * (cut[i].y() + cut[i - 1].y()) * (cut[i].x() - cut[i - 1].x());
+    return sum;
+}
+
+/// No overlap, no gap, and the ground as it was asked for: areas to the millimetres that places are
+/// rounded to.
+void hold_section(const std::string& name, const Made& made) {
+    const json options = made.options;
+    const Numbers option = [&](const std::string& key) { return options.at(key).get<double>(); };
+    const bool dam = name.ends_with("_dam");
+    const Line ground = asked_ground(name, option, dam);
+    std::vector<scene::Polygon> rings;
+    double area = 0.0, left = 0.0, highest = 0.0;
+    const json scene = made.scene;
+    for (const json& each : scene.at("section").at("regions")) {
+        rings.push_back(ring_of(each.at("polygon")));
+        EXPECT_FALSE(scene::defect(rings.back())) << *scene::defect(rings.back());
+        for (const Vec2& vertex : rings.back()) {
+            left = std::min(left, vertex.x());
+            highest = std::max(highest, vertex.y());
+            if (each.at("name") != "foundation") {
+                EXPECT_LE(vertex.y(), geometry::straight_level_at(ground, vertex.x()) + 2e-3);
+            }
+        }
+        if (each.at("name") != "foundation") area += scene::area(rings.back());
+    }
+    const double length = 1e-3 * (std::abs(left) + highest);
+    EXPECT_NEAR(highest, option("height"), 1e-3);
+    EXPECT_NEAR(area, area_below(ground, left), 5.0 * length);
+    for (std::size_t i = 0; i < rings.size(); ++i)
+        for (std::size_t k = i + 1; k < rings.size(); ++k)
+            EXPECT_LT(scene::overlap_area(rings[i], rings[k]), length);
+}
+
+/// As it is written by `breach new` and read by every phase.
+std::vector<fault::Fault> faults_of(const Made& made, const std::filesystem::path& folder) {
+    if (!made.motion.empty()) std::ofstream(folder / "motion.csv") << made.motion;
+    return check::checked_text(as_text(made.scene), "scene.json", folder, {}).faults;
+}
+
+std::string listed(const std::vector<fault::Fault>& faults) {
+    std::string text;
+    for (const fault::Fault& each : faults)
+        text += each.pointer + " " + each.cause + ": " + each.remedy + "\n";
+    return text;
+}
+
+TEST(Templates, DefaultsGiveSoundScenesAtRestAndShaken) {
+    const test::Folder folder;
+    for (const Template& each : catalogue()) {
+        for (const bool shaken : {false, true}) {
+            const Made made = make(each.name, {{"with_fem", shaken}});
+            EXPECT_EQ(made.motion.empty(), !shaken);
+            EXPECT_EQ(listed(faults_of(made, folder.path())), "") << each.name;
+            hold_section(each.name, made);
+        }
+    }
+}
+
+TEST(Templates, SayWhatIsAssumed) {
+    const Made made = make("upstream_dam", {{"name", "ours"}});
+    EXPECT_EQ(made.scene.at("name"), "ours");
+    EXPECT_EQ(made.study.at("scene"), "scene.json");
+    for (const auto& [name, material] : made.scene.at("materials").items())
+        EXPECT_NE(material.at("notes").dump().find("assumed"), std::string::npos) << name;
+}
+
+TEST(Templates, ALayerHasTheResidualStrengthOfItsStress) {
+    const json scene = make("slope", {{"water_depth", 0}, {"residual_ratio", 0.1}}).scene;
+    const double first = scene.at("/materials/soil_1/law/c_kPa"_json_pointer);
+    // 1.67 m of soil of 1850 kg/m3 below water and, towards the face, under what lies above the line.
+    EXPECT_GT(first, 0.1 * 0.5 * 1.667 * 850 * 9.81e-3);
+    EXPECT_LT(first, 0.1 * 60.0);
+}
+
+/// Options drawn at random, most from around their defaults and some from their whole range.
+json drawn(const Template& of, std::mt19937& random) {
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    json options = json::object();
+    for (const Option& each : of.options) {
+        if (share(random) < 0.5 || each.name == "with_fem") continue;
+        double value = each.least + share(random) * (each.most - each.least);
+        if (share(random) < 0.8) value = each.value * std::exp(1.2 * (share(random) - 0.5));
+        value = std::clamp(value, each.least, each.most);
+        if (each.kind == Kind::yes_or_no)
+            options[each.name] = share(random) < 0.5;
+        else if (each.kind == Kind::whole)
+            options[each.name] = static_cast<int>(value);
+        else
+            options[each.name] = value;
+    }
+    return options;
+}
+
+TEST(Templates, AnyOptionsGiveASoundSceneOrARefusalThatNamesThem) {
+    const test::Folder folder;
+    std::mt19937 random(19);
+    for (const Template& each : catalogue()) {
+        int sound = 0, refused = 0;
+        for (int k = 0; k < 40; ++k) {
+            const json options = drawn(each, random);
+            SCOPED_TRACE(each.name + " " + options.dump());
+            try {
+                const Made made = make(each.name, options);
+                EXPECT_EQ(listed(faults_of(made, folder.path())), "");
+                hold_section(each.name, made);
+                ++sound;
+            } catch (const fault::BadInput& refusal) {
+                ++refused;
+                for (const fault::Fault& fault : refusal.faults()) {
+                    const std::string name = fault.pointer.empty() ? "" : fault.pointer.substr(1);
+                    EXPECT_NE(std::ranges::find(each.options, name, &Option::name),
+                              each.options.end())
+                        << listed(refusal.faults());
+                    EXPECT_FALSE(fault.cause.empty() || fault.remedy.empty());
+                }
+            }
+        }
+        EXPECT_GT(sound, 15) << each.name << ": " << refused << " refused";
+    }
+}
+
+TEST(Templates, CombinationsThatCloseNothingNameTheOptionToChange) {
+    const std::vector<std::tuple<std::string, json, std::string>> cases{
+        {"upstream_dam", {{"height", 20}, {"starter_height", 25}}, "/starter_height"},
+        {"upstream_dam", {{"bench_width", 12}}, "/bench_width"},
+        {"upstream_dam", {{"freeboard", 4}}, "/freeboard"},
+        {"upstream_dam", {{"beach_slope", 0.1}, {"beach_length", 400}}, "/beach_slope"},
+        {"downstream_dam", {{"beach_slope", 0.1}, {"pond_length", 400}}, "/beach_slope"},
+        {"downstream_dam", {{"freeboard", 20}}, "/freeboard"},
+        {"slope", {{"water_depth", 12}}, "/water_depth"},
+        {"heap", {{"water_height", 31}}, "/water_height"},
+        {"heap", {{"with_fem", true}, {"foundation_depth", 0}}, "/foundation_depth"},
+        {"slope", {{"residual_ratio", 0.4}}, "/residual_ratio"},
+        {"upstream_dam", {{"cell_size", 4}}, "/cell_size"},
+    };
+    for (const auto& [name, options, pointer] : cases) {
+        try {
+            make(name, options);
+            FAIL() << name << " " << options.dump() << " closes nothing";
+        } catch (const fault::BadInput& refusal) {
+            EXPECT_EQ(refusal.faults().front().pointer, pointer) << listed(refusal.faults());
+            EXPECT_FALSE(refusal.faults().front().remedy.empty());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace breach::templates
