@@ -252,8 +252,8 @@ std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
 double least_distance(const Vec2& place, const Polygon& ring) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < ring.size(); ++i)
-        least = std::min(
-            least, scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
+        least = std::min(least,
+                         scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
     return least;
 }
 
@@ -314,7 +314,8 @@ Edge edge_of(std::size_t a, std::size_t b) { return {std::min(a, b), std::max(a,
 std::vector<Edge> edges_of(const Snapped& snapped, std::size_t chain, bool closed) {
     const auto& along = snapped.chains[chain];
     std::set<Edge> edges;
-    for (std::size_t i = 0; i + 1 < along.size(); ++i) edges.insert(edge_of(along[i], along[i + 1]));
+    for (std::size_t i = 0; i + 1 < along.size(); ++i)
+        edges.insert(edge_of(along[i], along[i + 1]));
     if (closed && along.size() > 2) edges.insert(edge_of(along.back(), along.front()));
     return {edges.begin(), edges.end()};
 }

@@ -8,7 +8,8 @@ namespace breach::importing {
 
 namespace {
 
-constexpr const char* shape = "write a header region,x,y (or x,y for one line), then one vertex a row";
+constexpr const char* shape =
+    "write a header region,x,y (or x,y for one line), then one vertex a row";
 
 std::vector<std::string> fields_of(std::string_view row, char separator) {
     std::vector<std::string> fields;
@@ -16,8 +17,10 @@ std::vector<std::string> fields_of(std::string_view row, char separator) {
     bool quoted = false;
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (row[i] == '"') {
-            if (quoted && i + 1 < row.size() && row[i + 1] == '"') field += row[++i];
-            else quoted = !quoted;
+            if (quoted && i + 1 < row.size() && row[i + 1] == '"')
+                field += row[++i];
+            else
+                quoted = !quoted;
         } else if (row[i] == separator && !quoted) {
             fields.emplace_back(trimmed(field));
             field.clear();

@@ -121,9 +121,8 @@ void cut_region(Healed& healed, std::size_t target, const LayerWish& wish,
     auto [fit, shares] = cut(healed.soils, target, wish, line, tolerance);
     if (!fit.settled) {
         healed.faults.push_back({"layers",
-                                 "the layers of " + whole.name + " at " +
-                                     text(whole.ring.front()) + " do not fit within " +
-                                     metres(tolerance),
+                                 "the layers of " + whole.name + " at " + text(whole.ring.front()) +
+                                     " do not fit within " + metres(tolerance),
                                  "give a smaller tolerance, or other depths"});
         return;
     }
@@ -167,8 +166,7 @@ std::optional<LayerWish> layer_wish_from(const std::string& entry, std::vector<F
     const std::size_t split = entry.rfind('=');
     LayerWish wish;
     bool sound = split != std::string::npos && split > 0;
-    std::string_view rest =
-        sound ? std::string_view(entry).substr(split + 1) : std::string_view();
+    std::string_view rest = sound ? std::string_view(entry).substr(split + 1) : std::string_view();
     while (sound) {
         const std::size_t end = rest.find(',');
         const auto depth = number_in(rest.substr(0, end));
@@ -199,8 +197,8 @@ Healed with_layers(std::vector<Soil> soils, const LayerWish& wish, const std::ve
             meant.insert(each.name);
     }
     if (meant.empty())
-        healed.faults.push_back({"layers", "there is no region \"" + wish.region + "\"",
-                                 "the regions are " + all});
+        healed.faults.push_back(
+            {"layers", "there is no region \"" + wish.region + "\"", "the regions are " + all});
     for (const std::string& name : meant) {
         const auto at = std::ranges::find(healed.soils, name, &Soil::name);
         cut_region(healed, static_cast<std::size_t>(at - healed.soils.begin()), wish, line,

@@ -62,8 +62,8 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
 
 json as_json(const Vec2& place) { return {rounded(place.x()), rounded(place.y())}; }
 
-Document document_of(const std::string& name, const json& materials,
-                     const std::vector<Soil>& soils, const Lines& lines) {
+Document document_of(const std::string& name, const json& materials, const std::vector<Soil>& soils,
+                     const Lines& lines) {
     Document document;
     document.guessed = json::array();
     const auto guess = [&](const std::string& pointer, const json& value, const std::string& from) {

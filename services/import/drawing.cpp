@@ -54,6 +54,10 @@ std::string text(const Vec2& place) {
 
 std::string metres(double length) { return digits("%.3g", length) + " m"; }
 
+std::string square_metres(double area) {
+    return digits(std::abs(area) < 1.0 ? "%.2g" : "%.6g", area) + " m2";
+}
+
 std::string as_utf8(std::string_view bytes) {
     std::string result;
     for (std::size_t at = 0; at < bytes.size();) {

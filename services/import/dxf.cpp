@@ -12,13 +12,21 @@ namespace breach::importing {
 
 namespace {
 
-constexpr double flatten_meanwhile = 0.05;  // m: arcs that are refused, for the drawing of the faults
+constexpr double flatten_meanwhile =
+    0.05;  // m: arcs that are refused, for the drawing of the faults
 constexpr std::array<std::string_view, 6> shapes{"LWPOLYLINE", "POLYLINE", "LINE",
                                                  "ARC",        "CIRCLE",   "INSERT"};
-constexpr std::array<std::string_view, 22> writing{
-    "TEXT",    "MTEXT",    "DIMENSION", "HATCH",  "POINT",       "LEADER",      "MLEADER",  "MULTILEADER",
-    "ATTDEF",  "ATTRIB",   "VIEWPORT",  "IMAGE",  "WIPEOUT",     "SOLID",       "TRACE",    "ACAD_TABLE",
-    "SEQEND",  "VERTEX",   "TOLERANCE", "SHAPE",  "OLE2FRAME",   "ACAD_PROXY_ENTITY"};
+constexpr std::array<std::string_view, 22> writing{"TEXT",      "MTEXT",
+                                                   "DIMENSION", "HATCH",
+                                                   "POINT",     "LEADER",
+                                                   "MLEADER",   "MULTILEADER",
+                                                   "ATTDEF",    "ATTRIB",
+                                                   "VIEWPORT",  "IMAGE",
+                                                   "WIPEOUT",   "SOLID",
+                                                   "TRACE",     "ACAD_TABLE",
+                                                   "SEQEND",    "VERTEX",
+                                                   "TOLERANCE", "SHAPE",
+                                                   "OLE2FRAME", "ACAD_PROXY_ENTITY"};
 
 template <class Words>
 bool is_one_of(std::string_view word, const Words& words) {
@@ -113,9 +121,9 @@ class Reader {
             if (each.code == 2) name = as_utf8(each.value);
             if (each.code == 62) hidden |= number_in(each.value).value_or(0.0) < 0.0;
             if (each.code == 70)
-                hidden |= (static_cast<long>(std::clamp(number_in(each.value).value_or(0.0), 0.0,
-                                                        1e6)) &
-                           1) != 0;
+                hidden |=
+                    (static_cast<long>(std::clamp(number_in(each.value).value_or(0.0), 0.0, 1e6)) &
+                     1) != 0;
         }
         if (hidden) hidden_.insert(lower(name));
     }
@@ -251,10 +259,10 @@ class Reader {
         if (record.type == "LWPOLYLINE") {
             take_light_polyline(record);
         } else if (record.type == "LINE") {
-            corners_ = {{{value_of(record, 10, 0.0), value_of(record, 20, 0.0)},
-                         value_of(record, 30, 0.0)},
-                        {{value_of(record, 11, 0.0), value_of(record, 21, 0.0)},
-                         value_of(record, 31, 0.0)}};
+            corners_ = {
+                {{value_of(record, 10, 0.0), value_of(record, 20, 0.0)}, value_of(record, 30, 0.0)},
+                {{value_of(record, 11, 0.0), value_of(record, 21, 0.0)},
+                 value_of(record, 31, 0.0)}};
         } else {
             take_arc(record);
         }

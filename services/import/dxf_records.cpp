@@ -9,7 +9,8 @@ namespace breach::importing {
 
 namespace {
 
-constexpr const char* again = "export the drawing again, as DXF in text form (R12 or 2000 and later)";
+constexpr const char* again =
+    "export the drawing again, as DXF in text form (R12 or 2000 and later)";
 constexpr std::size_t most_groups = 1'000'000;  // of one record
 constexpr int largest_code = 1071;
 
@@ -78,9 +79,10 @@ bool Records::next(Record& record) {
             if (!read(ahead_)) return false;
         } while (ahead_.code == 999);  // comments
         if (ahead_.code != 0)
-            return stop(ahead_.line - 1, "begins with group code " + std::to_string(ahead_.code) +
-                                             " where a section begins",
-                        again);
+            return stop(
+                ahead_.line - 1,
+                "begins with group code " + std::to_string(ahead_.code) + " where a section begins",
+                again);
     }
     record.type = ahead_.value;
     record.line = ahead_.line;

@@ -114,6 +114,25 @@ bool refused(const Soil& soil, double tolerance, std::vector<Fault>& faults) {
 
 // ---------------------------------------------------------------- several
 
+/// The section ends at two verticals: vertices beside them come to them, because slices and walls would
+/// find air between corners that are not quite above each other.
+void straighten_ends(std::vector<Soil>& soils, double tolerance, std::vector<Change>& changes) {
+    double left = INFINITY, right = -INFINITY;
+    for (const Soil& soil : soils)
+        for (const Vec2& each : soil.ring) {
+            left = std::min(left, each.x());
+            right = std::max(right, each.x());
+        }
+    for (Soil& soil : soils)
+        for (Vec2& each : soil.ring)
+            for (const double end : {left, right}) {
+                const double off = std::abs(each.x() - end);
+                if (off == 0.0 || off > tolerance) continue;
+                each.x() = end;
+                changes.push_back({"end", {soil.name}, each, off});
+            }
+}
+
 void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
                    std::vector<Change>& changes) {
     std::set<std::tuple<std::size_t, std::size_t, double, double>> told;
@@ -123,8 +142,7 @@ void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
         const double size = (each.at - each.was).norm();
         const double extent = each.at.cwiseAbs().maxCoeff() + 1.0;
         if (size <= 1e-12 * extent) {
-            if (each.on_edge)
-                changes.push_back({"junction", {own.name, other.name}, each.at, 0.0});
+            if (each.on_edge) changes.push_back({"junction", {own.name, other.name}, each.at, 0.0});
             continue;
         }
         // A vertex stood in the other's soil, or the edge's owner reached over the vertex.
@@ -219,16 +237,16 @@ Shares shared_out(const Snapped& snapped, const std::vector<Soil>& soils, double
         const Origin& origin =
             soils[static_cast<std::size_t>(names.empty() ? 0 : names.back())].origin;
         const std::string size = " at " + text(face.inside) + ", " + metres(face.width) +
-                                 " wide, " + metres(face.area) + "2";
+                                 " wide, " + square_metres(face.area);
         result.faults.push_back(
             {at_line(origin.line),
              gap ? "a gap between " + list_of(names, soils) + size
                  : list_of(names, soils) + " overlap" + size,
-             gap ? "draw the soil that lies there, or let its neighbours share their border; a "
-                   "tolerance of " +
-                       metres(face.width) + " would close it"
-                 : "let one of them end at the other; a tolerance of " + metres(face.width) +
-                       " would mend it"});
+             (gap ? "draw the soil that lies there, or let its neighbours share their border"
+                  : "let one of them end at the other") +
+                 std::string(face.width <= 4.0 * tolerance
+                                 ? "; a tolerance of " + metres(1.1 * face.width) + " heals it"
+                                 : "")});
     }
     return shares;
 }
@@ -273,8 +291,7 @@ void give_slivers_away(Shares& shares, const std::vector<Soil>& soils, double to
                 longest_of(borders(shares, {groups[g].begin(), groups[g].end()}), {});
             for (const std::size_t f : groups[g]) shares.owners[f] = winner;
             Change change{"sliver", {soils[s].name}, shares.faces[widest].inside, width(widest)};
-            if (winner >= 0)
-                change.regions.push_back(soils[static_cast<std::size_t>(winner)].name);
+            if (winner >= 0) change.regions.push_back(soils[static_cast<std::size_t>(winner)].name);
             changes.push_back(std::move(change));
         }
     }
@@ -305,6 +322,7 @@ Healed healed(std::vector<Soil> soils, double tolerance) {
         clean(each, tolerance, result.changes);
         if (!refused(each, tolerance, result.faults)) sound.push_back(std::move(each));
     }
+    straighten_ends(sound, tolerance, result.changes);
     std::vector<Chain> chains;
     for (const Soil& each : sound) chains.push_back({each.ring, true});
     const Snapped fit = snapped(chains, tolerance);

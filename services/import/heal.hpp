@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "services/import/drawing.hpp"
 #include "services/import/arrangement.hpp"
+#include "services/import/drawing.hpp"
 
 namespace breach::importing {
 
@@ -20,7 +20,7 @@ struct Soil {
 
 /// One thing that healing did.
 struct Change {
-    std::string kind;  ///< gap, overlap, junction, sliver, short_side, spike, orientation
+    std::string kind;  ///< gap, overlap, junction, sliver, short_side, spike, orientation, end
     std::vector<std::string> regions;
     Vec2 at;
     double size;  ///< how wide the gap or overlap was, how far something moved [m]

@@ -69,15 +69,15 @@ class Import {
           map_(wish.map, names_in(materials_), result_.faults) {}
 
     Imported result() {
-        result_.report = {{"unit", wish_.unit},         {"tolerance", wish_.tolerance},
-                          {"healed", json::array()},    {"areas", json::array()},
-                          {"guessed", json::array()},   {"remarks", json::array()}};
+        result_.report = {{"unit", wish_.unit},       {"tolerance", wish_.tolerance},
+                          {"healed", json::array()},  {"areas", json::array()},
+                          {"guessed", json::array()}, {"remarks", json::array()}};
         if (check_wish() && read_drawing()) {
             sort_out();
-            for (auto& [role, sent] : std::map<Role, const std::optional<Sent>*>{
-                     {Role::phreatic, &wish_.phreatic},
-                     {Role::terrain, &wish_.terrain},
-                     {Role::ground, &wish_.ground}})
+            for (auto& [role, sent] :
+                 std::map<Role, const std::optional<Sent>*>{{Role::phreatic, &wish_.phreatic},
+                                                            {Role::terrain, &wish_.terrain},
+                                                            {Role::ground, &wish_.ground}})
                 if (*sent) read_line(**sent, role);
             if (has_sound_size()) fit();
         }
@@ -139,8 +139,8 @@ class Import {
         for (const auto& [layer, found] : drawing_.unknown)
             refuse(at_line(found.origin.line),
                    "layer " + layer + " has no material: " + std::to_string(found.entities) +
-                       " entities, the first (" + found.origin.entity + ") at " +
-                       text(found.first),
+                       (found.entities == 1 ? " entity, " : " entities, the first one ") +
+                       found.origin.entity + " at " + text(found.first),
                    "map " + layer + "=MATERIAL, or " + layer +
                        "=phreatic, terrain, ground or none (left out)");
         for (const std::string& each : map_.unused(drawing_.layers))
@@ -234,8 +234,7 @@ class Import {
         if (line.front().x() > line.back().x()) std::ranges::reverse(line);
         for (std::size_t i = 1; i < line.size(); ++i)
             if (line[i].x() <= line[i - 1].x())
-                refuse(place(pieces.front()),
-                       "the " + word + " runs back at " + text(line[i]),
+                refuse(place(pieces.front()), "the " + word + " runs back at " + text(line[i]),
                        "a line has one level at every x: draw it from left to right");
         if (!line_of(role).empty())
             refuse(place(pieces.front()),
@@ -247,8 +246,7 @@ class Import {
     void read_line(const Sent& sent, Role role) {
         if (const auto faults = form_faults(sent.bytes); !faults.empty()) {
             for (const Fault& each : faults)
-                refuse(sent.name + " " + each.pointer, each.cause,
-                       "give a text with columns x,y");
+                refuse(sent.name + " " + each.pointer, each.cause, "give a text with columns x,y");
             return;
         }
         const std::string layer = role == Role::phreatic  ? "phreatic"
@@ -256,8 +254,8 @@ class Import {
                                                           : "ground";
         std::vector<Fault> none;
         const LayerMap own({layer + "=" + layer}, {}, none);
-        Drawing read = read_csv(sent.bytes, own, unit_named(wish_.unit).value_or(Unit{"m", 1.0}),
-                                layer);
+        Drawing read =
+            read_csv(sent.bytes, own, unit_named(wish_.unit).value_or(Unit{"m", 1.0}), layer);
         for (Fault& each : read.faults) each.pointer = sent.name + " " + each.pointer;
         const bool sound = read.faults.empty();
         take(read);
@@ -301,10 +299,10 @@ class Import {
         for (const LayerWish& each : layers_) {
             if (!result_.faults.empty()) return;
             if (lines_.phreatic.empty())
-                return refuse("layers",
-                              "there is no phreatic line below which " + each.region +
-                                  " has depths",
-                              "draw it on a layer PHREATIC, or give it as a file");
+                return refuse(
+                    "layers",
+                    "there is no phreatic line below which " + each.region + " has depths",
+                    "draw it on a layer PHREATIC, or give it as a file");
             healed = with_layers(std::move(healed.soils), each, lines_.phreatic, wish_.tolerance);
             tell(healed);
         }
@@ -473,9 +471,9 @@ std::vector<std::string> lines_of(const json& report, std::size_t most) {
         lines.push_back("  and " + std::to_string(healed.size() - most) + " more");
     for (const json& each : report.at("areas")) {
         const double drawn = each.at("drawn"), imported = each.at("imported");
-        std::string change = metres(imported - drawn) + "2";
-        lines.push_back("area of " + each.at("region").get<std::string>() + ": " + metres(drawn) +
-                        "2 as drawn, changed by " + change);
+        lines.push_back("area of " + each.at("region").get<std::string>() + ": " +
+                        square_metres(drawn) + " as drawn, changed by " +
+                        square_metres(imported - drawn));
     }
     for (const json& each : report.at("guessed"))
         lines.push_back("guessed: " + each.at("pointer").get<std::string>() + " " +

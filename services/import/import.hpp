@@ -21,22 +21,23 @@ struct Sent {
 };
 
 struct Wish {
-    Sent drawing;             ///< DXF, or CSV with region, x, y
-    nlohmann::json materials;  ///< a scene's /materials, or a document that has them
-    std::vector<std::string> map = {};     ///< "LAYER=material", "LAYER=phreatic|terrain|ground|none"
-    std::vector<std::string> layers = {};  ///< "REGION=5,10,15": by depth below the phreatic line [m]
+    Sent drawing;                       ///< DXF, or CSV with region, x, y
+    nlohmann::json materials;           ///< a scene's /materials, or a document that has them
+    std::vector<std::string> map = {};  ///< "LAYER=material", "LAYER=phreatic|terrain|ground|none"
+    std::vector<std::string> layers =
+        {};  ///< "REGION=5,10,15": by depth below the phreatic line [m]
     std::optional<Sent> phreatic = {}, terrain = {}, ground = {};  ///< CSV with x, y
-    std::string unit = "";              ///< empty: what the drawing says, metres for CSV
-    double tolerance = 0.05;            ///< nearer is meant to touch [m]
+    std::string unit = "";               ///< empty: what the drawing says, metres for CSV
+    double tolerance = 0.05;             ///< nearer is meant to touch [m]
     std::optional<double> flatten = {};  ///< arcs become chords that are off by so much [m]
-    std::string name = "";              ///< of the scene; empty: of the file
+    std::string name = "";               ///< of the scene; empty: of the file
 };
 
 struct Imported {
-    nlohmann::json scene;   ///< null when there are faults
-    nlohmann::json report;  ///< unit, tolerance, healed, areas, guessed, remarks
+    nlohmann::json scene;              ///< null when there are faults
+    nlohmann::json report;             ///< unit, tolerance, healed, areas, guessed, remarks
     std::vector<fault::Fault> faults;  ///< pointers: "line 12", an option's name, or into the scene
-    scene::Scene sketch;               ///< to be drawn: the scene, or the outlines as they were sent
+    scene::Scene sketch;  ///< to be drawn: the scene, or the outlines as they were sent
 };
 
 /// Never throws for what was sent.

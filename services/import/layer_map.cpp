@@ -36,8 +36,8 @@ LayerMap::LayerMap(const std::vector<std::string>& entries, const std::set<std::
         } else {
             std::string all;
             for (const std::string& name : materials) all += (all.empty() ? "" : ", ") + name;
-            faults.push_back({"map", "\"" + as_utf8(each) + "\": there is no material \"" + word +
-                                         "\"",
+            faults.push_back({"map",
+                              "\"" + as_utf8(each) + "\": there is no material \"" + word + "\"",
                               "the materials are " + (all.empty() ? "none" : all)});
             told_[layer] = {Role::none, "", true};  // told once is enough
         }
