@@ -12,9 +12,9 @@
 namespace breach::importing {
 
 struct DxfWish {
-    std::optional<Unit> unit;  ///< instead of the file's
-    std::optional<double>
-        flatten;  ///< arcs become chords that are off by so much [m]; none: refused
+    std::optional<Unit> unit = {};  ///< instead of the file's
+    /// Arcs become chords that are off by so much [m]; none: they are refused.
+    std::optional<double> flatten = {};
 };
 
 /// Group codes: Autodesk, DXF Reference (2012), ENTITIES section. `text` as form_faults lets it pass.

@@ -25,37 +25,48 @@ double spike_width(const Vec2& before, const Vec2& tip, const Vec2& after) {
     return width <= 1e-3 * shorter ? width : -1.0;
 }
 
-void clean(Soil& soil, double tolerance, std::vector<Change>& changes) {
-    Polygon& ring = soil.ring;
-    for (std::size_t i = 0; i < ring.size() && ring.size() > 1;) {
-        const std::size_t next = (i + 1) % ring.size();
-        const double side = (ring[next] - ring[i]).norm();
+/// Vertices within the tolerance of the one before them are left out.
+void drop_short_sides(Soil& soil, double tolerance, std::vector<Change>& changes) {
+    Polygon kept;
+    for (const Vec2& each : soil.ring) {
+        const double side = kept.empty() ? INFINITY : (each - kept.back()).norm();
         if (side > tolerance) {
-            ++i;
-            continue;
+            kept.push_back(each);
+        } else {
+            changes.push_back({"short_side", {soil.name}, kept.back(), side});
         }
-        changes.push_back({"short_side", {soil.name}, ring[i], side});
-        if (next == 0) {
-            ring.pop_back();  // the first vertex stays
-            break;
-        }
-        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(next));
     }
+    while (kept.size() > 1 && (kept.back() - kept.front()).norm() <= tolerance) {
+        changes.push_back(
+            {"short_side", {soil.name}, kept.front(), (kept.back() - kept.front()).norm()});
+        kept.pop_back();
+    }
+    soil.ring = std::move(kept);
+}
+
+void drop_spikes(Soil& soil, double tolerance, std::vector<Change>& changes) {
+    Polygon& ring = soil.ring;
     for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
-        const std::size_t n = ring.size();
-        const double width = spike_width(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+        const std::size_t n = ring.size(), before = (i + n - 1) % n, after = (i + 1) % n;
+        const double width = spike_width(ring[before], ring[i], ring[after]);
         if (width < 0.0 || width > tolerance) {
             ++i;
             continue;
         }
         changes.push_back({"spike", {soil.name}, ring[i], width});
+        const bool same = (ring[before] - ring[after]).norm() <= tolerance;
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
-        i = i > 0 ? i - 1 : 0;
+        if (same) ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i % ring.size()));
+        i = 0;
     }
-    if (ring.size() >= 3 && scene::signed_area(ring) < 0.0) {
-        std::ranges::reverse(ring);
-        changes.push_back({"orientation", {soil.name}, ring.front(), 0.0});
-    }
+}
+
+void clean(Soil& soil, double tolerance, std::vector<Change>& changes) {
+    drop_short_sides(soil, tolerance, changes);
+    drop_spikes(soil, tolerance, changes);
+    if (soil.ring.size() < 3 || scene::signed_area(soil.ring) >= 0.0) return;
+    std::ranges::reverse(soil.ring);
+    changes.push_back({"orientation", {soil.name}, soil.ring.front(), 0.0});
 }
 
 std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -133,6 +144,14 @@ void straighten_ends(std::vector<Soil>& soils, double tolerance, std::vector<Cha
             }
 }
 
+bool is_within(const Polygon& ring, const Vec2& place) {
+    if (!scene::contains(ring, place)) return false;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+        if (scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]) < 1e-9)
+            return false;
+    return true;
+}
+
 void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
                    std::vector<Change>& changes) {
     std::set<std::tuple<std::size_t, std::size_t, double, double>> told;
@@ -146,8 +165,8 @@ void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
             continue;
         }
         // A vertex stood in the other's soil, or the edge's owner reached over the vertex.
-        const bool over = each.on_edge ? scene::contains(own.ring, each.at)
-                                       : scene::contains(other.ring, each.was);
+        const bool over =
+            each.on_edge ? is_within(own.ring, each.at) : is_within(other.ring, each.was);
         changes.push_back({over ? "overlap" : "gap", {own.name, other.name}, each.at, size});
     }
 }

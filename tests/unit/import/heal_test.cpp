@@ -18,8 +18,13 @@ Soil soil(const std::string& name, const Line& ring) {
     return {name, name, name, ring, {1, "LWPOLYLINE"}};
 }
 
+/// Three times as large as drawn there: 360 m long, 66 m high.
 std::vector<Soil> section() {
-    return {soil("rock", test::rock), soil("clay", test::clay), soil("tailings", test::tailings)};
+    std::vector<Soil> soils{soil("rock", test::rock), soil("clay", test::clay),
+                            soil("tailings", test::tailings)};
+    for (Soil& each : soils)
+        for (Vec2& vertex : each.ring) vertex *= 3.0;
+    return soils;
 }
 
 Line jittered(Line ring, std::mt19937& random, double by) {

@@ -15,6 +15,7 @@
 namespace breach::importing {
 namespace {
 
+using mechanics::Vec2;
 using nlohmann::json;
 using test::dxf;
 using test::light;
