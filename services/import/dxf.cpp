@@ -150,9 +150,10 @@ class Reader {
     }
 
     static std::string entity_of(const Record& record) {
+        std::string entity(record.type);
         for (const Group& each : record.groups)
-            if (each.code == 5) return std::string(record.type) + " " + as_utf8(each.value);
-        return as_utf8(record.type);
+            if (each.code == 5) return as_utf8(entity + " " + std::string(each.value));
+        return as_utf8(entity);
     }
 
     double number(const Group& group) {

@@ -152,7 +152,7 @@ class Import {
     static std::string listed(const std::set<std::string>& names) {
         std::string all;
         for (const std::string& each : names) all += (all.empty() ? "" : ", ") + each;
-        return all.empty() ? "none" : all.substr(0, 400);
+        return all.empty() ? "none" : as_utf8(std::string_view(all).substr(0, 400));
     }
 
     /// Outlines by what they stand for, lines of a layer joined.
@@ -246,7 +246,8 @@ class Import {
     void read_line(const Sent& sent, Role role) {
         if (const auto faults = form_faults(sent.bytes); !faults.empty()) {
             for (const Fault& each : faults)
-                refuse(sent.name + " " + each.pointer, each.cause, "give a text with columns x,y");
+                refuse(as_utf8(sent.name) + " " + each.pointer, each.cause,
+                       "give a text with columns x,y");
             return;
         }
         const std::string layer = role == Role::phreatic  ? "phreatic"
@@ -256,10 +257,10 @@ class Import {
         const LayerMap own({layer + "=" + layer}, {}, none);
         Drawing read =
             read_csv(sent.bytes, own, unit_named(wish_.unit).value_or(Unit{"m", 1.0}), layer);
-        for (Fault& each : read.faults) each.pointer = sent.name + " " + each.pointer;
+        for (Fault& each : read.faults) each.pointer = as_utf8(sent.name) + " " + each.pointer;
         const bool sound = read.faults.empty();
         take(read);
-        if (sound) take_line(std::move(read.outlines), role, sent.name);
+        if (sound) take_line(std::move(read.outlines), role, as_utf8(sent.name));
     }
 
     bool has_sound_size() {

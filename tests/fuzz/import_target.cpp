@@ -1,8 +1,7 @@
 // A drawing from outside, DXF or CSV: a scene that every reader takes, or faults that say what is wrong
 // and can be drawn. The first byte picks the form and the options.
-#include "services/import/import.hpp"
-
 #include "core/check/check.hpp"
+#include "services/import/import.hpp"
 #include "services/report/section/section_drawing.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
