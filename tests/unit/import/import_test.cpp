@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <random>
 
@@ -171,6 +173,27 @@ TEST(Import, EveryFaultOfADrawingIsFoundAtOnceAndNothingIsMade) {
         EXPECT_FALSE(each.remedy.empty());
     }
     EXPECT_EQ(imported.sketch.section.regions.size(), 4u);
+}
+
+/// What the room's README shows.
+Imported example(const std::string& file) {
+    const std::filesystem::path folder = BREACH_ROOT "/services/import/example";
+    const auto bytes = [&](const std::string& name) {
+        std::ifstream stream(folder / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    return import_section({.drawing = {file, bytes(file)},
+                           .materials = json::parse(bytes("materials.json")),
+                           .layers = {"TAILINGS=5,10"}});
+}
+
+TEST(Import, TheExamplesAreWhatTheirPageSays) {
+    const Imported sound = example("dam.dxf");
+    EXPECT_EQ(test::told(sound.faults), "");
+    ASSERT_FALSE(sound.scene.is_null());
+    EXPECT_EQ(sound.scene.at("section").at("regions").size(), 7u);
+    EXPECT_EQ(sound.report.at("healed").size(), 12u);
+    EXPECT_EQ(example("faulty.dxf").faults.size(), 10u);
 }
 
 TEST(Import, MillimetresTakenForMetresAreRefused) {
