@@ -188,7 +188,7 @@ std::optional<LayerWish> layer_wish_from(const std::string& entry, std::vector<F
 
 Healed with_layers(std::vector<Soil> soils, const LayerWish& wish, const std::vector<Vec2>& line,
                    double tolerance) {
-    Healed healed{std::move(soils), {}, {}};
+    Healed healed{std::move(soils), {}, {}, {}};
     std::set<std::string> meant;
     std::string all;
     for (const Soil& each : healed.soils) {

@@ -104,8 +104,8 @@ Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground) {
     const double left = ground.front().x(), right = ground.back().x();
     const double inset = 0.002 * (right - left);
     const auto x = [&](double from, double by) {
-        const double at = rounded(from + way * by, right - left);
-        return std::clamp(at, left + inset, right - inset);
+        const double at = std::clamp(from + way * by, left + inset, right - inset);
+        return std::clamp(rounded(at, right - left), left, right);
     };
     const double behind = std::max(length, 2.0 * slope.fall());
     std::array<double, 2> entry{x(slope.crest.x(), -behind), x(slope.crest.x(), 0.25 * length)};

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 
 namespace breach::importing {
 
@@ -154,21 +155,35 @@ bool is_within(const Polygon& ring, const Vec2& place) {
 
 void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
                    std::vector<Change>& changes) {
+    const auto name = [&](std::size_t chain) {
+        return chain < soils.size() ? soils[chain].name : "terrain";
+    };
     std::set<std::tuple<std::size_t, std::size_t, double, double>> told;
     for (const Meeting& each : snapped.meetings) {
-        const Soil &own = soils[each.chain], &other = soils[each.with];
         if (!told.insert({each.chain, each.with, each.at.x(), each.at.y()}).second) continue;
         const double size = (each.at - each.was).norm();
         const double extent = each.at.cwiseAbs().maxCoeff() + 1.0;
-        if (size <= 1e-12 * extent) {
-            if (each.on_edge) changes.push_back({"junction", {own.name, other.name}, each.at, 0.0});
+        const bool lines = each.chain >= soils.size() || each.with >= soils.size();
+        std::string kind = "junction";
+        if (size > 1e-12 * extent) {
+            // A vertex stood in the other's soil, or the edge's owner reached over the vertex.
+            const bool over = !lines && (each.on_edge ? is_within(soils[each.chain].ring, each.at)
+                                                      : is_within(soils[each.with].ring, each.was));
+            kind = over ? "overlap" : "gap";
+        } else if (!each.on_edge || lines) {
             continue;
         }
-        // A vertex stood in the other's soil, or the edge's owner reached over the vertex.
-        const bool over =
-            each.on_edge ? is_within(own.ring, each.at) : is_within(other.ring, each.was);
-        changes.push_back({over ? "overlap" : "gap", {own.name, other.name}, each.at, size});
+        changes.push_back({kind, {name(each.chain), name(each.with)}, each.at, size});
     }
+}
+
+/// Nodes along the terrain's chain; what snapping turned back is left out.
+std::vector<Vec2> terrain_of(const Snapped& snapped, std::size_t chain) {
+    std::vector<Vec2> line;
+    for (const std::size_t node : snapped.chains[chain])
+        if (line.empty() || snapped.nodes[node].x() > line.back().x())
+            line.push_back(snapped.nodes[node]);
+    return line;
 }
 
 std::string list_of(const std::vector<int>& owners, const std::vector<Soil>& soils) {
@@ -334,7 +349,7 @@ std::vector<Polygon> pieces_of(const Shares& shares, int owner, bool& holes) {
     return pieces;
 }
 
-Healed healed(std::vector<Soil> soils, double tolerance) {
+Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>& terrain) {
     Healed result;
     std::vector<Soil> sound;
     for (Soil& each : soils) {
@@ -344,6 +359,7 @@ Healed healed(std::vector<Soil> soils, double tolerance) {
     straighten_ends(sound, tolerance, result.changes);
     std::vector<Chain> chains;
     for (const Soil& each : sound) chains.push_back({each.ring, true});
+    if (!terrain.empty()) chains.push_back({terrain, false});
     const Snapped fit = snapped(chains, tolerance);
     if (!fit.settled) {
         result.faults.push_back({"tolerance",
@@ -353,6 +369,7 @@ Healed healed(std::vector<Soil> soils, double tolerance) {
         return result;
     }
     tell_meetings(fit, sound, result.changes);
+    if (!terrain.empty()) result.terrain = terrain_of(fit, sound.size());
     Shares shares = shared_out(fit, sound, tolerance, result);
     give_slivers_away(shares, sound, tolerance, result.changes);
     for (std::size_t s = 0; s < sound.size(); ++s) {

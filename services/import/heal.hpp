@@ -27,13 +27,15 @@ struct Change {
 };
 
 struct Healed {
-    std::vector<Soil> soils;  ///< rings counter-clockwise, of common vertices
+    std::vector<Soil> soils;    ///< rings counter-clockwise, of common vertices
+    std::vector<Vec2> terrain;  ///< through the vertices that it passes
     std::vector<Change> changes;
     std::vector<Fault> faults;
 };
 
-/// `tolerance` [m]: what is nearer is meant to touch.
-Healed healed(std::vector<Soil> soils, double tolerance);
+/// `tolerance` [m]: what is nearer is meant to touch. `terrain`: a line from left to right that soil may
+/// lie on; empty: none.
+Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>& terrain = {});
 
 /// Faces with the soil that each belongs to: what healing and cutting into layers end with.
 struct Shares {

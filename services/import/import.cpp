@@ -292,11 +292,12 @@ class Import {
 
     void fit() {
         drawn_ = soils_;
-        Healed healed = importing::healed(soils_, wish_.tolerance);
+        Healed healed = importing::healed(soils_, wish_.tolerance, lines_.terrain);
         std::erase_if(healed.faults, [&](const Fault& each) {  // open ones are told already
             return each.cause.ends_with("encloses no area") && is_told(each.pointer);
         });
         tell(healed);
+        if (!healed.terrain.empty()) lines_.terrain = healed.terrain;
         for (const LayerWish& each : layers_) {
             if (!result_.faults.empty()) return;
             if (lines_.phreatic.empty())

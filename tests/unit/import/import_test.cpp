@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/check/check.hpp"
+#include "core/geometry/polyline.hpp"
 #include "drawings.hpp"
 #include "fem_solver/mesh/mesh.hpp"
 #include "tests/folder.hpp"
@@ -215,6 +216,14 @@ TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
     const Imported imported = import_section(wish);
     ASSERT_EQ(test::told(imported.faults), "");
     EXPECT_EQ(imported.scene.at("mpm").at("runout").at("toe"), json::parse("[80.0,0.0]"));
+    // A centimetre above the base of the section: the soil lies on it all the same.
+    wish.terrain->bytes = "x,y\n0,0\n50,0.01\n80,-0.01\n300,-6\n";
+    const Imported healed = import_section(wish);
+    ASSERT_EQ(test::told(healed.faults), "");
+    const scene::Scene scene = scene::parse_scene(healed.scene.dump(), "scene");
+    for (const scene::Region& each : scene.section.regions)
+        for (const Vec2& vertex : each.polygon)
+            EXPECT_GE(vertex.y(), geometry::level_at(scene.mpm->terrain, vertex.x()) - 1e-9);
     wish.terrain->bytes = "x,y\n0,3\n300,-6\n";
     const Imported cut = import_section(wish);
     EXPECT_NE(test::told(cut.faults).find("/mpm/terrain: passes through region"), std::string::npos)
