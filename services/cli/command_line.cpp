@@ -13,6 +13,7 @@
 #include "services/cli/completion.hpp"
 #include "services/cli/draw.hpp"
 #include "services/cli/export_run.hpp"
+#include "services/cli/import.hpp"
 #include "services/cli/logs.hpp"
 #include "services/cli/new_scene.hpp"
 #include "services/cli/stored.hpp"
@@ -53,6 +54,7 @@ struct Arguments {
     std::filesystem::path scene;
     DrawWish draw;
     NewWish make;
+    ImportWish import;
 };
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
@@ -96,6 +98,7 @@ class CommandLine {
         add_file_commands();
         add_templates();
         add_drawing();
+        add_import();
         add_storage_commands();
         add_completion();
     }
@@ -380,6 +383,41 @@ class CommandLine {
                          "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         draw_->add_flag("--mesh", a_.draw.mesh, "draw the FEM's mesh, too; made once and kept");
+    }
+
+    void add_import() {
+        ImportWish& wish = a_.import;
+        CLI::App* import_ =
+            add("import", "a section drawn as DXF or CSV becomes a scene",
+                "dam.dxf --materials materials.json --map CORE=clay --unit m --output scene.json",
+                [this](Server&, const Console& c) { return import_drawing(a_.import, c); });
+        import_->add_option("DRAWING", wish.drawing, "DXF (text form), or CSV with region,x,y")
+            ->required();
+        import_->add_option("--materials", wish.materials, "JSON with a scene's materials")
+            ->required();
+        import_->add_option("--output", wish.output, "the scene (JSON)")->required();
+        import_->add_option("--draw", wish.picture, "the section (SVG), with its faults in red");
+        const auto repeatable = [&](const char* option, std::vector<std::string>& to,
+                                    const char* what) {
+            import_->add_option(option, to, what)->allow_extra_args(false);
+        };
+        repeatable("--map", wish.map,
+                   "LAYER=material, or LAYER=phreatic, terrain, ground, none; repeatable");
+        repeatable(
+            "--layers", wish.layers,
+            "REGION=5,10,15 cuts it at these depths below the phreatic line [m]; repeatable");
+        import_->add_option("--phreatic", wish.phreatic, "phreatic line (CSV with x,y)");
+        import_->add_option("--terrain", wish.terrain, "terrain of the runout (CSV with x,y)");
+        import_->add_option("--ground", wish.ground, "ground to compare with (CSV with x,y)");
+        import_
+            ->add_option("--tolerance", wish.tolerance,
+                         "gaps and overlaps up to this are healed [m]")
+            ->capture_default_str();
+        import_->add_option("--unit", wish.unit,
+                            "of the drawing: m, mm, cm, ft, ...; DXF may say it itself");
+        import_->add_option("--flatten", wish.flatten,
+                            "arcs become chords that are off by at most this [m]");
+        import_->add_option("--name", wish.name, "of the scene; else the drawing's");
     }
 
     void add_storage_commands() {

@@ -38,8 +38,9 @@ arrows = {
     "mpm_solver": every_core_room,
     "services/templates": {"core/fault", "core/geometry", "core/motion", "core/scene", "core/words"},
     "services/estimate": {"core/materials", "core/phases", "core/scene"},
-    "services/orchestrator": {"services/estimate", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
-    "services/cli": {"services/estimate", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
+    "services/orchestrator": {"services/estimate", "services/import", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
+    "services/cli": {"services/estimate", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
+    "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
     "services/report": {"core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
@@ -52,7 +53,8 @@ floors = {
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # room -> what of it others may include: the rest is its own affair
-doors = {"services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question"]}
+doors = {"services/import": ["services/import/import"],
+         "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question"]}
 # units that are one thing in several files: a door that its own parts include
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]

@@ -257,6 +257,29 @@ class Breach(unittest.TestCase):
         self.assertEqual(other.returncode, 0, other.stderr)
         self.assertEqual(len(list((caches / "breachline/meshes").iterdir())), 2)
 
+    def test_import_makes_a_scene_that_draw_takes(self):
+        (self.here / "m.json").write_text(json.dumps({"materials": {"clay": {"density": 2000, "law": {
+            "type": "mohr_coulomb", "E_MPa": 40, "nu": 0.3, "c_kPa": 5, "phi_deg": 30}}}}))
+        drawing, scene, picture = self.here / "dam.csv", self.here / "dam.json", self.here / "dam.svg"
+        drawing.write_text("region,x,y\nclay,0,0\nclay,40,0\nclay,20,8\nclay,0,8\n\nbase,0,-3\nbase,40,-3\n"
+                           "base,40,0.02\nbase,0,0\n")
+        wishes = ["import", drawing, "--materials", self.here / "m.json", "--output", scene, "--draw", picture]
+        nowhere = "http://127.0.0.1:9"
+        refused = call(nowhere, *wishes)
+        self.assertEqual(refused.returncode, 65)
+        self.assertIn("line 7: layer base has no material", refused.stderr)
+        self.assertFalse(scene.exists())
+        self.assertIn('class="fault"', picture.read_text())
+        done = call(nowhere, *wishes, "--map", "base=clay")
+        self.assertEqual((done.returncode, done.stdout), (0, f"{scene}\n"), done.stderr)
+        self.assertIn("at (40, 0), 0.02 m: base, clay", done.stderr)
+        self.assertIn("guessed: /lem/search/entry", done.stderr)
+        self.assertNotIn('class="fault"', picture.read_text())
+        self.assertEqual(call(nowhere, "draw", scene).returncode, 0)
+        report = json.loads(call(nowhere, *wishes, "--map", "base=clay", "--json").stdout)
+        self.assertEqual(report["healed"][0]["size"], 0.02)
+        self.assertEqual(call(nowhere, *wishes[:-2], "--phreatic", self.here / "none.csv").returncode, 74)
+
     def test_draw_of_nothing_is_65_and_leaves_no_picture(self):
         for text in ("{", "[]", '{"name": "a scene"}'):
             (self.here / "scene.json").write_text(text)

@@ -131,6 +131,15 @@ class Described(unittest.TestCase):
         for body in (study([0.5]), study([0.5])["scene"]):
             self.assertTrue(post("/v1/draw", "/v1/draw", 200, body).startswith(b"<svg "))
             post("/v1/cost", "/v1/cost", 200, body)
+        section = {"drawing": "region,x,y\nclay,0,0\nclay,40,0\nclay,20,8\nclay,0,8\n", "file": "dam.csv",
+                   "materials": {"clay": {"density": 2000, "law": {"type": "mohr_coulomb", "E_MPa": 40, "nu": 0.3, "c_kPa": 5, "phi_deg": 30}}}}
+        made = json.loads(post("/v1/import", "/v1/import", 200, section))
+        self.assertEqual(made["scene"]["section"]["regions"][0]["name"], "clay")
+        post("/v1/draw", "/v1/draw", 200, made["scene"])
+        wrong = {**section, "drawing": section["drawing"] + "\nsand,0,8\nsand,9,8\nsand,9,9\n"}
+        self.assertIn("(0, 8)", post("/v1/import", "/v1/import", 422, wrong).decode())
+        self.assertIn(b'class="fault"', post("/v1/import", "/v1/import?picture=1", 200, wrong))
+        post("/v1/import", "/v1/import", 422, {**wrong, "drawing": 5, "more": 1})
         post("/v1/draw", "/v1/draw?mesh=2", 400, study([0.5]))
         post("/v1/draw", "/v1/draw", 422, {"scene": 1})
         post("/v1/cost", "/v1/cost", 422, {"scene": {}})

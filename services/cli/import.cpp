@@ -1,0 +1,75 @@
+#include "services/cli/import.hpp"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/exchange/publish.hpp"
+#include "core/scene/schema.hpp"
+#include "services/import/import.hpp"
+#include "services/report/section/section_drawing.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::uintmax_t most_bytes = 256 << 20;
+constexpr std::size_t most_lines = 12;  // of what was healed
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none))
+        throw fault::IoError(file.string() + ": is no file that can be read");
+    if (std::filesystem::file_size(file, none) > most_bytes)
+        throw fault::BadInput(file.string(), {{"", "is larger than 256 MiB",
+                                               "export the layers of the section alone"}});
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+    if (!stream) throw fault::IoError(file.string() + ": cannot be read");
+    return bytes;
+}
+
+std::optional<importing::Sent> sent(const std::filesystem::path& file) {
+    if (file.empty()) return std::nullopt;
+    return importing::Sent{file.filename().string(), bytes_of(file)};
+}
+
+}  // namespace
+
+ExitCode import_drawing(const ImportWish& wish, const Console& console) {
+    importing::Wish asked{
+        .drawing = *sent(wish.drawing),
+        .materials = scene::parse_json(bytes_of(wish.materials), wish.materials.string()),
+        .map = wish.map,
+        .layers = wish.layers,
+        .phreatic = sent(wish.phreatic),
+        .terrain = sent(wish.terrain),
+        .ground = sent(wish.ground),
+        .unit = wish.unit,
+        .tolerance = wish.tolerance,
+        .flatten = wish.flatten,
+        .name = wish.name};
+    importing::Imported imported = importing::import_section(asked);
+    const json shown =
+        imported.faults.empty()
+            ? imported.scene
+            : json{{"title", "What is wrong with " + wish.drawing.filename().string()}};
+    const report::Draft draft{{shown, {}, ""}, std::move(imported.sketch), imported.faults};
+    if (!wish.picture.empty() && report::can_be_drawn(draft))
+        exchange::publish_text(wish.picture, report::as_svg(draft, {}));
+    if (!imported.faults.empty())
+        throw fault::BadInput(wish.drawing.string(), std::move(imported.faults));
+    exchange::publish_text(wish.output, imported.scene.dump(1) + "\n");
+    if (console.style == Style::json) {
+        console.out << imported.report.dump(2) << "\n";
+        return ExitCode::done;
+    }
+    for (const std::string& each : importing::lines_of(imported.report, most_lines))
+        console.notes << each << "\n";
+    console.out << wish.output.string() << "\n";
+    return ExitCode::done;
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,32 @@
+#include "services/import/arcs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace breach::importing {
+
+std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, double sagitta) {
+    const Vec2 chord = to - from;
+    const double length = chord.norm();
+    if (length == 0.0 || bulge == 0.0) return {};
+    const double angle = 4.0 * std::atan(bulge);
+    const double radius = 0.25 * length * (bulge + 1.0 / bulge);  // signed as the bulge
+    const Vec2 left(-chord.y() / length, chord.x() / length);
+    const Vec2 centre = from + 0.5 * chord + left * (0.25 * length * (1.0 / bulge - bulge));
+    const double off = std::min(sagitta / std::abs(radius), 1.0);
+    const double step = 2.0 * std::acos(1.0 - off);
+    const double wanted = step > 0.0 ? std::ceil(std::abs(angle) / step) : 512.0;
+    const int chords = static_cast<int>(std::clamp(wanted, 2.0, 512.0));
+    std::vector<Vec2> points;
+    const Vec2 spoke = from - centre;
+    for (int i = 1; i < chords; ++i) {
+        const double turned = angle * i / chords;
+        const double c = std::cos(turned), s = std::sin(turned);
+        points.push_back(centre +
+                         Vec2(c * spoke.x() - s * spoke.y(), s * spoke.x() + c * spoke.y()));
+    }
+    return points;
+}
+
+}  // namespace breach::importing

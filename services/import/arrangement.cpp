@@ -1,0 +1,368 @@
+#include "services/import/arrangement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace breach::importing {
+
+namespace {
+
+constexpr int most_passes = 20;
+constexpr std::size_t most_nodes = 8000, most_steps = 40000;  // lines that cross everywhere
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// ---------------------------------------------------------------- snapping
+
+class Snapping {
+  public:
+    Snapping(const std::vector<Chain>& chains, double tolerance)
+        : chains_(chains), tolerance_(tolerance) {}
+
+    Snapped result() {
+        for (std::size_t c = 0; c < chains_.size(); ++c) join_vertices(c);
+        result_.settled = false;
+        for (int pass = 0; pass < most_passes && !result_.settled && !is_tangle(); ++pass) {
+            const bool bent = bend_edges();
+            result_.settled = !is_tangle() && !cross_edges() && !bent;
+        }
+        return std::move(result_);
+    }
+
+  private:
+    bool is_tangle() const {
+        std::size_t steps = 0;
+        for (const auto& each : result_.chains) steps += each.size();
+        return result_.nodes.size() > most_nodes || steps > most_steps;
+    }
+
+    std::size_t new_node(const Vec2& place, std::size_t chain) {
+        result_.nodes.push_back(place);
+        drawn_by_.push_back(chain);
+        return result_.nodes.size() - 1;
+    }
+
+    std::optional<std::size_t> node_near(const Vec2& place) const {
+        std::optional<std::size_t> nearest;
+        double least = tolerance_;
+        for (std::size_t i = 0; i < result_.nodes.size(); ++i) {
+            const double distance = (result_.nodes[i] - place).norm();
+            if (distance > least) continue;
+            least = distance;
+            nearest = i;
+        }
+        return nearest;
+    }
+
+    void join_vertices(std::size_t c) {
+        std::vector<std::size_t> along;
+        for (const Vec2& each : chains_[c].points) {
+            const auto known = node_near(each);
+            const std::size_t node = known ? *known : new_node(each, c);
+            if (!along.empty() && along.back() == node) continue;
+            along.push_back(node);
+            if (known && drawn_by_[node] != c && result_.nodes[node] != each)
+                result_.meetings.push_back({c, drawn_by_[node], result_.nodes[node], each, false});
+        }
+        while (chains_[c].closed && along.size() > 1 && along.front() == along.back())
+            along.pop_back();
+        result_.chains.push_back(std::move(along));
+    }
+
+    std::size_t edges_in(std::size_t c) const {
+        const std::size_t n = result_.chains[c].size();
+        return n < 2 ? 0 : chains_[c].closed ? n : n - 1;
+    }
+
+    struct Insertion {
+        double along;  ///< share of the edge
+        std::size_t node;
+    };
+
+    /// Nodes that an edge passes by within the tolerance are put into it.
+    bool bend_edges() {
+        bool changed = false;
+        for (std::size_t c = 0; c < result_.chains.size(); ++c) {
+            std::vector<std::vector<Insertion>> insertions(edges_in(c));
+            for (std::size_t e = 0; e < insertions.size(); ++e) insertions[e] = nodes_beside(c, e);
+            changed |= insert(c, std::move(insertions));
+        }
+        return changed;
+    }
+
+    std::vector<Insertion> nodes_beside(std::size_t c, std::size_t e) {
+        const auto& chain = result_.chains[c];
+        const std::size_t a = chain[e], b = chain[(e + 1) % chain.size()];
+        const Vec2 A = result_.nodes[a], along = result_.nodes[b] - A;
+        const double length2 = along.squaredNorm();
+        const Vec2 low = A.cwiseMin(result_.nodes[b]).array() - tolerance_;
+        const Vec2 high = A.cwiseMax(result_.nodes[b]).array() + tolerance_;
+        std::vector<Insertion> found;
+        for (std::size_t w = 0; w < result_.nodes.size(); ++w) {
+            const Vec2& W = result_.nodes[w];
+            if (w == a || w == b || (W.array() < low.array()).any() ||
+                (W.array() > high.array()).any())
+                continue;
+            const double share = (W - A).dot(along) / length2;
+            if (share <= 0.0 || share >= 1.0) continue;
+            const Vec2 foot = A + share * along;
+            if ((W - foot).norm() > tolerance_) continue;
+            found.push_back({share, w});
+            if (drawn_by_[w] != c) result_.meetings.push_back({c, drawn_by_[w], W, foot, true});
+        }
+        return found;
+    }
+
+    bool insert(std::size_t c, std::vector<std::vector<Insertion>> insertions) {
+        bool changed = false;
+        std::vector<std::size_t> along;
+        const auto& chain = result_.chains[c];
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            along.push_back(chain[i]);
+            if (i >= insertions.size()) continue;
+            std::ranges::sort(insertions[i], {}, &Insertion::along);
+            for (const Insertion& each : insertions[i]) {
+                if (along.back() == each.node) continue;
+                along.push_back(each.node);
+                changed = true;
+            }
+        }
+        result_.chains[c] = std::move(along);
+        return changed;
+    }
+
+    struct Segment {
+        std::size_t chain, edge, a, b;
+    };
+
+    bool cross_edges() {
+        std::vector<Segment> segments;
+        std::vector<std::vector<std::vector<Insertion>>> insertions(result_.chains.size());
+        for (std::size_t c = 0; c < result_.chains.size(); ++c) {
+            const auto& chain = result_.chains[c];
+            insertions[c].resize(edges_in(c));
+            for (std::size_t e = 0; e < insertions[c].size(); ++e)
+                segments.push_back({c, e, chain[e], chain[(e + 1) % chain.size()]});
+        }
+        const auto left = [&](const Segment& s) {
+            return std::min(result_.nodes[s.a].x(), result_.nodes[s.b].x());
+        };
+        std::ranges::stable_sort(segments, {}, left);
+        bool changed = false;
+        std::map<std::pair<Edge, Edge>, std::size_t> known;  // several chains share an edge
+        for (std::size_t i = 0; i < segments.size(); ++i) {
+            const Segment& s = segments[i];
+            const double right = std::max(result_.nodes[s.a].x(), result_.nodes[s.b].x());
+            for (std::size_t j = i + 1; j < segments.size() && left(segments[j]) <= right; ++j) {
+                const Segment& t = segments[j];
+                const auto place = crossing(s, t);
+                if (!place) continue;
+                const std::pair key = std::minmax(edge_of(s.a, s.b), edge_of(t.a, t.b));
+                const auto [entry, fresh] = known.try_emplace(key, 0);
+                if (fresh) {
+                    if (known.size() > most_nodes) return true;
+                    const auto near = node_near(place->at);
+                    entry->second = near ? *near : new_node(place->at, s.chain);
+                }
+                const std::size_t node = entry->second;
+                if (node != s.a && node != s.b)
+                    insertions[s.chain][s.edge].push_back({place->on_first, node});
+                if (node != t.a && node != t.b)
+                    insertions[t.chain][t.edge].push_back({place->on_second, node});
+            }
+        }
+        for (std::size_t c = 0; c < result_.chains.size(); ++c)
+            changed |= insert(c, std::move(insertions[c]));
+        return changed;
+    }
+
+    struct Crossing {
+        Vec2 at;
+        double on_first, on_second;
+    };
+
+    std::optional<Crossing> crossing(const Segment& s, const Segment& t) const {
+        if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return std::nullopt;
+        const Vec2 A = result_.nodes[s.a], C = result_.nodes[t.a];
+        const Vec2 along = result_.nodes[s.b] - A, other = result_.nodes[t.b] - C;
+        const double turn = cross(along, other);
+        if (turn == 0.0) return std::nullopt;
+        const double on_first = cross(C - A, other) / turn;
+        const double on_second = cross(C - A, along) / turn;
+        if (!(on_first > 0.0 && on_first < 1.0 && on_second > 0.0 && on_second < 1.0))
+            return std::nullopt;
+        return Crossing{A + on_first * along, on_first, on_second};
+    }
+
+    const std::vector<Chain>& chains_;
+    double tolerance_;
+    Snapped result_{};
+    std::vector<std::size_t> drawn_by_;  ///< per node
+};
+
+// ---------------------------------------------------------------- faces
+
+/// Node after v on the face to the left of u-v: the first clockwise from the way back.
+class Fan {
+  public:
+    Fan(const std::vector<Vec2>& nodes, const std::vector<Edge>& directed) : around_(nodes.size()) {
+        for (const auto& [from, to] : directed) {
+            const Vec2 way = nodes[to] - nodes[from];
+            around_[from].push_back({std::atan2(way.y(), way.x()), to});
+        }
+        for (auto& each : around_) std::ranges::sort(each);
+        nodes_ = &nodes;
+    }
+
+    std::size_t after(std::size_t u, std::size_t v) const {
+        const Vec2 back = (*nodes_)[u] - (*nodes_)[v];
+        const std::pair<double, std::size_t> way{std::atan2(back.y(), back.x()), u};
+        const auto& fan = around_[v];
+        const auto at = std::ranges::lower_bound(fan, way);
+        return at == fan.begin() ? fan.back().second : std::prev(at)->second;
+    }
+
+  private:
+    const std::vector<Vec2>* nodes_;
+    std::vector<std::vector<std::pair<double, std::size_t>>> around_;
+};
+
+/// Closed walks through directed edges, each used once.
+std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
+                                            const std::vector<Edge>& directed) {
+    const Fan fan(nodes, directed);
+    std::set<Edge> open(directed.begin(), directed.end());
+    std::vector<std::vector<std::size_t>> rings;
+    while (!open.empty()) {
+        Edge at = *open.begin();
+        std::vector<std::size_t> ring;
+        while (open.erase(at) == 1) {
+            ring.push_back(at.first);
+            at = {at.second, fan.after(at.first, at.second)};
+        }
+        rings.push_back(std::move(ring));
+    }
+    return rings;
+}
+
+double least_distance(const Vec2& place, const Polygon& ring) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < ring.size(); ++i)
+        least = std::min(least,
+                         scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
+    return least;
+}
+
+/// Levels between vertices: of the widest of them, at most 48.
+std::vector<double> levels_between(const Polygon& ring) {
+    std::vector<double> ys;
+    for (const Vec2& each : ring) ys.push_back(each.y());
+    std::ranges::sort(ys);
+    std::vector<std::pair<double, double>> bands;  // height, middle
+    for (std::size_t i = 0; i + 1 < ys.size(); ++i)
+        if (ys[i + 1] > ys[i]) bands.emplace_back(ys[i + 1] - ys[i], 0.5 * (ys[i] + ys[i + 1]));
+    std::ranges::sort(bands, std::greater<>());
+    if (bands.size() > 48) bands.resize(48);
+    std::vector<double> levels;
+    for (const auto& [height, middle] : bands) levels.push_back(middle);
+    return levels;
+}
+
+/// The middles of what a level crosses of the ring.
+std::vector<Vec2> middles_at(const Polygon& ring, double y) {
+    std::vector<double> xs;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        if ((a.y() > y) == (b.y() > y)) continue;
+        xs.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    }
+    std::ranges::sort(xs);
+    std::vector<Vec2> middles;
+    for (std::size_t i = 0; i + 1 < xs.size(); i += 2)
+        middles.emplace_back(0.5 * (xs[i] + xs[i + 1]), y);
+    return middles;
+}
+
+/// Where the largest of the tried circles stands; `others` may lie within the ring.
+void find_inside(Face& face, const Polygon& ring, const std::vector<Polygon>& others) {
+    face.width = 0.0;
+    face.inside = ring.front();
+    for (const double y : levels_between(ring))
+        for (const Vec2& place : middles_at(ring, y)) {
+            const bool taken = std::ranges::any_of(
+                others, [&](const Polygon& each) { return scene::contains(each, place); });
+            if (taken) continue;
+            const double width = 2.0 * least_distance(place, ring);
+            if (width <= face.width) continue;
+            face.width = width;
+            face.inside = place;
+        }
+}
+
+}  // namespace
+
+Snapped snapped(const std::vector<Chain>& chains, double tolerance) {
+    return Snapping(chains, tolerance).result();
+}
+
+Edge edge_of(std::size_t a, std::size_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<Edge> edges_of(const Snapped& snapped, std::size_t chain, bool closed) {
+    const auto& along = snapped.chains[chain];
+    std::set<Edge> edges;
+    for (std::size_t i = 0; i + 1 < along.size(); ++i)
+        edges.insert(edge_of(along[i], along[i + 1]));
+    if (closed && along.size() > 2) edges.insert(edge_of(along.back(), along.front()));
+    return {edges.begin(), edges.end()};
+}
+
+Polygon polygon_of(const std::vector<Vec2>& nodes, const std::vector<std::size_t>& ring) {
+    Polygon polygon;
+    for (const std::size_t each : ring) polygon.push_back(nodes[each]);
+    return polygon;
+}
+
+std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edge>& edges) {
+    std::vector<Edge> directed;
+    for (const auto& [a, b] : edges) {
+        directed.push_back({a, b});
+        directed.push_back({b, a});
+    }
+    std::vector<Face> faces;
+    std::vector<Polygon> rings;
+    for (auto& ring : walks(nodes, directed)) {
+        Polygon polygon = polygon_of(nodes, ring);
+        const double area = scene::signed_area(polygon);
+        if (ring.size() < 3 || !(area > 0.0)) continue;  // what is seen from outside
+        faces.push_back({std::move(ring), Vec2::Zero(), 0.0, area});
+        rings.push_back(std::move(polygon));
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        std::vector<Polygon> within;  // of parts that touch nothing around them
+        for (std::size_t j = 0; j < faces.size(); ++j)
+            if (j != i && faces[j].area < faces[i].area &&
+                scene::contains(rings[i], rings[j].front()) &&
+                std::ranges::find(faces[i].ring, faces[j].ring.front()) == faces[i].ring.end())
+                within.push_back(rings[j]);
+        find_inside(faces[i], rings[i], within);
+    }
+    return faces;
+}
+
+std::vector<std::vector<std::size_t>> union_of(const std::vector<Vec2>& nodes,
+                                               const std::vector<const Face*>& faces) {
+    std::set<Edge> border;
+    for (const Face* face : faces) {
+        for (std::size_t i = 0; i < face->ring.size(); ++i) {
+            const std::size_t a = face->ring[i], b = face->ring[(i + 1) % face->ring.size()];
+            if (border.erase({b, a}) == 0) border.insert({a, b});
+        }
+    }
+    return walks(nodes, {border.begin(), border.end()});
+}
+
+}  // namespace breach::importing

@@ -1,0 +1,62 @@
+// Chains of points laid over each other: near vertices become one, near edges pass through them,
+// edges that cross get a common node. What is left divides the plane into faces. Knows no soils.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/scene/polygon.hpp"
+
+namespace breach::importing {
+
+using mechanics::Vec2;
+using scene::Polygon;
+
+struct Chain {
+    std::vector<Vec2> points;
+    bool closed;
+};
+
+/// A vertex that was moved to a node, or an edge that was bent to one.
+struct Meeting {
+    std::size_t chain;  ///< whose vertex or edge
+    std::size_t with;   ///< chain that has drawn the node
+    Vec2 at;            ///< the node [m]
+    Vec2 was;           ///< the vertex, or its foot on the edge [m]
+    bool on_edge;
+};
+
+struct Snapped {
+    std::vector<Vec2> nodes;                       ///< farther than the tolerance from each other
+    std::vector<std::vector<std::size_t>> chains;  ///< nodes along each; closed: first not repeated
+    std::vector<Meeting> meetings;
+    bool settled;  ///< no edge is nearer to a foreign node than the tolerance, none cross
+};
+
+/// The vertex that was drawn first stays; others come to it when they are within `tolerance` [m].
+Snapped snapped(const std::vector<Chain>& chains, double tolerance);
+
+using Edge = std::pair<std::size_t, std::size_t>;  ///< nodes, the lower one first
+Edge edge_of(std::size_t a, std::size_t b);
+
+/// Edges of one chain, each once.
+std::vector<Edge> edges_of(const Snapped& snapped, std::size_t chain, bool closed);
+
+struct Face {
+    std::vector<std::size_t> ring;  ///< nodes, counter-clockwise; an edge into it is passed twice
+    Vec2 inside;                    ///< a place well inside
+    double width;                   ///< of the largest circle found there [m]
+    double area;                    ///< [m2]
+};
+
+/// Bounded faces; `edges` each once. Parts that nothing joins lie in each other's faces unseen.
+std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edge>& edges);
+
+/// Rings that bound the union of faces, tight at nodes where it touches itself: outer ones
+/// counter-clockwise, holes clockwise.
+std::vector<std::vector<std::size_t>> union_of(const std::vector<Vec2>& nodes,
+                                               const std::vector<const Face*>& faces);
+
+Polygon polygon_of(const std::vector<Vec2>& nodes, const std::vector<std::size_t>& ring);
+
+}  // namespace breach::importing

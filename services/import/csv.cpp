@@ -1,0 +1,172 @@
+#include "services/import/csv.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace breach::importing {
+
+namespace {
+
+constexpr const char* shape =
+    "write a header region,x,y (or x,y for one line), then one vertex a row";
+
+std::vector<std::string> fields_of(std::string_view row, char separator) {
+    std::vector<std::string> fields;
+    std::string field;
+    bool quoted = false;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        if (row[i] == '"') {
+            if (quoted && i + 1 < row.size() && row[i + 1] == '"')
+                field += row[++i];
+            else
+                quoted = !quoted;
+        } else if (row[i] == separator && !quoted) {
+            fields.emplace_back(trimmed(field));
+            field.clear();
+        } else {
+            field += row[i];
+        }
+    }
+    fields.emplace_back(trimmed(field));
+    return fields;
+}
+
+struct Columns {
+    std::optional<std::size_t> region, x, y;
+};
+
+class Reader {
+  public:
+    Reader(const LayerMap& layers, const Unit& unit, const std::string& alone)
+        : layers_(layers), unit_(unit), alone_(alone) {}
+
+    Drawing read(std::string_view text) {
+        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+        while (!text.empty() && !stopped_) {
+            const std::size_t end = text.find('\n');
+            ++line_;
+            take(trimmed(text.substr(0, end)));
+            text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        }
+        finish();
+        drawing_.unit = unit_.name;
+        if (!columns_) refuse("holds no table", shape);
+        return std::move(drawing_);
+    }
+
+  private:
+    void refuse(std::string cause, std::string remedy) {
+        drawing_.faults.push_back({at_line(line_), std::move(cause), std::move(remedy)});
+        stopped_ = drawing_.faults.size() >= 100;
+    }
+
+    void take(std::string_view row) {
+        if (row.starts_with('#')) return;
+        if (row.empty()) return finish();
+        if (!columns_) return take_header(row);
+        take_vertex(fields_of(row, separator_));
+    }
+
+    void take_header(std::string_view row) {
+        for (const char each : {'\t', ';', ','})
+            if (row.find(each) != std::string_view::npos) {
+                separator_ = each;
+                break;
+            }
+        Columns found;
+        const std::vector<std::string> names = fields_of(row, separator_);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const std::string name = lower(names[i]);
+            if (name == "region" || name == "layer") found.region = i;
+            if (name == "x") found.x = i;
+            if (name == "y" || name == "z") found.y = i;
+        }
+        columns_ = found;
+        const bool whole = found.x && found.y && (found.region || !alone_.empty());
+        if (whole) return;
+        refuse("\"" + as_utf8(row.substr(0, 40)) + "\" does not name the columns " +
+                   (alone_.empty() ? "region, x and y" : "x and y"),
+               shape);
+        stopped_ = true;
+    }
+
+    std::optional<double> number(const std::vector<std::string>& fields, std::size_t column) {
+        if (column >= fields.size()) {
+            refuse("has only " + std::to_string(fields.size()) + " columns", shape);
+            return std::nullopt;
+        }
+        std::string field = fields[column];
+        if (separator_ == ';') std::ranges::replace(field, ',', '.');
+        const auto value = number_in(field);
+        if (value && std::abs(*value) < 1e12) return *value * unit_.metres;
+        refuse("\"" + as_utf8(std::string_view(field).substr(0, 30)) + "\" is no number",
+               "write coordinates as 12.5");
+        return std::nullopt;
+    }
+
+    void take_vertex(const std::vector<std::string>& fields) {
+        std::string layer = alone_;
+        if (columns_->region && *columns_->region < fields.size())
+            layer = as_utf8(fields[*columns_->region]);
+        const auto x = number(fields, *columns_->x);
+        const auto y = x ? number(fields, *columns_->y) : std::nullopt;
+        if (!x || !y) return;
+        if (layer.empty()) return refuse("names no region", shape);
+        if (!begun_ || layer != current_.layer) {
+            finish();
+            begun_ = true;
+            current_ = {layer, {}, false, {line_, "outline"}};
+        }
+        if (points_ + 1 > most_points) {
+            refuse("more than " + std::to_string(most_points) + " points", "use fewer vertices");
+            stopped_ = true;
+            return;
+        }
+        ++points_;
+        current_.points.emplace_back(*x, *y);
+    }
+
+    void finish() {
+        if (!begun_) return;
+        begun_ = false;
+        if (drawing_.outlines.size() >= most_outlines) {
+            refuse("more than " + std::to_string(most_outlines) + " outlines", "use fewer regions");
+            stopped_ = true;
+            return;
+        }
+        drawing_.layers.insert(current_.layer);
+        const Role role = layers_.meaning_of(current_.layer).role;
+        if (role == Role::none) return;
+        if (role == Role::unknown) {
+            UnknownLayer& unknown = drawing_.unknown[current_.layer];
+            if (unknown.entities++ == 0)
+                unknown.first = current_.points.front(), unknown.origin = current_.origin;
+            return;
+        }
+        current_.closed = role == Role::soil;
+        if (current_.closed && current_.points.size() > 1 &&
+            current_.points.front() == current_.points.back())
+            current_.points.pop_back();
+        drawing_.outlines.push_back(current_);
+    }
+
+    const LayerMap& layers_;
+    const Unit& unit_;
+    const std::string& alone_;
+    Drawing drawing_;
+    std::optional<Columns> columns_;
+    char separator_ = ',';
+    std::size_t line_ = 0, points_ = 0;
+    Outline current_{};
+    bool begun_ = false, stopped_ = false;
+};
+
+}  // namespace
+
+Drawing read_csv(std::string_view text, const LayerMap& layers, const Unit& unit,
+                 const std::string& alone) {
+    return Reader(layers, unit, alone).read(text);
+}
+
+}  // namespace breach::importing

@@ -1,0 +1,17 @@
+// Outlines from comma-separated text: columns region, x, y (a polygon per region), or x, y alone.
+#pragma once
+
+#include <string_view>
+
+#include "services/import/layer_map.hpp"
+#include "services/import/numbers.hpp"
+
+namespace breach::importing {
+
+/// A header names the columns, in any order; separated by commas, semicolons (decimal commas then) or
+/// tabs; lines that begin with # are remarks. A region's outline ends with another region's name or a
+/// blank line. Rows without a region column belong to the layer `alone`. Soil is closed, lines are not.
+Drawing read_csv(std::string_view text, const LayerMap& layers, const Unit& unit,
+                 const std::string& alone = "");
+
+}  // namespace breach::importing

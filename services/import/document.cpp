@@ -1,0 +1,125 @@
+#include "services/import/document.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/polyline.hpp"
+#include "services/import/guess.hpp"
+
+namespace breach::importing {
+
+using nlohmann::json;
+
+namespace {
+
+/// A micrometre is enough, and what two regions share stays equal.
+double rounded(double value) { return std::round(1e6 * value) / 1e6; }
+
+json as_json(const std::vector<Vec2>& line) {
+    json list = json::array();
+    for (const Vec2& each : line) list.push_back(importing::as_json(each));
+    return list;
+}
+
+json section_of(const std::vector<Soil>& soils, double element_size) {
+    json regions = json::array();
+    for (const Soil& each : soils) {
+        json polygon = as_json(each.ring);
+        polygon.push_back(polygon.front());
+        regions.push_back({{"name", each.name},
+                           {"material", each.material},
+                           {"mesh", {{"type", "unstructured"}}},
+                           {"polygon", polygon}});
+    }
+    return {{"element_size", element_size}, {"regions", regions}};
+}
+
+json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
+            double cell) {
+    scene::Box box{terrain.front(), terrain.front()};
+    const auto extend = [&](const std::vector<Vec2>& line) {
+        for (const Vec2& each : line) {
+            box.low = box.low.cwiseMin(each);
+            box.high = box.high.cwiseMax(each);
+        }
+    };
+    extend(terrain);
+    for (const Soil& each : soils) extend(each.ring);
+    const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
+    const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
+    const double floor = down(box.low.y() - 2.0 * cell);
+    return {{"cell_size", cell},
+            {"domain_x", {down(box.low.x()), up(box.high.x())}},
+            {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
+            {"floor", {{"level", floor}}},
+            {"terrain", as_json(terrain)},
+            {"fill_stress", "overburden"},
+            {"duration", "until_rest"},
+            {"runout", {{"toe", importing::as_json(toe)}}}};
+}
+
+}  // namespace
+
+json as_json(const Vec2& place) { return {rounded(place.x()), rounded(place.y())}; }
+
+Document document_of(const std::string& name, const json& materials, const std::vector<Soil>& soils,
+                     const Lines& lines) {
+    Document document;
+    document.guessed = json::array();
+    const auto guess = [&](const std::string& pointer, const json& value, const std::string& from) {
+        document.guessed.push_back({{"pointer", pointer}, {"value", value}, {"from", from}});
+    };
+    const std::vector<Vec2> ground = ground_of(soils);
+    const auto slope = slope_of(ground);
+    double height = 0.0;
+    for (const Soil& each : soils) {
+        const scene::Box box = scene::bounding_box(each.ring);
+        height = std::max(height, box.high.y() - box.low.y());
+    }
+    const double size = element_size_for(slope ? slope->fall() : height);
+    guess("/section/element_size", size,
+          slope ? "a fifteenth of the slope's height" : "a fifteenth of the thickest region");
+    document.scene = {{"format", "breachline-scene/1"},
+                      {"name", name},
+                      {"materials", materials},
+                      {"section", section_of(soils, size)}};
+    const std::string from =
+        slope ? "the ground between crest " + text(slope->crest) + " and toe " + text(slope->toe)
+              : "";
+    if (slope) {
+        const Ranges ranges = ranges_of(*slope, ground);
+        document.scene["lem"]["search"] = {{"entry", ranges.entry}, {"exit", ranges.exit}};
+        guess("/lem/search/entry", ranges.entry, from);
+        guess("/lem/search/exit", ranges.exit, from);
+        if (!lines.phreatic.empty())
+            document.scene["lem"]["water"]["line"] = as_json(lines.phreatic);
+    } else {
+        document.remarks.push_back(
+            std::string("the ground has no slope to search: the scene has no /lem") +
+            (lines.phreatic.empty() ? "" : ", and the phreatic line is in none of its parts"));
+    }
+    if (!lines.terrain.empty()) {
+        const Vec2 toe = slope ? slope->toe : ground.back();
+        document.scene["mpm"] = mpm_of(soils, lines.terrain, toe, size);
+        guess("/mpm/cell_size", size, "the element size");
+        for (const char* entry : {"domain_x", "domain_y"})
+            guess(std::string("/mpm/") + entry, document.scene["mpm"][entry],
+                  "section and terrain, with two cells below and above");
+        guess("/mpm/runout/toe", document.scene["mpm"]["runout"]["toe"],
+              slope ? from : "the right end of the ground");
+    }
+    if (!lines.ground.empty()) {
+        double most = 0.0;
+        Vec2 place = Vec2::Zero();
+        for (const Vec2& each : lines.ground) {
+            if (each.x() < ground.front().x() || each.x() > ground.back().x()) continue;
+            const double off = std::abs(each.y() - geometry::level_at(ground, each.x()));
+            if (off > most) most = off, place = each;
+        }
+        document.remarks.push_back("the ground line and the top of the regions differ by at most " +
+                                   metres(most) + (most > 0.0 ? ", at " + text(place) : ""));
+    }
+    return document;
+}
+
+}  // namespace breach::importing

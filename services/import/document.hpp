@@ -1,0 +1,27 @@
+// Healed soils and lines as a scene document, with what had to be guessed.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "services/import/heal.hpp"
+
+namespace breach::importing {
+
+/// Lines of the section, from left to right; empty: not drawn.
+struct Lines {
+    std::vector<Vec2> phreatic, terrain, ground;
+};
+
+struct Document {
+    nlohmann::json scene;
+    nlohmann::json guessed;  ///< [{pointer, value, from}]
+    std::vector<std::string> remarks;
+};
+
+/// /section always; /lem where the ground has a slope; /mpm where a terrain was drawn.
+Document document_of(const std::string& name, const nlohmann::json& materials,
+                     const std::vector<Soil>& soils, const Lines& lines);
+
+nlohmann::json as_json(const Vec2& place);
+
+}  // namespace breach::importing

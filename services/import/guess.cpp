@@ -1,0 +1,125 @@
+#include "services/import/guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace breach::importing {
+
+namespace {
+
+/// Level of the highest side over the middle of [left, right], at both ends.
+std::optional<std::pair<Vec2, Vec2>> top_between(const std::vector<Soil>& soils, double left,
+                                                 double right) {
+    std::optional<std::pair<Vec2, Vec2>> top;
+    double highest = 0.0;
+    const double middle = 0.5 * (left + right);
+    for (const Soil& soil : soils) {
+        for (std::size_t i = 0; i < soil.ring.size(); ++i) {
+            Vec2 a = soil.ring[i], b = soil.ring[(i + 1) % soil.ring.size()];
+            if (a.x() > b.x()) std::swap(a, b);
+            if (!(a.x() <= left && b.x() >= right) || a.x() == b.x()) continue;
+            const auto level = [&](double x) {
+                return a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+            };
+            if (top && level(middle) <= highest) continue;
+            highest = level(middle);
+            top = {{left, level(left)}, {right, level(right)}};
+        }
+    }
+    return top;
+}
+
+Vec2 mirrored(const Vec2& place) { return {-place.x(), place.y()}; }
+
+std::vector<Vec2> mirrored(std::vector<Vec2> line) {
+    for (Vec2& each : line) each = mirrored(each);
+    std::ranges::reverse(line);
+    return line;
+}
+
+/// The last place that is nearly as high as the highest, and the first one right of it that is nearly
+/// as low as the lowest there.
+Slope falling_right(const std::vector<Vec2>& ground) {
+    const auto y = [](const Vec2& each) { return each.y(); };
+    const double highest = std::ranges::max(ground, {}, y).y();
+    const double lowest = std::ranges::min(ground, {}, y).y();
+    const double near = 0.05 * (highest - lowest);
+    std::size_t crest = 0;
+    for (std::size_t i = 0; i < ground.size(); ++i)
+        if (ground[i].y() >= highest - near) crest = i;
+    double foot = ground[crest].y();
+    for (std::size_t i = crest; i < ground.size(); ++i) foot = std::min(foot, ground[i].y());
+    std::size_t toe = crest;
+    while (ground[toe].y() > foot + near) ++toe;
+    return {ground[crest], ground[toe]};
+}
+
+/// To three digits of the section's length: a guess is not known to the millimetre.
+double rounded(double x, double length) {
+    const double step = std::pow(10.0, std::floor(std::log10(length)) - 2.0);
+    return std::round(x / step) * step;
+}
+
+}  // namespace
+
+std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
+    std::vector<double> xs;
+    for (const Soil& soil : soils)
+        for (const Vec2& each : soil.ring) xs.push_back(each.x());
+    std::ranges::sort(xs);
+    std::vector<Vec2> ground;
+    const double near = xs.empty() ? 0.0 : 1e-9 * (xs.back() - xs.front());
+    const auto add = [&](const Vec2& place) {
+        if (ground.empty() || (place - ground.back()).norm() > near) ground.push_back(place);
+    };
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+        if (xs[i + 1] - xs[i] <= near) continue;
+        const auto top = top_between(soils, xs[i], xs[i + 1]);
+        if (!top) continue;
+        add(top->first);
+        add(top->second);
+    }
+    return ground;
+}
+
+std::optional<Slope> slope_of(const std::vector<Vec2>& ground) {
+    if (ground.size() < 2) return std::nullopt;
+    const Slope right = falling_right(ground);
+    Slope left = falling_right(mirrored(ground));
+    left = {mirrored(left.crest), mirrored(left.toe)};
+    const auto steepness = [](const Slope& slope) {
+        return slope.fall() / std::max(std::abs(slope.toe.x() - slope.crest.x()), 1e-3);
+    };
+    const bool alike = std::abs(right.fall() - left.fall()) < 0.1 * right.fall();
+    const bool rightwards =
+        alike ? steepness(right) >= steepness(left) : right.fall() > left.fall();
+    const Slope slope = rightwards ? right : left;
+    if (slope.fall() < 0.01 * (ground.back().x() - ground.front().x())) return std::nullopt;
+    return slope;
+}
+
+Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground) {
+    const double length = std::abs(slope.toe.x() - slope.crest.x());
+    const double way = slope.toe.x() > slope.crest.x() ? 1.0 : -1.0;
+    const double left = ground.front().x(), right = ground.back().x();
+    const double inset = 0.002 * (right - left);
+    const auto x = [&](double from, double by) {
+        const double at = std::clamp(from + way * by, left + inset, right - inset);
+        return std::clamp(rounded(at, right - left), left, right);
+    };
+    const double behind = std::max(length, 2.0 * slope.fall());
+    std::array<double, 2> entry{x(slope.crest.x(), -behind), x(slope.crest.x(), 0.25 * length)};
+    std::array<double, 2> exit{x(slope.crest.x(), 0.5 * length), x(slope.toe.x(), slope.fall())};
+    std::ranges::sort(entry);
+    std::ranges::sort(exit);
+    return {entry, exit};
+}
+
+double element_size_for(double height) {
+    const double wanted = std::max(height, 0.01) / 15.0;
+    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+    const double share = wanted / power;
+    return power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
+}
+
+}  // namespace breach::importing

@@ -1,0 +1,33 @@
+// What a drawing does not say and a scene needs: where a slip surface is searched, how large elements
+// are, the grid of a runout. Each is a guess from the ground's line, and told as one.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "services/import/heal.hpp"
+
+namespace breach::importing {
+
+/// Upper border of the soils from left to right; pieces where nothing lies between are left out [m].
+std::vector<Vec2> ground_of(const std::vector<Soil>& soils);
+
+/// The slope with the greatest fall between a height and the foot on one side of it.
+struct Slope {
+    Vec2 crest, toe;
+    double fall() const { return crest.y() - toe.y(); }
+};
+/// None where the ground is level (a fall below a hundredth of its length).
+std::optional<Slope> slope_of(const std::vector<Vec2>& ground);
+
+struct Ranges {
+    std::array<double, 2> entry, exit;  ///< x [m]
+};
+/// Upper ends from behind the crest to a quarter of the slope, lower ends from its middle to beyond
+/// the toe.
+Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground);
+
+/// About a fifteenth of the fall, as 1, 2 or 5 times a power of ten [m].
+double element_size_for(double height);
+
+}  // namespace breach::importing

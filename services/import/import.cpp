@@ -1,0 +1,487 @@
+#include "services/import/import.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/check/check.hpp"
+#include "services/import/csv.hpp"
+#include "services/import/depth_layers.hpp"
+#include "services/import/document.hpp"
+#include "services/import/dxf.hpp"
+#include "services/import/dxf_records.hpp"
+#include "services/import/join_lines.hpp"
+
+namespace breach::importing {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double longest_section = 10'000.0, shortest_section = 1.0;  // m
+constexpr std::size_t most_faults = 200;
+
+const json& materials_in(const json& document) {
+    const bool holds = document.is_object() && document.contains("materials");
+    return holds ? document.at("materials") : document;
+}
+
+std::set<std::string> names_in(const json& materials) {
+    std::set<std::string> names;
+    if (materials.is_object())
+        for (const auto& [name, material] : materials.items()) names.insert(name);
+    return names;
+}
+
+bool is_dxf(const Sent& sent) {
+    const std::string extension = lower(std::filesystem::path(sent.name).extension().string());
+    if (extension == ".dxf" || extension == ".dwg") return true;
+    if (extension == ".csv" || extension == ".txt") return false;
+    return sent.bytes.starts_with("AutoCAD") || sent.bytes.starts_with("AC10") ||
+           sent.bytes.substr(0, 4096).find("SECTION") != std::string::npos;
+}
+
+/// Made of the letters that a name of a scene or a region may have.
+std::string as_name(const std::string& text, const std::string& otherwise) {
+    std::string name;
+    for (const char each : text) {
+        const bool fits = (each >= 'a' && each <= 'z') || (each >= 'A' && each <= 'Z') ||
+                          (each >= '0' && each <= '9') || each == '_' || each == '-';
+        if (fits || (!name.empty() && name.back() != '_')) name += fits ? each : '_';
+    }
+    name.resize(std::min<std::size_t>(name.size(), 40));
+    while (!name.empty() && name.back() == '_') name.pop_back();
+    return name.empty() ? otherwise : name;
+}
+
+std::string scene_name(const Wish& wish) {
+    const std::string stem = std::filesystem::path(wish.drawing.name).stem().string();
+    std::string name = lower(as_name(wish.name.empty() ? stem : wish.name, "section"));
+    if (name.front() == '_' || name.front() == '-') name.insert(0, "s");
+    return name;
+}
+
+class Import {
+  public:
+    explicit Import(const Wish& wish)
+        : wish_(wish),
+          materials_(materials_in(wish.materials)),
+          map_(wish.map, names_in(materials_), result_.faults) {}
+
+    Imported result() {
+        result_.report = {{"unit", wish_.unit},       {"tolerance", wish_.tolerance},
+                          {"healed", json::array()},  {"areas", json::array()},
+                          {"guessed", json::array()}, {"remarks", json::array()}};
+        if (check_wish() && read_drawing()) {
+            sort_out();
+            for (auto& [role, sent] :
+                 std::map<Role, const std::optional<Sent>*>{{Role::phreatic, &wish_.phreatic},
+                                                            {Role::terrain, &wish_.terrain},
+                                                            {Role::ground, &wish_.ground}})
+                if (*sent) read_line(**sent, role);
+            if (has_sound_size()) fit();
+        }
+        if (!result_.faults.empty()) give_up();
+        return std::move(result_);
+    }
+
+  private:
+    void refuse(std::string pointer, std::string cause, std::string remedy) {
+        result_.faults.push_back({std::move(pointer), std::move(cause), std::move(remedy)});
+    }
+    void remark(std::string text) { result_.report["remarks"].push_back(std::move(text)); }
+    void take(Drawing& drawing) {
+        for (Fault& each : drawing.faults) result_.faults.push_back(std::move(each));
+        for (std::string& each : drawing.remarks) remark(std::move(each));
+    }
+
+    // ------------------------------------------------------------ reading
+
+    bool check_wish() {
+        bool sound = true;
+        if (!materials_.is_object() || materials_.empty()) {
+            refuse("materials", "hold no material",
+                   "give a JSON file with a scene's \"materials\": {\"NAME\": {...}}");
+            sound = false;
+        }
+        if (!(wish_.tolerance > 0.0 && wish_.tolerance <= 10.0)) {
+            refuse("tolerance", std::to_string(wish_.tolerance) + " m is no distance to heal over",
+                   "give more than 0 and at most 10 m");
+            sound = false;
+        }
+        if (wish_.flatten && !(*wish_.flatten > 0.0 && *wish_.flatten <= 10.0)) {
+            refuse("flatten", "is no distance that chords may be off",
+                   "give more than 0 and at most 10 m");
+            sound = false;
+        }
+        if (!wish_.unit.empty() && !unit_named(wish_.unit)) {
+            refuse("unit", "\"" + as_utf8(wish_.unit) + "\" is no unit",
+                   "the units are " + unit_names());
+            sound = false;
+        }
+        for (const std::string& each : wish_.layers)
+            if (auto wanted = layer_wish_from(each, result_.faults))
+                layers_.push_back(std::move(*wanted));
+        return sound;
+    }
+
+    bool read_drawing() {
+        if (auto faults = form_faults(wish_.drawing.bytes); !faults.empty()) {
+            for (Fault& each : faults) result_.faults.push_back(std::move(each));
+            return false;
+        }
+        const auto unit = unit_named(wish_.unit);
+        drawing_ = is_dxf(wish_.drawing)
+                       ? read_dxf(wish_.drawing.bytes, map_, {unit, wish_.flatten})
+                       : read_csv(wish_.drawing.bytes, map_, unit.value_or(Unit{"m", 1.0}));
+        take(drawing_);
+        result_.report["unit"] = drawing_.unit;
+        for (const auto& [layer, found] : drawing_.unknown)
+            refuse(at_line(found.origin.line),
+                   "layer " + layer + " has no material: " + std::to_string(found.entities) +
+                       (found.entities == 1 ? " entity, " : " entities, the first one ") +
+                       found.origin.entity + " at " + text(found.first),
+                   "map " + layer + "=MATERIAL, or " + layer +
+                       "=phreatic, terrain, ground or none (left out)");
+        for (const std::string& each : map_.unused(drawing_.layers))
+            refuse("map", "nothing is drawn on layer \"" + each + "\"",
+                   "the layers are " + listed(drawing_.layers));
+        return true;
+    }
+
+    static std::string listed(const std::set<std::string>& names) {
+        std::string all;
+        for (const std::string& each : names) all += (all.empty() ? "" : ", ") + each;
+        return all.empty() ? "none" : as_utf8(std::string_view(all).substr(0, 400));
+    }
+
+    /// Outlines by what they stand for, lines of a layer joined.
+    void sort_out() {
+        std::vector<std::string> order;
+        std::map<std::string, std::vector<Outline>> by_layer;
+        for (Outline& each : drawing_.outlines) {
+            if (!by_layer.contains(each.layer)) order.push_back(each.layer);
+            by_layer[each.layer].push_back(std::move(each));
+        }
+        std::map<Role, std::vector<Outline>> lines;
+        for (const std::string& layer : order) {
+            const Meaning meaning = map_.meaning_of(layer);
+            std::vector<Outline> whole = joined(std::move(by_layer[layer]), wish_.tolerance);
+            if (meaning.role == Role::soil) {
+                take_soils(std::move(whole), layer, meaning.material);
+            } else {
+                for (Outline& each : whole) lines[meaning.role].push_back(std::move(each));
+            }
+        }
+        for (auto& [role, pieces] : lines)
+            take_line(joined(std::move(pieces), wish_.tolerance), role, "");
+        if (soils_.empty())
+            refuse("drawing",
+                   "there is no closed polyline on a layer with a material; the layers are " +
+                       listed(drawing_.layers),
+                   "map a layer to a material, or name layers as the materials are named");
+    }
+
+    void take_soils(std::vector<Outline> outlines, const std::string& layer,
+                    const std::string& material) {
+        const std::string base = as_name(layer, "region");
+        if (base != layer) remark("regions of layer " + layer + " are named " + base);
+        std::size_t number = 0;
+        for (Outline& each : outlines) {
+            std::string name = base;
+            if (outlines.size() > 1) name += "_" + std::to_string(++number);
+            while (!names_.insert(name).second) name += "_b";
+            soils_.push_back({name, layer, material, each.points, each.origin});
+            if (each.closed) continue;
+            const Vec2 &a = each.points.front(), &b = each.points.back();
+            refuse(at_line(each.origin.line),
+                   named(each) + " is open: its ends " + text(a) + " and " + text(b) + " are " +
+                       metres((a - b).norm()) + " apart",
+                   "close the polyline, or map its layer to phreatic, terrain, ground or none");
+        }
+    }
+
+    std::vector<Vec2>& line_of(Role role) {
+        return role == Role::phreatic  ? lines_.phreatic
+               : role == Role::terrain ? lines_.terrain
+                                       : lines_.ground;
+    }
+
+    static const char* word_of(Role role) {
+        return role == Role::phreatic  ? "phreatic line"
+               : role == Role::terrain ? "terrain"
+                                       : "ground line";
+    }
+
+    /// `file`: where the line is from, when it is not the drawing.
+    void take_line(std::vector<Outline> pieces, Role role, const std::string& file) {
+        const std::string word = word_of(role);
+        const auto place = [&](const Outline& each) {
+            return (file.empty() ? "" : file + " ") + at_line(each.origin.line);
+        };
+        for (std::size_t i = 1; i < pieces.size(); ++i)
+            refuse(place(pieces[i]),
+                   named(pieces[i]) + " at " + text(pieces[i].points.front()) +
+                       " is another piece of the " + word,
+                   "draw the " + word + " as one line");
+        if (pieces.empty() || pieces.size() > 1) return;
+        std::vector<Vec2> line = pieces.front().points;
+        if (pieces.front().closed || line.size() < 2)
+            return refuse(place(pieces.front()),
+                          named(pieces.front()) + " at " + text(line.front()) +
+                              (line.size() < 2 ? " is a point, no " : " is closed: no ") + word,
+                          "draw it open, from left to right");
+        if (line.front().x() > line.back().x()) std::ranges::reverse(line);
+        for (std::size_t i = 1; i < line.size(); ++i)
+            if (line[i].x() <= line[i - 1].x())
+                refuse(place(pieces.front()), "the " + word + " runs back at " + text(line[i]),
+                       "a line has one level at every x: draw it from left to right");
+        if (!line_of(role).empty())
+            refuse(place(pieces.front()),
+                   "the " + word + " is drawn, and given as a file: " + text(line.front()),
+                   "leave one of them out");
+        line_of(role) = std::move(line);
+    }
+
+    void read_line(const Sent& sent, Role role) {
+        if (const auto faults = form_faults(sent.bytes); !faults.empty()) {
+            for (const Fault& each : faults)
+                refuse(as_utf8(sent.name) + " " + each.pointer, each.cause,
+                       "give a text with columns x,y");
+            return;
+        }
+        const std::string layer = role == Role::phreatic  ? "phreatic"
+                                  : role == Role::terrain ? "terrain"
+                                                          : "ground";
+        std::vector<Fault> none;
+        const LayerMap own({layer + "=" + layer}, {}, none);
+        Drawing read =
+            read_csv(sent.bytes, own, unit_named(wish_.unit).value_or(Unit{"m", 1.0}), layer);
+        for (Fault& each : read.faults) each.pointer = as_utf8(sent.name) + " " + each.pointer;
+        const bool sound = read.faults.empty();
+        take(read);
+        if (sound) take_line(std::move(read.outlines), role, as_utf8(sent.name));
+    }
+
+    bool has_sound_size() {
+        if (soils_.empty()) return false;
+        scene::Box box{soils_.front().ring.front(), soils_.front().ring.front()};
+        for (const Soil& soil : soils_)
+            for (const Vec2& each : soil.ring) {
+                box.low = box.low.cwiseMin(each);
+                box.high = box.high.cwiseMax(each);
+            }
+        const double length = (box.high - box.low).maxCoeff();
+        const std::string size = "the section reaches from " + text(box.low) + " to " +
+                                 text(box.high) + ": it is " + metres(length) + " long";
+        const bool odd = length > longest_section || length < shortest_section;
+        if (!odd) return true;
+        if (!drawing_.knows_unit) return false;
+        if (length > longest_section) {
+            refuse("unit", size + ", as if millimetres were taken for metres",
+                   "say its unit: with mm it is " + metres(1e-3 * length) + ", with ft " +
+                       metres(0.3048 * length) + " long");
+        } else {
+            refuse("unit", size + ", as if metres were taken for a smaller unit",
+                   "say its unit, m or ft");
+        }
+        return false;
+    }
+
+    // ------------------------------------------------------------ fitting
+
+    void fit() {
+        drawn_ = soils_;
+        Healed healed = importing::healed(soils_, wish_.tolerance, lines_.terrain);
+        std::erase_if(healed.faults, [&](const Fault& each) {  // open ones are told already
+            return each.cause.ends_with("encloses no area") && is_told(each.pointer);
+        });
+        tell(healed);
+        if (!healed.terrain.empty()) lines_.terrain = healed.terrain;
+        for (const LayerWish& each : layers_) {
+            if (!result_.faults.empty()) return;
+            if (lines_.phreatic.empty())
+                return refuse(
+                    "layers",
+                    "there is no phreatic line below which " + each.region + " has depths",
+                    "draw it on a layer PHREATIC, or give it as a file");
+            healed = with_layers(std::move(healed.soils), each, lines_.phreatic, wish_.tolerance);
+            tell(healed);
+        }
+        if (!result_.faults.empty()) return;
+        choose_materials(healed.soils);
+        tell_areas(healed.soils);
+        finish(healed.soils);
+    }
+
+    bool is_told(const std::string& pointer) const {
+        return std::ranges::any_of(result_.faults,
+                                   [&](const Fault& each) { return each.pointer == pointer; });
+    }
+
+    void tell(const Healed& healed) {
+        for (const Fault& each : healed.faults) result_.faults.push_back(each);
+        for (const Change& each : healed.changes)
+            result_.report["healed"].push_back({{"kind", each.kind},
+                                                {"regions", each.regions},
+                                                {"at", as_json(each.at)},
+                                                {"size", each.size}});
+    }
+
+    /// A layer by depth is of the material of its own name, where there is one.
+    void choose_materials(std::vector<Soil>& soils) {
+        for (Soil& each : soils) {
+            if (each.material == each.name || !materials_.contains(each.name)) continue;
+            if (names_.contains(each.name)) continue;  // a region as drawn: its layer says
+            remark("region " + each.name + " is of the material of its name, no longer of " +
+                   each.material);
+            each.material = each.name;
+        }
+    }
+
+    void tell_areas(const std::vector<Soil>& soils) {
+        for (const Soil& before : drawn_) {
+            double after = 0.0;
+            for (const Soil& each : soils)
+                if (each.origin.line == before.origin.line && each.layer == before.layer)
+                    after += scene::area(each.ring);
+            result_.report["areas"].push_back({{"region", before.name},
+                                               {"drawn", scene::area(before.ring)},
+                                               {"imported", after}});
+        }
+    }
+
+    // ------------------------------------------------------------ the scene
+
+    check::Checked checked(const json& document) const {
+        return check::checked_text(document.dump(), wish_.drawing.name, ".", {});
+    }
+
+    /// The reader's faults, with the drawing's lines instead of the regions' pointers.
+    std::vector<Fault> seen_from_drawing(std::vector<Fault> faults,
+                                         const std::vector<Soil>& soils) const {
+        constexpr std::string_view regions = "/section/regions/";
+        for (Fault& each : faults) {
+            if (!each.pointer.starts_with(regions)) continue;
+            const auto index = number_in(each.pointer.substr(
+                regions.size(), each.pointer.find('/', regions.size()) - regions.size()));
+            if (!index || *index >= static_cast<double>(soils.size())) continue;
+            const Soil& soil = soils[static_cast<std::size_t>(*index)];
+            each.pointer = at_line(soil.origin.line);
+            each.cause = "region " + soil.name + " " + each.cause;
+        }
+        return faults;
+    }
+
+    void finish(const std::vector<Soil>& soils) {
+        Document document = document_of(scene_name(wish_), materials_, soils, lines_);
+        check::Checked read = checked(document.scene);
+        if (!read.faults.empty() && lines_.phreatic.empty() && document.scene.contains("lem")) {
+            json without = document.scene;
+            without.erase("lem");
+            check::Checked again = checked(without);
+            if (again.faults.empty()) {
+                document.remarks.push_back("the scene has no /lem: " + read.faults.front().pointer +
+                                           " " + read.faults.front().cause);
+                std::erase_if(document.guessed.get_ref<json::array_t&>(), [](const json& each) {
+                    return each.at("pointer").get<std::string>().starts_with("/lem");
+                });
+                document.scene = std::move(without);
+                read = std::move(again);
+            }
+        }
+        for (std::string& each : document.remarks) remark(std::move(each));
+        for (const fault::Flag& each : read.scene.warnings)
+            remark(each.pointer + ": " + each.message);
+        result_.report["guessed"] = document.guessed;
+        result_.faults = seen_from_drawing(std::move(read.faults), soils);
+        result_.scene = std::move(document.scene);
+        result_.sketch = std::move(read.scene);
+    }
+
+    /// Only faults are left, and the outlines as they were sent.
+    void give_up() {
+        result_.scene = nullptr;
+        auto& faults = result_.faults;
+        if (faults.size() > most_faults) {
+            const std::size_t more = faults.size() - most_faults;
+            faults.resize(most_faults);
+            refuse("drawing", "has " + std::to_string(more) + " more faults",
+                   "mend these, and import it again");
+        }
+        json draft{{"format", "breachline-scene/1"},
+                   {"name", scene_name(wish_)},
+                   {"title", "What is wrong with " + as_utf8(wish_.drawing.name)},
+                   {"materials", materials_}};
+        const std::string dumped = draft.dump(-1, ' ', false, json::error_handler_t::replace);
+        result_.sketch = check::checked_text(dumped, wish_.drawing.name, ".", {}).scene;
+        result_.sketch.section.regions.clear();
+        const auto& known = result_.sketch.materials;
+        for (const Soil& each : soils_) {
+            scene::Region region{};
+            region.name = each.name;
+            const auto at = std::ranges::find(known, each.material, &scene::Material::name);
+            region.material = static_cast<std::size_t>(at - known.begin());
+            region.polygon = each.ring;
+            result_.sketch.section.regions.push_back(std::move(region));
+        }
+    }
+
+    const Wish& wish_;
+    const json& materials_;
+    Imported result_;
+    LayerMap map_;
+    std::vector<LayerWish> layers_;
+    Drawing drawing_;
+    std::vector<Soil> soils_, drawn_;
+    std::set<std::string> names_;
+    Lines lines_;
+};
+
+std::string joined_names(const json& names) {
+    std::string all;
+    for (const json& each : names) all += (all.empty() ? "" : ", ") + each.get<std::string>();
+    return all;
+}
+
+}  // namespace
+
+Imported import_section(const Wish& wish) { return Import(wish).result(); }
+
+std::vector<std::string> lines_of(const json& report, std::size_t most) {
+    std::vector<std::string> lines;
+    const json& healed = report.at("healed");
+    std::map<std::string, std::size_t> counts;
+    double largest = 0.0;
+    for (const json& each : healed) {
+        ++counts[each.at("kind")];
+        largest = std::max(largest, each.at("size").get<double>());
+    }
+    if (!healed.empty()) {
+        std::string summary;
+        for (const auto& [kind, count] : counts)
+            summary += (summary.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+        lines.push_back("healed: " + summary + "; the largest " + metres(largest));
+    }
+    for (std::size_t i = 0; i < std::min(most, healed.size()); ++i) {
+        const json& each = healed[i];
+        const Vec2 at(each.at("at")[0].get<double>(), each.at("at")[1].get<double>());
+        lines.push_back("  " + each.at("kind").get<std::string>() + " at " + text(at) + ", " +
+                        metres(each.at("size")) + ": " + joined_names(each.at("regions")));
+    }
+    if (healed.size() > most)
+        lines.push_back("  and " + std::to_string(healed.size() - most) + " more");
+    for (const json& each : report.at("areas")) {
+        const double drawn = each.at("drawn"), imported = each.at("imported");
+        lines.push_back("area of " + each.at("region").get<std::string>() + ": " +
+                        square_metres(drawn) + " as drawn, changed by " +
+                        square_metres(imported - drawn));
+    }
+    for (const json& each : report.at("guessed"))
+        lines.push_back("guessed: " + each.at("pointer").get<std::string>() + " " +
+                        each.at("value").dump() + ", from " + each.at("from").get<std::string>());
+    for (const json& each : report.at("remarks")) lines.push_back(each.get<std::string>());
+    return lines;
+}
+
+}  // namespace breach::importing

@@ -1,0 +1,65 @@
+#include "services/import/join_lines.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace breach::importing {
+
+namespace {
+
+bool closes(const Outline& outline, double tolerance) {
+    return outline.points.size() > 3 &&
+           (outline.points.front() - outline.points.back()).norm() <= tolerance;
+}
+
+/// The nearest free piece with an end here; reversed so that it begins there.
+std::optional<std::size_t> next_piece(std::vector<Outline>& pieces, const std::vector<bool>& used,
+                                      const Vec2& end, double tolerance) {
+    std::optional<std::size_t> found;
+    bool backwards = false;
+    double least = tolerance;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (used[i] || pieces[i].closed) continue;
+        for (const bool back : {false, true}) {
+            const Vec2& begin = back ? pieces[i].points.back() : pieces[i].points.front();
+            const double distance = (begin - end).norm();
+            if (distance > least || (found && distance == least)) continue;
+            least = distance;
+            found = i;
+            backwards = back;
+        }
+    }
+    if (found && backwards) std::ranges::reverse(pieces[*found].points);
+    return found;
+}
+
+}  // namespace
+
+std::vector<Outline> joined(std::vector<Outline> pieces, double tolerance) {
+    std::vector<Outline> whole;
+    std::vector<bool> used(pieces.size(), false);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (used[i]) continue;
+        used[i] = true;
+        Outline outline = pieces[i];
+        for (int end = 0; end < 2 && !outline.closed; ++end) {
+            while (!closes(outline, tolerance)) {
+                const auto next = next_piece(pieces, used, outline.points.back(), tolerance);
+                if (!next) break;
+                used[*next] = true;
+                const auto& more = pieces[*next].points;
+                outline.points.insert(outline.points.end(), more.begin() + 1, more.end());
+            }
+            if (closes(outline, tolerance)) {
+                outline.points.pop_back();
+                outline.closed = true;
+            } else {
+                std::ranges::reverse(outline.points);  // then the other end; then as it was
+            }
+        }
+        whole.push_back(std::move(outline));
+    }
+    return whole;
+}
+
+}  // namespace breach::importing

@@ -1,0 +1,67 @@
+#include "services/import/layer_map.hpp"
+
+#include <optional>
+
+namespace breach::importing {
+
+namespace {
+
+std::optional<Role> line_named(const std::string& word) {
+    if (word == "phreatic" || word == "phreatic_line" || word == "phreatic line")
+        return Role::phreatic;
+    if (word == "terrain") return Role::terrain;
+    if (word == "ground") return Role::ground;
+    if (word == "none") return Role::none;
+    return std::nullopt;
+}
+
+}  // namespace
+
+LayerMap::LayerMap(const std::vector<std::string>& entries, const std::set<std::string>& materials,
+                   std::vector<Fault>& faults) {
+    for (const std::string& each : materials) own_[lower(each)] = each;
+    for (const std::string& each : entries) {
+        const std::size_t split = each.rfind('=');
+        if (split == std::string::npos || split == 0 || split + 1 == each.size()) {
+            faults.push_back({"map", "\"" + as_utf8(each) + "\" maps nothing",
+                              "write LAYER=material, or LAYER=phreatic, terrain, ground or none"});
+            continue;
+        }
+        const std::string layer = lower(as_utf8(each.substr(0, split)));
+        const std::string word = as_utf8(each.substr(split + 1));
+        if (const auto line = line_named(lower(word))) {
+            told_[layer] = {*line, "", true};
+        } else if (materials.contains(word)) {
+            told_[layer] = {Role::soil, word, true};
+        } else {
+            std::string all;
+            for (const std::string& name : materials) all += (all.empty() ? "" : ", ") + name;
+            faults.push_back({"map",
+                              "\"" + as_utf8(each) + "\": there is no material \"" + word + "\"",
+                              "the materials are " + (all.empty() ? "none" : all)});
+            told_[layer] = {Role::none, "", true};  // told once is enough
+        }
+    }
+}
+
+Meaning LayerMap::meaning_of(const std::string& layer) const {
+    const std::string name = lower(layer);
+    if (const auto found = told_.find(name); found != told_.end()) return found->second;
+    if (const auto found = own_.find(name); found != own_.end())
+        return {Role::soil, found->second, false};
+    if (name == "defpoints") return {Role::none};  // CAD never plots it
+    if (name == "none") return {};
+    if (const auto line = line_named(name)) return {*line};
+    return {};
+}
+
+std::vector<std::string> LayerMap::unused(const std::set<std::string>& layers) const {
+    std::set<std::string> drawn;
+    for (const std::string& each : layers) drawn.insert(lower(each));
+    std::vector<std::string> missing;
+    for (const auto& [layer, meaning] : told_)
+        if (!drawn.contains(layer)) missing.push_back(layer);
+    return missing;
+}
+
+}  // namespace breach::importing

@@ -1,0 +1,24 @@
+// Numbers and lengths as drawings write them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace breach::importing {
+
+std::string_view trimmed(std::string_view text);
+/// The whole text, blanks around it apart, as a finite number.
+std::optional<double> number_in(std::string_view text);
+
+struct Unit {
+    std::string name;  ///< "mm"
+    double metres;     ///< in one
+};
+/// m, mm, cm, dm, km, in, ft, yd, mi, us-ft (US survey foot).
+std::optional<Unit> unit_named(const std::string& name);
+std::string unit_names();
+/// Of DXF's $INSUNITS; none for 0 (unitless) and what no section is drawn in.
+std::optional<Unit> unit_of_code(int code);
+
+}  // namespace breach::importing

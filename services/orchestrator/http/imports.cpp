@@ -1,0 +1,114 @@
+#include "services/orchestrator/http/imports.hpp"
+
+#include <set>
+
+#include "core/scene/schema.hpp"
+#include "services/import/import.hpp"
+#include "services/report/section/section_drawing.hpp"
+
+namespace breach::orchestrator {
+
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+/// The entries of a request, with a fault for each that is not of its kind.
+class Entries {
+  public:
+    explicit Entries(const json& body) : body_(body) {}
+
+    std::string text(const std::string& name) {
+        return take<std::string>(name, &json::is_string, "a text").value_or("");
+    }
+    std::optional<double> number(const std::string& name) {
+        return take<double>(name, &json::is_number, "a number");
+    }
+    std::vector<std::string> texts(const std::string& name) {
+        std::vector<std::string> list;
+        const json entry = take<json>(name, &json::is_array, "a list of texts").value_or(json());
+        for (const json& each : entry) {
+            if (each.is_string()) {
+                list.push_back(each);
+            } else {
+                refuse(name, "holds something that is no text", "give a list of texts");
+            }
+        }
+        return list;
+    }
+    std::optional<importing::Sent> file(const std::string& name) {
+        auto content = take<std::string>(name, &json::is_string, "the text of a CSV file");
+        if (!content) return std::nullopt;
+        return importing::Sent{name, std::move(*content)};
+    }
+    json object(const std::string& name) {
+        return take<json>(name, &json::is_object, "an object").value_or(json());
+    }
+    /// Throws BadInput with what was wrong, and with entries that nobody asked for.
+    void finish() {
+        for (const auto& [name, value] : body_.items())
+            if (!known_.contains(name)) refuse(name, "is not known", "leave it out");
+        if (!body_.contains("drawing"))
+            refuse("drawing", "is missing", "give the text of a DXF or CSV file");
+        if (!faults_.empty()) throw fault::BadInput("request", std::move(faults_));
+    }
+
+  private:
+    template <class Value>
+    std::optional<Value> take(const std::string& name, bool (json::*fits)() const noexcept,
+                              const std::string& kind) {
+        known_.insert(name);
+        const auto found = body_.find(name);
+        if (found == body_.end()) return std::nullopt;
+        if (((*found).*fits)()) return found->template get<Value>();
+        refuse(name, "is not " + kind, "give " + kind);
+        return std::nullopt;
+    }
+    void refuse(const std::string& name, std::string cause, std::string remedy) {
+        faults_.push_back({json::json_pointer().operator/=(name).to_string(), std::move(cause),
+                           std::move(remedy)});
+    }
+
+    const json& body_;
+    std::set<std::string> known_;
+    std::vector<Fault> faults_;
+};
+
+importing::Wish wish_from(const std::string& text) {
+    const json body = scene::parse_json(text, "request");
+    Entries entries(body);
+    importing::Wish wish{.drawing = {entries.text("file"), entries.text("drawing")},
+                         .materials = entries.object("materials"),
+                         .map = entries.texts("map"),
+                         .layers = entries.texts("layers"),
+                         .phreatic = entries.file("phreatic"),
+                         .terrain = entries.file("terrain"),
+                         .ground = entries.file("ground"),
+                         .unit = entries.text("unit"),
+                         .tolerance = entries.number("tolerance").value_or(0.05),
+                         .flatten = entries.number("flatten"),
+                         .name = entries.text("name")};
+    entries.finish();
+    return wish;
+}
+
+}  // namespace
+
+json imported(const std::string& body) {
+    const importing::Wish wish = wish_from(body);
+    importing::Imported made = importing::import_section(wish);
+    if (!made.faults.empty()) throw fault::BadInput("drawing", std::move(made.faults));
+    return {{"scene", std::move(made.scene)}, {"report", std::move(made.report)}};
+}
+
+std::string picture_of_import(const std::string& body) {
+    const importing::Wish wish = wish_from(body);
+    importing::Imported made = importing::import_section(wish);
+    const json shown =
+        made.faults.empty() ? made.scene : json{{"title", "What is wrong with the drawing"}};
+    const report::Draft draft{{shown, {}, ""}, std::move(made.sketch), made.faults};
+    if (!report::can_be_drawn(draft)) throw fault::BadInput("drawing", std::move(made.faults));
+    return report::as_svg(draft, {});
+}
+
+}  // namespace breach::orchestrator

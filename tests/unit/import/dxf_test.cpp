@@ -1,0 +1,194 @@
+// What is read from DXF of several versions, and from files that are none.
+#include "services/import/dxf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "drawings.hpp"
+#include "services/import/csv.hpp"
+#include "services/import/dxf_records.hpp"
+
+namespace breach::importing {
+namespace {
+
+using test::dxf;
+using test::group;
+using test::light;
+using test::Line;
+
+Drawing read(const std::string& text, const DxfWish& wish = {},
+             const std::vector<std::string>& map = {}) {
+    std::vector<Fault> faults;
+    const LayerMap layers(map, {"clay", "rock"}, faults);
+    EXPECT_EQ(test::told(faults), "");
+    return read_dxf(text, layers, wish);
+}
+
+const Line square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+
+TEST(Dxf, PolylinesOfR12AndOf2000AndLinesAreRead) {
+    const Drawing drawing = read(
+        dxf(test::heavy("CLAY", square) + light("clay", square) + test::sides("Rock", square)));
+    EXPECT_EQ(test::told(drawing.faults), "");
+    ASSERT_EQ(drawing.outlines.size(), 6u);
+    EXPECT_EQ(drawing.outlines[0].points, square);
+    EXPECT_TRUE(drawing.outlines[0].closed);
+    EXPECT_EQ(drawing.outlines[1].points, square);
+    EXPECT_EQ(named(drawing.outlines[1]), "LWPOLYLINE 2F on layer clay");
+    EXPECT_EQ(drawing.outlines[2].points, (Line{{0, 0}, {4, 0}}));
+}
+
+TEST(Dxf, AnOutlineKnowsItsLineAlsoWithWindowsLineEnds) {
+    std::string text = dxf(light("CLAY", square));
+    const std::size_t line =
+        static_cast<std::size_t>(
+            std::count(text.begin(),
+                       text.begin() + static_cast<std::ptrdiff_t>(text.find("LWPOLYLINE")), '\n')) +
+        1;
+    EXPECT_EQ(read(text).outlines.at(0).origin.line, line);
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+        text.insert(at, "\r");
+    EXPECT_EQ(read(text).outlines.at(0).origin.line, line);
+    EXPECT_EQ(read(text).outlines.at(0).points, square);
+}
+
+TEST(Dxf, UnitsAreConvertedOrAskedFor) {
+    const auto width = [](const Drawing& drawing) { return drawing.outlines.at(0).points[1].x(); };
+    EXPECT_DOUBLE_EQ(width(read(dxf(light("CLAY", square), 4))), 4e-3);
+    EXPECT_DOUBLE_EQ(width(read(dxf(light("CLAY", square), 2))), 4 * 0.3048);
+    const Drawing told = read(dxf(light("CLAY", square), 4), {.unit = unit_named("cm")});
+    EXPECT_DOUBLE_EQ(width(told), 0.04);
+    EXPECT_EQ(told.remarks.size(), 1u);
+    const Drawing unitless = read(dxf(light("CLAY", square), std::nullopt, "AC1009"));
+    ASSERT_EQ(unitless.faults.size(), 1u);
+    EXPECT_NE(unitless.faults[0].cause.find("does not say its unit"), std::string::npos);
+}
+
+TEST(Dxf, ArcsAreRefusedUnlessAToleranceIsTold) {
+    const std::string circle =
+        group(0, "CIRCLE") + group(8, "CLAY") + group(10, 5.0) + group(20, 3.0) + group(40, 2.0);
+    const std::string bulged = light("CLAY", {{0, 0}, {4, 0}}, true, {{0, 1.0}, {1, 1.0}});
+    const Drawing refused = read(dxf(circle + bulged));
+    ASSERT_EQ(refused.faults.size(), 2u);
+    EXPECT_NE(refused.faults[0].cause.find("has an arc at (7, 3)"), std::string::npos);
+    const Drawing flat = read(dxf(circle + bulged), {.flatten = 0.001});
+    EXPECT_EQ(test::told(flat.faults), "");
+    ASSERT_EQ(flat.outlines.size(), 2u);
+    for (const Outline& each : flat.outlines) {
+        // Chords lie inside: the area is short of the circle's by at most its length times the sagitta.
+        const double area = scene::signed_area(each.points), whole = 4.0 * std::numbers::pi;
+        EXPECT_LT(area, whole);
+        EXPECT_GT(area, whole - 4.0 * std::numbers::pi * 0.001);
+    }
+    const std::string arc = group(0, "ARC") + group(8, "CLAY") + group(10, 0.0) + group(20, 0.0) +
+                            group(40, 2.0) + group(50, 270.0) + group(51, 90.0);
+    const Outline half = read(dxf(arc), {.flatten = 0.01}).outlines.at(0);
+    EXPECT_NEAR((half.points.front() - Vec2(0, -2)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((half.points.back() - Vec2(0, 2)).norm(), 0.0, 1e-12);
+    for (const Vec2& each : half.points) EXPECT_NEAR(each.norm(), 2.0, 1e-12);
+}
+
+TEST(Dxf, APolylineSeenFromBehindIsMirrored) {
+    const Drawing drawing = read(
+        dxf(light("CLAY", square, true, {}, group(210, 0.0) + group(220, 0.0) + group(230, -1.0))));
+    EXPECT_EQ(drawing.outlines.at(0).points[1], Vec2(-4, 0));
+}
+
+TEST(Dxf, WhatIsNoPolylineIsRefusedAtItsPlaceAndWritingIsPassedOver) {
+    const std::string spline =
+        group(0, "SPLINE") + group(5, "4A") + group(8, "CLAY") + group(10, 3.0) + group(20, 7.0);
+    const std::string text = group(0, "TEXT") + group(8, "CLAY") + group(10, 3.0) + group(20, 7.0);
+    const std::string block = group(0, "INSERT") + group(8, "CLAY") + group(2, "DAM");
+    const std::string tilted = group(0, "LINE") + group(8, "CLAY") + group(10, 0.0) +
+                               group(20, 0.0) + group(30, 0.0) + group(11, 1.0) + group(21, 0.0) +
+                               group(31, 5.0);
+    const Drawing drawing = read(dxf(spline + text + block + tilted));
+    ASSERT_EQ(drawing.faults.size(), 3u) << test::told(drawing.faults);
+    EXPECT_NE(drawing.faults[0].cause.find("SPLINE 4A on layer CLAY at (3, 7)"), std::string::npos);
+    EXPECT_NE(drawing.faults[1].remedy.find("explode"), std::string::npos);
+    EXPECT_NE(drawing.faults[2].cause.find("plane of the drawing"), std::string::npos);
+    EXPECT_EQ(drawing.remarks, (std::vector<std::string>{"passed over: 1 TEXT"}));
+}
+
+TEST(Dxf, LayersWithoutMeaningAreToldOnceAndFrozenOnesAreLeftOut) {
+    const std::string tables = group(0, "SECTION") + group(2, "TABLES") + group(0, "LAYER") +
+                               group(2, "OLD") + group(70, "1") + group(62, "7") +
+                               group(0, "ENDSEC");
+    const Drawing drawing =
+        read(dxf(light("GRAVEL", square) + light("GRAVEL", square) + light("OLD", square), 6,
+                 "AC1015", tables));
+    ASSERT_EQ(drawing.unknown.size(), 1u);
+    EXPECT_EQ(drawing.unknown.at("GRAVEL").entities, 2u);
+    ASSERT_EQ(drawing.remarks.size(), 1u);
+    EXPECT_NE(drawing.remarks[0].find("layer OLD is frozen or off"), std::string::npos);
+    EXPECT_EQ(
+        read(dxf(light("OLD", square), 6, "AC1015", tables), {}, {"OLD=rock"}).outlines.size(), 1u);
+}
+
+TEST(Dxf, FilesThatAreNoneAreRefusedWithTheReason) {
+    EXPECT_NE(
+        form_faults(std::string("AutoCAD Binary DXF\r\n\x1a\0", 22)).at(0).cause.find("binary"),
+        std::string::npos);
+    EXPECT_NE(form_faults("AC1032rest").at(0).cause.find("DWG"), std::string::npos);
+    EXPECT_EQ(form_faults(std::string("0\nSEC\0TION", 10)).at(0).pointer, "byte 5");
+    EXPECT_EQ(form_faults(" \n\n").size(), 1u);
+    const std::string whole = dxf(light("CLAY", square));
+    for (std::size_t length = 1; length < whole.size() - 4; ++length) {
+        const Drawing cut = read(whole.substr(0, length));
+        EXPECT_FALSE(cut.faults.empty()) << length;
+    }
+    std::string nan = whole;
+    nan.replace(nan.find("\n10\n0\n"), 6, "\n10\nnan\n");
+    const Drawing drawing = read(nan);
+    ASSERT_EQ(drawing.faults.size(), 1u);
+    EXPECT_NE(drawing.faults[0].cause.find("\"nan\" is no number"), std::string::npos);
+}
+
+TEST(Dxf, AMillionEntitiesArePassedOverAndTooManyOfTheSectionAreRefusedOnce) {
+    std::string many;
+    const std::string point = group(0, "POINT") + group(8, "0");
+    for (int i = 0; i < 1'000'000; ++i) many += point;
+    const Drawing passed = read(dxf(many));
+    EXPECT_EQ(test::told(passed.faults), "");
+    EXPECT_EQ(passed.remarks, (std::vector<std::string>{"passed over: 1000000 POINT"}));
+    std::string lines;
+    for (int i = 0; i < 20'000; ++i) lines += test::sides("CLAY", {{0, 0}, {1, 1}});
+    const Drawing refused = read(dxf(lines));
+    ASSERT_EQ(refused.faults.size(), 1u);
+    EXPECT_NE(refused.faults[0].cause.find("more than 2000 outlines"), std::string::npos);
+}
+
+TEST(Csv, RegionsAreReadWithTheirUnitsAndSeparators) {
+    std::vector<Fault> faults;
+    const LayerMap layers({}, {"clay"}, faults);
+    const Drawing plain = read_csv(
+        "# a dam\nregion,x,y\nclay,0,0\nclay,4,0\nclay,4,4\nclay,0,0\n\n"
+        "clay,5,0\nclay,6,0\nclay,6,1\nPHREATIC,0,3\nPHREATIC,9,2\n",
+        layers, {"m", 1.0});
+    EXPECT_EQ(test::told(plain.faults), "");
+    ASSERT_EQ(plain.outlines.size(), 3u);
+    EXPECT_EQ(plain.outlines[0].points, (Line{{0, 0}, {4, 0}, {4, 4}}));
+    EXPECT_EQ(plain.outlines[0].origin.line, 3u);
+    EXPECT_FALSE(plain.outlines[2].closed);
+    const Drawing decimal =
+        read_csv("y;x;region\r\n0,5;1,5;clay\r\n1;2;clay\r\n", layers, {"ft", 0.3048});
+    ASSERT_EQ(decimal.outlines.size(), 1u);
+    EXPECT_EQ(decimal.outlines[0].points[0], Vec2(1.5 * 0.3048, 0.5 * 0.3048));
+}
+
+TEST(Csv, EveryBadRowIsToldByItsLine) {
+    std::vector<Fault> faults;
+    const LayerMap layers({}, {"clay"}, faults);
+    const Drawing drawing = read_csv(
+        "region,x,y\nclay,0,0\nclay,nan,1\nclay,1\nclay,1e99,2\n,3,4\n", layers, {"m", 1.0});
+    ASSERT_EQ(drawing.faults.size(), 4u) << test::told(drawing.faults);
+    EXPECT_EQ(drawing.faults[0].pointer, "line 3");
+    EXPECT_EQ(drawing.faults[3].pointer, "line 6");
+    EXPECT_EQ(read_csv("a,b\n1,2\n", layers, {"m", 1.0}).faults.size(), 1u);
+    EXPECT_EQ(read_csv("", layers, {"m", 1.0}).faults.size(), 1u);
+}
+
+}  // namespace
+}  // namespace breach::importing

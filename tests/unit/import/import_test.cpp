@@ -1,0 +1,268 @@
+// From a drawing to a scene that is checked and meshed, or to the list of what is wrong with it.
+#include "services/import/import.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+
+#include "core/check/check.hpp"
+#include "core/geometry/polyline.hpp"
+#include "drawings.hpp"
+#include "fem_solver/mesh/mesh.hpp"
+#include "tests/folder.hpp"
+
+namespace breach::importing {
+namespace {
+
+using mechanics::Vec2;
+using nlohmann::json;
+using test::dxf;
+using test::light;
+using test::Line;
+
+std::string section(double jitter = 0.0, unsigned seed = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> off(-jitter, jitter);
+    const auto moved = [&](Line ring) {
+        for (Vec2& each : ring) each += Vec2(off(random), off(random));
+        return ring;
+    };
+    return light("ROCK", moved(test::rock)) + light("CLAY", moved(test::clay)) +
+           light("TAILINGS", moved(test::tailings));
+}
+const std::string water = light("PHREATIC", {{120, -0.5}, {75, 1}, {40, 8}, {0, 9}}, false);
+
+const json& region(const json& scene, const std::string& name) {
+    for (const json& each : scene.at("section").at("regions"))
+        if (each.at("name") == name) return each;
+    throw std::out_of_range(name);
+}
+
+double area_of(const json& region) {
+    scene::Polygon ring;
+    for (const json& each : region.at("polygon")) ring.emplace_back(each[0], each[1]);
+    ring.pop_back();
+    return scene::area(ring);
+}
+
+/// Length of element sides that belong to one element only [m].
+double free_border(const fem::Mesh& mesh) {
+    std::map<std::pair<std::int32_t, std::int32_t>, int> uses;
+    for (const fem::Quad& quad : mesh.quads)
+        for (std::size_t k = 0; k < 4; ++k) ++uses[std::minmax(quad[k], quad[(k + 1) % 4])];
+    double length = 0.0;
+    for (const auto& [edge, count] : uses)
+        if (count == 1) length += (mesh.nodes[edge.first] - mesh.nodes[edge.second]).norm();
+    return length;
+}
+
+TEST(Import, ADrawingBecomesASceneWithItsWaterAndGuessedSearch) {
+    const Imported imported = import_section(test::wish(dxf(section() + water)));
+    ASSERT_EQ(test::told(imported.faults), "");
+    const json& scene = imported.scene;
+    EXPECT_EQ(scene.at("name"), "dam");
+    EXPECT_EQ(region(scene, "CLAY").at("material"), "clay");
+    EXPECT_EQ(scene.at("lem").at("water").at("line"),
+              json::parse("[[0.0,9.0],[40.0,8.0],[75.0,1.0],[120.0,-0.5]]"));
+    const auto& search = scene.at("lem").at("search");
+    EXPECT_LT(search.at("entry")[1], search.at("exit")[0]);
+    EXPECT_LE(search.at("entry")[0], 55.0);
+    EXPECT_GE(search.at("exit")[1], 80.0);
+    EXPECT_EQ(imported.report.at("guessed").size(), 3u);
+    EXPECT_TRUE(imported.report.at("healed").empty());
+    check::Checked read = check::checked_text(scene.dump(), "scene", ".", {});
+    EXPECT_EQ(test::told(read.faults), "");
+}
+
+TEST(Import, ASlopeThatFallsToTheLeftIsSearchedThere) {
+    const Line mirrored{{-80, 0}, {-20, 0}, {-50, 12}, {-55, 12}};
+    const Imported imported = import_section(test::wish(dxf(light("CLAY", mirrored))));
+    ASSERT_EQ(test::told(imported.faults), "");
+    const auto& search = imported.scene.at("lem").at("search");
+    // Both faces are 12 m high; the left one falls over 25 m, the right one over 30 m.
+    EXPECT_GT(search.at("entry")[0], search.at("exit")[1]);
+}
+
+TEST(Import, AHealedDrawingIsMeshedWithoutAGap) {
+    // Off by a centimetre, drawn in millimetres, one region as single lines.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> off(-0.01, 0.01);
+    const auto millimetres = [&](Line ring) {
+        for (Vec2& each : ring) each = 1e3 * (each + Vec2(off(random), off(random)));
+        return ring;
+    };
+    Wish wish = test::wish(dxf(test::heavy("ROCK", millimetres(test::rock)) +
+                                   test::sides("CLAY", millimetres(test::clay)) +
+                                   light("TAILINGS", millimetres(test::tailings)),
+                               4));
+    const Imported imported = import_section(wish);
+    ASSERT_EQ(test::told(imported.faults), "");
+    EXPECT_FALSE(imported.report.at("healed").empty());
+    const scene::Scene scene = scene::parse_scene(imported.scene.dump(), "scene");
+    const breach::test::Folder folder;
+    const fem::Mesh mesh = fem::mesh_with_gmsh(scene.section, folder.path());
+    EXPECT_GT(mesh.quads.size(), 500u);
+    double outline = 0.0;  // of the whole section, as it was meant
+    const Line whole{{0, -10}, {120, -10}, {120, 0}, {80, 0}, {55, 12}, {50, 12}, {0, 11}};
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        outline += (whole[(i + 1) % whole.size()] - whole[i]).norm();
+    EXPECT_NEAR(free_border(mesh), outline, 0.2);  // a gap of any region would add its length
+}
+
+TEST(Import, LayersBelowThePhreaticLineHaveTheirAreasAndTheNeighboursTheirVertices) {
+    // A block of 10 by 8 m; the line falls from y = 7 to 6: 1 m of soil above it at x = 0, 2 at 10.
+    Wish wish = test::wish(dxf(light("TAILINGS", {{0, 0}, {10, 0}, {10, 8}, {0, 8}}) +
+                               light("CLAY", {{10, 0}, {30, 0}, {10, 8}}) +
+                               light("PHREATIC", {{0, 7}, {10, 6}}, false)));
+    wish.layers = {"tailings=2,4.5"};
+    wish.materials["TAILINGS_0_2"] = wish.materials["tailings"];
+    const Imported imported = import_section(wish);
+    ASSERT_EQ(test::told(imported.faults), "");
+    const json& scene = imported.scene;
+    EXPECT_NEAR(area_of(region(scene, "TAILINGS_above")), 15.0, 1e-9);
+    EXPECT_NEAR(area_of(region(scene, "TAILINGS_0_2")), 20.0, 1e-9);
+    EXPECT_NEAR(area_of(region(scene, "TAILINGS_2_4p5")), 25.0, 1e-9);
+    EXPECT_NEAR(area_of(region(scene, "TAILINGS_below_4p5")), 20.0, 1e-9);
+    EXPECT_EQ(region(scene, "TAILINGS_0_2").at("material"), "TAILINGS_0_2");
+    EXPECT_EQ(region(scene, "TAILINGS_above").at("material"), "tailings");
+    EXPECT_EQ(region(scene, "CLAY").at("polygon").size(), 7u);  // three cuts end at its side
+    const breach::test::Folder folder;
+    const scene::Scene read = scene::parse_scene(scene.dump(), "scene");
+    EXPECT_NEAR(free_border(fem::mesh_with_gmsh(read.section, folder.path())),
+                8 + 10 + 20 + std::hypot(20.0, 8.0) + 10, 1e-6);
+    wish.layers = {"TAILINGS=2", "dam=1"};
+    EXPECT_NE(test::told(import_section(wish).faults).find("there is no region \"dam\""),
+              std::string::npos);
+    wish.layers = {"TAILINGS=3,2"};
+    EXPECT_NE(test::told(import_section(wish).faults).find("ascending depths"), std::string::npos);
+}
+
+TEST(Import, ALayerThatWouldBeThinnerThanTheToleranceIsTakenIn) {
+    Wish wish = test::wish(dxf(light("TAILINGS", {{0, 0}, {10, 0}, {10, 7.03}, {0, 7.03}})));
+    wish.layers = {"TAILINGS=2"};
+    wish.phreatic = {"water.csv", "x,y\n0,7\n10,7\n"};
+    const Imported imported = import_section(wish);
+    ASSERT_EQ(test::told(imported.faults), "");
+    ASSERT_EQ(imported.scene.at("section").at("regions").size(), 2u);
+    EXPECT_NEAR(area_of(region(imported.scene, "TAILINGS_0_2")), 20.3, 0.31);
+}
+
+TEST(Import, EveryFaultOfADrawingIsFoundAtOnceAndNothingIsMade) {
+    const std::string bad =
+        light("ROCK", test::rock) +
+        light("CLAY", {{20, 0}, {80, 0}, {55, 12}, {50, 12}, {22, 1}}, false) +  // open
+        light("TAILINGS", {{0, 0}, {20, 0}, {55, 10}, {0, 11}}) +                // overlaps
+        light("DRAIN", {{60, 0}, {70, 0}, {70, 2}}) +                            // no material
+        light("CLAY", {{90, 0}, {100, 5}, {100, 0}, {90, 5}}) +                  // crosses itself
+        test::group(0, "SPLINE") + test::group(8, "CLAY") + test::group(10, 30.0) +
+        test::group(20, 8.0);
+    const Imported imported = import_section(test::wish(dxf(bad)));
+    EXPECT_TRUE(imported.scene.is_null());
+    const std::string told = test::told(imported.faults);
+    for (const char* each :
+         {"is open: its ends (20, 0) and (22, 1) are 2.24 m apart",
+          "CLAY_1 and TAILINGS overlap at", "layer DRAIN has no material: 1 entity",
+          "crosses itself at (95, 2.5)", "SPLINE on layer CLAY at (30, 8)"})
+        EXPECT_NE(told.find(each), std::string::npos) << each << "\n" << told;
+    EXPECT_EQ(imported.faults.size(), 5u) << told;
+    for (const fault::Fault& each : imported.faults) {
+        EXPECT_EQ(each.pointer.rfind("line ", 0), 0u) << each.pointer;
+        EXPECT_FALSE(each.remedy.empty());
+    }
+    EXPECT_EQ(imported.sketch.section.regions.size(), 4u);
+}
+
+/// What the room's README shows.
+Imported example(const std::string& file) {
+    const std::filesystem::path folder = BREACH_ROOT "/services/import/example";
+    const auto bytes = [&](const std::string& name) {
+        std::ifstream stream(folder / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    return import_section({.drawing = {file, bytes(file)},
+                           .materials = json::parse(bytes("materials.json")),
+                           .layers = {"TAILINGS=5,10"}});
+}
+
+TEST(Import, TheExamplesAreWhatTheirPageSays) {
+    const Imported sound = example("dam.dxf");
+    EXPECT_EQ(test::told(sound.faults), "");
+    ASSERT_FALSE(sound.scene.is_null());
+    EXPECT_EQ(sound.scene.at("section").at("regions").size(), 7u);
+    EXPECT_EQ(sound.report.at("healed").size(), 12u);
+    EXPECT_EQ(example("faulty.dxf").faults.size(), 10u);
+}
+
+TEST(Import, MillimetresTakenForMetresAreRefused) {
+    const auto scaled = [](Line ring) {
+        for (Vec2& each : ring) each *= 250.0;
+        return ring;
+    };
+    const Imported imported = import_section(test::wish(dxf(light("ROCK", scaled(test::rock)))));
+    ASSERT_EQ(imported.faults.size(), 1u);
+    EXPECT_NE(imported.faults[0].cause.find("it is 3e+04 m long, as if millimetres"),
+              std::string::npos)
+        << imported.faults[0].cause;
+    EXPECT_NE(imported.faults[0].remedy.find("with mm it is 30 m"), std::string::npos);
+}
+
+TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
+    Wish wish = test::wish(dxf(light("CLAY", test::clay) + light("TAILINGS", test::tailings)));
+    wish.terrain = {"terrain.csv", "x,y\n0,0\n80,0\n300,-6\n"};
+    const Imported imported = import_section(wish);
+    ASSERT_EQ(test::told(imported.faults), "");
+    EXPECT_EQ(imported.scene.at("mpm").at("runout").at("toe"), json::parse("[80.0,0.0]"));
+    // A centimetre above the base of the section: the soil lies on it all the same.
+    wish.terrain->bytes = "x,y\n0,0\n50,0.01\n80,-0.01\n300,-6\n";
+    const Imported healed = import_section(wish);
+    ASSERT_EQ(test::told(healed.faults), "");
+    const scene::Scene scene = scene::parse_scene(healed.scene.dump(), "scene");
+    for (const scene::Region& each : scene.section.regions)
+        for (const Vec2& vertex : each.polygon)
+            EXPECT_GE(vertex.y(), geometry::level_at(scene.mpm->terrain, vertex.x()) - 1e-9);
+    wish.terrain->bytes = "x,y\n0,3\n300,-6\n";
+    const Imported cut = import_section(wish);
+    EXPECT_NE(test::told(cut.faults).find("/mpm/terrain: passes through region"), std::string::npos)
+        << test::told(cut.faults);
+}
+
+TEST(Import, OptionsThatMakeNoSenseAreToldWithWhatWould) {
+    Wish wish = test::wish(dxf(section()));
+    wish.map = {"CLAY", "ROCK=granite", "SHELL=clay"};
+    wish.layers = {"TAILINGS=5"};
+    const std::string told = test::told(import_section(wish).faults);
+    for (const char* each : {"\"CLAY\" maps nothing", "there is no material \"granite\"",
+                             "nothing is drawn on layer \"shell\""})
+        EXPECT_NE(told.find(each), std::string::npos) << each << "\n" << told;
+    wish.map = {};
+    EXPECT_NE(test::told(import_section(wish).faults).find("there is no phreatic line"),
+              std::string::npos);
+    wish.materials = json::array();
+    wish.tolerance = -1;
+    wish.unit = "furlong";
+    EXPECT_EQ(import_section(wish).faults.size(), 3u);
+}
+
+TEST(Import, PolygonsInATableAreTheSameSection) {
+    std::string table = "region,x,y\n";
+    for (const auto& [name, ring] : std::map<std::string, Line>{
+             {"rock", test::rock}, {"clay", test::clay}, {"tailings", test::tailings}})
+        for (const Vec2& each : ring)
+            table += name + "," + std::to_string(each.x()) + "," + std::to_string(each.y()) + "\n";
+    const Imported imported = import_section(test::wish(table, "dam.csv"));
+    ASSERT_EQ(test::told(imported.faults), "");
+    const Imported drawn = import_section(test::wish(dxf(section())));
+    for (const char* name : {"rock", "clay", "tailings"}) {
+        std::string layer = name;
+        for (char& each : layer) each = static_cast<char>(each - 32);
+        EXPECT_EQ(area_of(region(imported.scene, name)), area_of(region(drawn.scene, layer)));
+    }
+    EXPECT_EQ(imported.scene.at("lem"), drawn.scene.at("lem"));
+}
+
+}  // namespace
+}  // namespace breach::importing
