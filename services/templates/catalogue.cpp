@@ -48,7 +48,7 @@ Option of_type(Option option, const char* unit) {
     return option;
 }
 
-Options foundation() {
+Options foundation_options() {
     return {
         sized("foundation_depth", 1.0 / 6, 0, 100,
               "ground below y = 0; 0: the soil stands on rock"),
@@ -124,7 +124,7 @@ Template upstream() {
              {yes_or_no("drain", false,
                         "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
              soil(0.08),
-             foundation(),
+             foundation_options(),
              computation()})};
 }
 
@@ -147,7 +147,7 @@ Template downstream() {
                         "yes: the phreatic line ends in a drain below the middle of the crest; no: "
                         "at the toe")},
              soil(0.08),
-             foundation(),
+             foundation_options(),
              computation()})};
 }
 
@@ -164,7 +164,7 @@ Template plain_slope() {
                        "phreatic line below ground at the model's upper end; it ends at the toe"),
              },
              soil(0.1),
-             foundation(),
+             foundation_options(),
              computation()})};
 }
 
@@ -182,7 +182,7 @@ Template leach_heap() {
                           "phreatic line above the base at the heap's axis; it ends at the toe"),
                 },
                 soil(0.08),
-                foundation(),
+                foundation_options(),
                 computation()})};
 }
 
