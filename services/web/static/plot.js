@@ -69,6 +69,7 @@ export class Plot {
         this.picture.setAttribute("height", this.height);
         this.picture.setAttribute("aria-label", this.summary());
         this.cursor = svg("g", { class: "cursor" });
+        this.now_line = svg("path", { class: "now" });
         this.picture.replaceChildren(
             ...bands.filter((each) => each.from < this.x_range[1] && each.to > this.x_range[0]).flatMap((each, i) => band(this, each, i)),
             ...this.axes(),
@@ -76,9 +77,22 @@ export class Plot {
             ...levels.flatMap((each, i) => level(this, each, i)),
             ...series.flatMap((each, i) => curve(this, each, i)),
             ...marks.map((each) => mark(this, each)),
-            this.cursor);
+            this.now_line, this.cursor);
         this.legend.replaceChildren(...legend(this.data, this.labels.lines));
         this.draw_cursor();
+        this.mark_now(this.now);
+    }
+
+    /// A vertical that moves along with something else that is shown; null: none. One beyond the axis stays at its end.
+    mark_now(x) {
+        this.now = x;
+        if (!this.now_line) return;
+        if (!Number.isFinite(x)) {
+            this.now_line.removeAttribute("d");
+            return;
+        }
+        const at = this.px(Math.min(this.x_range[1], Math.max(this.x_range[0], x))).toFixed(1);
+        this.now_line.setAttribute("d", `M${at},${margin.top}V${this.height - this.bottom}`);
     }
 
     /// Named ticks that do not fit side by side are turned, and the picture grows for them.

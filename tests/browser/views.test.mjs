@@ -1,0 +1,170 @@
+// What the page shows of snapshots, against a stand-in server whose soil is a formula: contours, vectors, water, profiles. The formulas
+// say what must come out.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { FakeApi, study } from "./fake_api.mjs";
+
+const api = new FakeApi({ pace: 6, points: 5000 });
+let url;
+let page;
+let browser;
+
+before(async () => {
+    url = await api.open();
+    api.add_run(study, { began: Date.now() - 60000 });
+    browser = await open_browser();
+    page = browser.page;
+});
+
+after(async () => {
+    await browser.close();
+    await api.close();
+});
+
+const text_of = (selector) => page.textContent(selector);
+
+async function open_run(id = "run-1") {
+    await page.goto("about:blank");
+    await page.goto(`${url}/#/runs/${id}`);
+    await until("soil", async () => (await canvas_facts(page)).share > 0.02);
+}
+
+async function open_mesh(field) {
+    await open_run();
+    await page.selectOption("#view-source", { label: "FEM mesh" });
+    await until("elements", async () => (await text_of("#view-count")) === "800 elements");
+    await page.selectOption("#view-field", field);
+    await until("all snapshots are known", async () => /all 25 snapshots/.test(await text_of("#view-scale-note")));
+}
+
+/// What the text downloaded by a click says.
+async function downloaded(selector) {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click(selector)]);
+    return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+}
+
+test("contours of nodal values: bands of few colours; soil without a value is grey, and the legend says so", async () => {
+    await open_mesh("displacement");
+    await page.selectOption("#view-scale-of", "this");
+    await page.uncheck("#view-water");
+    await until("twelve bands", async () => (await canvas_facts(page)).colours < 400);
+    await page.selectOption("#view-shading", "elements");
+    await until("a colour per element", async () => (await canvas_facts(page)).colours > 100);
+    await page.selectOption("#view-shading", "contours");
+    assert.ok(await page.isHidden("#view-none"), "every node has a displacement");
+    await page.selectOption("#view-field", "r_u");
+    assert.ok(await page.isVisible("#view-none"));
+    assert.match(await text_of("#view-scale-note"), /none where the soil is dry/);
+    await screenshot(page, "views_contours_r_u");
+    await page.selectOption("#view-field", "sigma_v");
+    assert.match(await text_of("#view-range"), /σ′_v \[kPa\], 0 to 300/);
+    assert.match(await text_of("#view-scale-note"), /Shown now: 0 to 300 kPa/);
+});
+
+test("a fixed range is that of all snapshots, another one says of which", async () => {
+    await open_mesh("displacement");
+    const fixed = await text_of("#view-range");
+    await page.focus("#view-time");
+    await page.keyboard.press("Home");
+    await until("the first", async () => (await text_of("#view-now")).startsWith("t = 0 s"));
+    assert.equal(await text_of("#view-range"), fixed);
+    await page.selectOption("#view-scale-of", "this");
+    assert.match(await text_of("#view-range"), /0 to 1$/, "nothing has moved yet");
+    assert.match(await text_of("#view-scale-note"), /this snapshot: colours of other snapshots mean other values.*Shown now: 0 to 0 m/);
+});
+
+test("vectors tell their length, and that there are none where nothing moved", async () => {
+    await open_mesh("displacement");
+    await page.selectOption("#view-field", "region");
+    await page.check("#view-vectors");
+    assert.match(await text_of("#view-vectors-note"), /longest vector \d.* m/);
+    await screenshot(page, "views_vectors");
+    await page.focus("#view-time");
+    await page.keyboard.press("Home");
+    await until("nothing moved", async () => /nothing has moved/.test(await text_of("#view-vectors-note")));
+    await page.uncheck("#view-vectors");
+});
+
+test("a profile is what the formula says, in the figure and in its CSV; by numbers and by two clicks", async () => {
+    await open_mesh("sigma_v");
+    await page.focus("#view-time");
+    await page.keyboard.press("Home"); // not deformed: sigma_v = 15 (20 - y) kPa
+    await until("the first", async () => (await text_of("#view-now")).startsWith("t = 0 s"));
+    for (const [id, value] of [["x1", 5], ["y1", 24], ["x2", 5], ["y2", 0]]) await page.fill(`#cut-${id}`, String(value));
+    await page.waitForSelector("#profile:not([hidden]) svg.plot > path.curve");
+    const { name, bytes } = await downloaded("#profile-csv");
+    assert.equal(name, "profile_sigma_v_0s.csv");
+    const [about, head, ...lines] = bytes.toString().trim().split("\r\n");
+    assert.match(about, /σ′_v at 0 s, A column made of formulas, FEM mesh/);
+    assert.equal(head, '"distance [m]","x [m]","y [m]","vertical effective stress σ′_v [kPa]"');
+    const rows = lines.map((line) => line.split(","));
+    assert.equal(rows.length, 241);
+    for (const [distance, x, y, value] of rows) {
+        assert.ok(Math.abs(24 - y - distance) < 1e-5 && Number(x) === 5);
+        if (Number(y) > 20) assert.equal(value, "", "no soil is no number");
+        else assert.ok(Math.abs(value - 15 * (20 - y)) < 0.01, `${value} kPa at y = ${y} m`);
+    }
+    await page.selectOption("#view-field", "r_u");
+    assert.match(await text_of("#profile-title"), /r_u along A–B at 0 s/);
+
+    await page.click("#cut-clear");
+    assert.ok(await page.isHidden("#profile"));
+    await page.selectOption("#view-field", "sigma_v");
+    await page.click("#cut-pick");
+    const { width, height } = await page.locator("#view").boundingBox();
+    await page.locator("#view").click({ position: { x: 0.35 * width, y: 0.5 * height } });
+    await page.locator("#view").click({ position: { x: 0.7 * width, y: 0.6 * height } });
+    await page.waitForSelector("#profile:not([hidden]) svg.plot > path.curve");
+    assert.ok(Number(await page.inputValue("#cut-x2")) > Number(await page.inputValue("#cut-x1")));
+    await screenshot(page, "views_profile");
+    await page.selectOption("#view-field", "region");
+    assert.ok(await page.isHidden("#profile"));
+    assert.match(await text_of("#cut-message"), /has no profile/);
+});
+
+test("a profile through points takes the next point, and leaves gaps where there is none", async () => {
+    await open_run();
+    await page.selectOption("#view-field", "pore_pressure");
+    for (const [id, value] of [["x1", -5], ["y1", 1], ["x2", 40], ["y2", 1]]) await page.fill(`#cut-${id}`, String(value));
+    await page.waitForSelector("#profile:not([hidden]) svg.plot > path.curve");
+    const rows = (await downloaded("#profile-csv")).bytes.toString().trim().split("\r\n").slice(2).map((line) => line.split(","));
+    assert.ok(rows.filter(([, x]) => Number(x) < -1 || Number(x) > 30).every(([, , , value]) => value === ""));
+    const inside = rows.filter(([, x]) => Number(x) > 1 && Number(x) < 9);
+    assert.ok(inside.every(([, , , value]) => Number(value) > 100 && Number(value) <= 140), inside.join(" | "));
+});
+
+test("gauges stand beside the runout, with a mark that moves along; a mesh has none", async () => {
+    await open_run();
+    await until("two curves", async () => (await page.locator("#gauge-depth svg.plot > path.curve").count()) === 2);
+    assert.match(await text_of("#gauges-note"), /Recorded to 12 s/);
+    const mark = () => page.locator("#gauge-depth .now").evaluate((line) => Number(/^M([\d.]+)/.exec(line.getAttribute("d"))?.[1]));
+    const end = await mark();
+    await page.focus("#view-time");
+    await page.keyboard.press("Home");
+    await until("the first", async () => (await text_of("#view-now")).startsWith("t = 0 s"));
+    const begin = await mark();
+    for (let i = 0; i < 12; i += 1) await page.keyboard.press("ArrowRight");
+    await until("half-way", async () => (await text_of("#view-now")).startsWith("t = 6 s"));
+    assert.ok(Math.abs((await mark()) - (begin + end) / 2) < 1, `${begin} ${await mark()} ${end}`);
+    assert.deepEqual(await page.locator("#gauge-depth .legend li").allTextContents(), [" road (x = 14 m)", " house (x = 18 m)"]);
+    await screenshot(page, "views_gauges");
+    await page.selectOption("#view-source", { label: "FEM mesh" });
+    await until("no gauges", () => page.isHidden("#gauges"));
+});
+
+test("points are coloured by velocity, material, r_u and plastic strain, each with its legend", async () => {
+    await open_run();
+    for (const [field, legend] of [["speed", /velocity \(magnitude\) \[m\/s\], 0 to/], ["r_u", /r_u \[–\], 0 to/], ["epsilon_q_plastic", /plastic strain ε_q \[–\], 0 to/]]) {
+        await page.selectOption("#view-field", field);
+        assert.match(await text_of("#view-range"), legend);
+    }
+    await page.selectOption("#view-field", "material");
+    assert.ok(await page.isVisible("#view-regions"));
+});
+
+test("nothing failed inside the page", () => {
+    assert.deepEqual(browser.complaints, []);
+    assert.deepEqual(browser.foreign, []);
+});
