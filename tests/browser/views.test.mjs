@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
-import { FakeApi, study } from "./fake_api.mjs";
+import { FakeApi, still_moving, study } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
 let url;
@@ -162,6 +162,37 @@ test("points are coloured by velocity, material, r_u and plastic strain, each wi
     }
     await page.selectOption("#view-field", "material");
     assert.ok(await page.isVisible("#view-regions"));
+});
+
+test("two runs stand side by side on one time, with one scale; each says where it is and whether it came to rest", async () => {
+    const other = api.add_run({ ...study, name: "other", title: "Another column" }, { began: Date.now() - 60000, flagged: { 0.5: [still_moving] }, points: 2000 });
+    await open_run();
+    await page.selectOption("#view-source", { label: "MPM from t_T = 0.5 s" });
+    await page.click("#view-compare");
+    await page.waitForSelector("#compare:not([hidden])");
+    await until("both pictures", async () => (await canvas_facts(page, "compare-0")).share > 0.02 && (await canvas_facts(page, "compare-1")).share > 0.02);
+    await page.selectOption("#compare-run-1", other.id);
+    await until("the other run's", async () => page.url().includes(`/${other.id}-task-`));
+    await page.selectOption("#compare-source-1", { label: "MPM from t_T = 0.5 s" });
+    await until("what it says", async () => /12 s since its transfer at t_T = 0.5 s; at its end: moving, 12 % in motion/.test(await text_of("#compare-says-1")));
+    assert.match(await text_of("#compare-says-0"), /12 s since its transfer at t_T = 0.5 s; at its end: at rest/);
+    const before = (await canvas_facts(page, "compare-1")).sum;
+    await page.focus("#compare-time");
+    for (let i = 0; i < 20; i += 1) await page.keyboard.press("ArrowLeft");
+    await until("an earlier time", async () => (await text_of("#compare-now")) === "t = 2 s");
+    for (const side of [0, 1]) await until("its time", async () => (await text_of(`#compare-says-${side}`)).startsWith("2 s "));
+    await until("another picture", async () => (await canvas_facts(page, "compare-1")).sum !== before);
+    await page.focus("#compare-0");
+    await page.keyboard.press("+");
+    const spans = () => page.evaluate(() => [0, 1].map((i) => document.getElementById(`compare-${i}`)).map(({ width, height }) => `${width} ${height}`));
+    assert.equal(new Set(await spans()).size, 1, "both have one size");
+    await screenshot(page, "views_compare");
+    await page.click("#compare-play");
+    await until("the end", async () => (await text_of("#compare-now")) === "t = 12 s" && /Play/.test(await text_of("#compare-play")));
+    await page.selectOption("#compare-source-1", { label: "FEM mesh" });
+    await until("different clocks", async () => /different clocks/.test(await text_of("#compare-note")));
+    await page.goto(`${url}/#/compare/nothing`);
+    await page.waitForSelector("#missing:not([hidden])");
 });
 
 test("nothing failed inside the page", () => {

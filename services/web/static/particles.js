@@ -101,6 +101,7 @@ export class Particles {
         this.source = new Snapshots(task, materials_in(this.run.study?.scene));
         this.source.stride = this.stride();
         by_id("view-source").value = task;
+        by_id("view-compare").href = `#/compare/${encodeURIComponent(task)}`;
         await Promise.all([this.extend(), this.show_gauges()]);
     }
 
