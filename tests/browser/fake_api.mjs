@@ -166,7 +166,7 @@ class FakeRun {
         for (const { code } of verdicts.flatMap(({ flags }) => flags ?? [])) flag_counts[code] = (flag_counts[code] ?? 0) + 1;
         const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : questionable ? "questionable" : "succeeded";
         const moving = flag_counts.still_moving ?? 0;
-        return { id: this.id, name: this.study.name, title: this.study.title, state,
+        return { id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
@@ -330,6 +330,9 @@ export class FakeApi {
         if (parts[0] !== "v1") return this.serve_file(response, url.pathname);
         const [, kind, id, ...rest] = parts;
         if (kind === "artifacts") return this.serve_artifact(id, response);
+        if (kind === "storage") {
+            return json(response, { runs: this.runs.map((run) => ({ id: run.id, freed_bytes: 12.3e6, shared_bytes: run.pinned ? 0 : 4e6 })) });
+        }
         if (kind === "events") return this.serve_events(url, response);
         if (kind === "examples") {
             return json(response, id ? study : { examples: [{ name: study.name, title: study.title }] });
@@ -348,6 +351,7 @@ export class FakeApi {
             return json(response, { id: run.id, freed_bytes: 1000 }, 202);
         }
         if (["cancel", "pause", "resume", "retry", "pin", "unpin"].includes(rest[0])) return this.command(run, rest[0], response);
+        if (rest[0] === "title") return this.rename(run, request, response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
         if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means() });
         if (rest[0] === "telemetry") {
@@ -360,10 +364,22 @@ export class FakeApi {
     }
 
     list_runs(url, response) {
-        const all = this.runs.map((run) => run.summary()).reverse();
+        const wanted = (url.searchParams.get("search") ?? "").toLowerCase();
+        const all = this.runs.map((run) => run.summary()).reverse()
+            .filter(({ name, title, id }) => `${name}\n${title}\n${id}`.toLowerCase().includes(wanted));
         const limit = Math.min(Number(url.searchParams.get("limit") ?? 100), this.most_per_page);
         const from = Number(url.searchParams.get("cursor") ?? 0);
         json(response, { runs: all.slice(from, from + limit), next: from + limit < all.length ? String(from + limit) : null });
+    }
+
+    async rename(run, request, response) {
+        let text = "";
+        for await (const chunk of request) text += chunk;
+        const { title } = JSON.parse(text);
+        if (!title) return problem(response, 400, "the body must be {\"title\": \"...\"}");
+        run.title = title;
+        this.tell(run.id, "rename");
+        return json(response, run.summary(), 202);
     }
 
     command(run, order, response) {

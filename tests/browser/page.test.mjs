@@ -335,6 +335,8 @@ test("a run that is over is pinned, or removed when asked twice", async () => {
     await until("it is not", () => page.isVisible("#remove"));
     await page.click("#remove");
     assert.equal(await page.evaluate(() => document.activeElement.textContent), "Keep it");
+    await until("what it gives back", async () =>
+        (await text_of("#remove-frees")) === "That gives back 12.3 MB of disk; 4 MB more are shared with other runs and stay with those.");
     await page.keyboard.press("Enter");
     await page.waitForSelector("#remove-dialog:not([open])", { state: "attached" });
     assert.ok(!api.requests.includes(`DELETE /v1/runs/${run.id}`));
@@ -342,6 +344,27 @@ test("a run that is over is pinned, or removed when asked twice", async () => {
     await page.click("#remove-dialog .danger");
     await until("it is gone from the list", async () => !/to-remove/.test(await text_of("#run-list")));
     assert.ok(api.requests.includes(`DELETE /v1/runs/${run.id}`));
+});
+
+test("runs are found by a part of their name, title or id, and renamed", async () => {
+    const run = api.add_run({ ...study, name: "to-rename" }, { pace: 1e-3 });
+    await open_run(run.id);
+    await page.click("#rename");
+    assert.equal(await page.inputValue("#rename-text"), study.title);
+    await page.fill("#rename-text", " ");
+    await page.keyboard.press("Enter");
+    await until("the refusal", () => page.isVisible("#rename-fault"));
+    await page.fill("#rename-text", "Weak beach, second try");
+    await page.keyboard.press("Enter");
+    await until("the new title", async () => (await text_of("#run-title")) === "Weak beach, second try");
+    await page.fill("#run-search", "weak BEACH");
+    await until("only it", async () => (await page.locator("#run-list li").count()) === 1);
+    assert.match(await text_of("#run-list"), /to-rename.*Weak beach, second try/);
+    await page.fill("#run-search", "no such run");
+    await until("none", async () => (await text_of("#no-runs")) === "None has this in its name, title or id.");
+    assert.equal(await text_of("#run-title"), "Weak beach, second try", "the open run stays");
+    await page.fill("#run-search", "");
+    await until("all", async () => (await page.locator("#run-list li").count()) === api.runs.length);
 });
 
 test("a run is paused and resumed, and says how long it will take", async () => {

@@ -8,7 +8,7 @@ import { is_active, variants_of } from "./format.js";
 import { Particles } from "./particles.js";
 import { Provenance } from "./provenance.js";
 import { Results } from "./results.js";
-import { draw_list, run_address, RunHead } from "./runs.js";
+import { draw_list, run_address, RunHead, searched } from "./runs.js";
 import { SubmitDialog } from "./submit.js";
 import { Tasks } from "./tasks.js";
 import { Telemetry } from "./telemetry.js";
@@ -39,6 +39,8 @@ new SubmitDialog((run) => {
     location.hash = run_address(run.id);
     look_soon();
 });
+
+by_id("run-search").addEventListener("input", () => look_soon());
 
 const open_table = () => location.hash.match(/^#\/database(?:\/([^/]+))?(?:\/([^/]+))?$/);
 const open_pair = () => location.hash.match(/^#\/compare\/([^/]+)(?:\/([^/]+))?$/)?.slice(1).filter(Boolean).map(decodeURIComponent);
@@ -79,9 +81,10 @@ async function look() {
     let busy = false;
     const began = performance.now();
     try {
-        const runs = await api.list_runs();
-        draw_list(runs, open_id());
-        busy = runs.some((run) => is_active(run.state));
+        const search = searched();
+        const found = await api.find_runs(search);
+        if (search === searched()) draw_list(found, open_id());
+        busy = found.runs.some((run) => is_active(run.state));
         await show_open_run();
         by_id("page-fault").hidden = true;
     } catch (fault) {

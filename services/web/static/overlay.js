@@ -49,8 +49,13 @@ export function draw_gauges(pen, gauges) {
     }
 }
 
-/// A line and the mark of a water table on its first stretch inside the picture.
-export function draw_water({ context, to_screen, ratio }, line) {
+/// halo: the ground's colour, so that it is seen on soil of any colour.
+export function draw_water({ context, to_screen, ratio }, line, halo) {
+    const colour = context.strokeStyle;
+    context.strokeStyle = halo;
+    context.lineWidth = 5 * ratio;
+    trace(context, to_screen, line);
+    context.strokeStyle = colour;
     context.lineWidth = 2 * ratio;
     dash(context, ratio, 9, 4);
     trace(context, to_screen, line);
@@ -59,13 +64,12 @@ export function draw_water({ context, to_screen, ratio }, line) {
 
 /// Displacements at nodes that are apart enough to be told from each other, the longest of all nodes `longest_vector` long. Returns
 /// the length of that one [m]; 0 when nothing has moved.
-export function draw_vectors({ context, to_screen, ratio }, { columns: { x, y, u_x, u_y }, count }) {
+export function draw_vectors({ context, to_screen, ratio }, { columns: { x, y, u_x, u_y }, count }, halo) {
     let longest = 0;
     for (let i = 0; i < count; i += 1) longest = Math.max(longest, Math.hypot(u_x[i], u_y[i]));
     if (longest === 0) return 0;
     const factor = (longest_vector * ratio) / longest;
     const taken = new Set();
-    context.lineWidth = 1.2 * ratio;
     context.beginPath();
     for (let i = 0; i < count; i += 1) {
         const [px, py] = to_screen(x[i], y[i]);
@@ -74,6 +78,12 @@ export function draw_vectors({ context, to_screen, ratio }, { columns: { x, y, u
         taken.add(place);
         draw_arrow(context, px, py, u_x[i] * factor, -u_y[i] * factor, ratio);
     }
+    const colour = context.strokeStyle;
+    context.strokeStyle = halo;
+    context.lineWidth = 3.2 * ratio;
+    context.stroke();
+    context.strokeStyle = colour;
+    context.lineWidth = 1.3 * ratio;
     context.stroke();
     return longest;
 }

@@ -292,13 +292,14 @@ export class PointView {
         const in_colour = (name) => {
             context.strokeStyle = context.fillStyle = style.getPropertyValue(name).trim();
         };
+        const halo = style.getPropertyValue("--canvas").trim();
         in_colour("--text");
         draw_outlines(pen, outlines);
         if (toe) draw_toe(pen, toe);
         draw_gauges(pen, gauges ?? []);
-        this.longest_vector = vectors && this.snapshot.columns.u_x ? draw_vectors(pen, this.snapshot) : 0;
+        this.longest_vector = vectors && this.snapshot.columns.u_x ? draw_vectors(pen, this.snapshot, halo) : 0;
         in_colour("--water");
-        if (water) draw_water(pen, water);
+        if (water) draw_water(pen, water, halo);
         in_colour("--fired");
         if (cut) draw_cut(pen, cut);
     }
