@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
-import { FakeApi, still_moving, study } from "./fake_api.mjs";
+import { FakeApi, still_moving, study, twelve_variants } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
 let url;
@@ -193,6 +193,31 @@ test("two runs stand side by side on one time, with one scale; each says where i
     await until("different clocks", async () => /different clocks/.test(await text_of("#compare-note")));
     await page.goto(`${url}/#/compare/nothing`);
     await page.waitForSelector("#missing:not([hidden])");
+});
+
+test("results stand against a parameter, one colour and shape per variant; a variant without that number is named", async () => {
+    const variants = [...twelve_variants.variants, { name: "strange", overrides: ["/materials/sand/law/c_kPa=null"] }];
+    const run = api.add_run({ ...twelve_variants, name: "parameter", variants, transfer_times: [0.5, 1] }, { began: Date.now() - 60000, breaks: [] });
+    await open_run(run.id);
+    await until("markers", async () => (await page.locator("#runout-plot svg.plot > .marker").count()) === 26);
+    assert.deepEqual(await page.locator("#runout-abscissa option").allTextContents(), ["transfer time", "/materials/sand/law/c_kPa"]);
+    await page.selectOption("#runout-abscissa", "/materials/sand/law/c_kPa");
+    await until("24 markers", async () => (await page.locator("#runout-plot svg.plot > .marker").count()) === 24);
+    assert.deepEqual(await page.locator("#runout-plot .label").allTextContents(), ["/materials/sand/law/c_kPa", "runout from the toe [m]"]);
+    assert.match(await text_of("#runout-note"), /neither they nor the scene that was sent give \/materials\/sand\/law\/c_kPa as a number: strange\./);
+    const looks = await page.$$eval("#runout-plot svg.plot > .marker", (all) => all.map((one) =>
+        ({ look: `${getComputedStyle(one).fill} ${one.getAttribute("d")}`, x: /translate\(([\d.]+)/.exec(one.getAttribute("transform"))[1] })));
+    assert.equal(new Set(looks.map(({ look }) => look)).size, 12);
+    assert.equal(new Set(looks.map(({ x }) => x)).size, 12, "one place per value, both transfer times above each other");
+    await page.focus("#runout-plot svg.plot");
+    await page.keyboard.press("Home");
+    assert.match(await text_of("#runout-plot .readout"), /^c_kPa = 10: strength_x_0.70, t_T = 0.5 s /);
+    await screenshot(page, "views_parameter");
+    await page.selectOption("#runout-abscissa", "");
+    await until("the curves", async () => (await page.locator("#runout-plot svg.plot > .marker").count()) === 26);
+    await page.keyboard.press("Home");
+    await open_run();
+    assert.ok(await page.isHidden("#runout-abscissa-label"), "a study without variants has no parameters");
 });
 
 test("nothing failed inside the page", () => {

@@ -258,6 +258,6 @@ export class Plot {
         });
         for (const each of this.data.marks) if (each.x === x) values.push(each.label);
         const named = this.data.names?.find((each) => each.x === x)?.label;
-        set_text(this.readout, `${named ?? `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}`}: ${values.join(" · ")}`);
+        set_text(this.readout, `${named ?? `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}`.trim()}: ${values.join(" · ")}`);
     }
 }
