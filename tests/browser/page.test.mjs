@@ -847,7 +847,7 @@ test("every control has a name, and the keyboard reaches it", async () => {
     assert.deepEqual(nameless, []);
     await page.evaluate(() => document.body.focus());
     const reached = new Set();
-    for (let i = 0; i < 130; i += 1) {
+    for (let i = 0; i < 220; i += 1) {
         await page.keyboard.press("Tab");
         reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.className.baseVal ||
                                               document.activeElement.className));

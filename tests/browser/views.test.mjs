@@ -79,11 +79,11 @@ test("vectors tell their length, and that there are none where nothing moved", a
     await open_mesh("displacement");
     await page.selectOption("#view-field", "region");
     await page.check("#view-vectors");
-    assert.match(await text_of("#view-vectors-note"), /longest vector \d.* m/);
+    assert.match(await text_of("#view-vectors-note"), /Longest vector \d.* m/);
     await screenshot(page, "views_vectors");
     await page.focus("#view-time");
     await page.keyboard.press("Home");
-    await until("nothing moved", async () => /nothing has moved/.test(await text_of("#view-vectors-note")));
+    await until("nothing moved", async () => /Nothing has moved/.test(await text_of("#view-vectors-note")));
     await page.uncheck("#view-vectors");
 });
 
@@ -218,6 +218,77 @@ test("results stand against a parameter, one colour and shape per variant; a var
     await page.keyboard.press("Home");
     await open_run();
     assert.ok(await page.isHidden("#runout-abscissa-label"), "a study without variants has no parameters");
+});
+
+/// Width, height and how many colours a picture has that is looked at without the page; of a film, its first and last picture.
+async function looked_at(kind, bytes) {
+    const other = await page.context().newPage();
+    const facts = await other.evaluate(async ([type, text]) => {
+        const seen = (source, width, height) => {
+            const canvas = Object.assign(document.createElement("canvas"), { width, height });
+            const context = canvas.getContext("2d");
+            context.drawImage(source, 0, 0);
+            const pixels = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
+            return { width, height, colours: new Set(pixels).size, sum: pixels.reduce((sum, each, i) => (sum + each * (i % 997)) % 4294967291, 0) };
+        };
+        const address = `data:${type};base64,${text}`;
+        if (type.startsWith("image")) {
+            const image = new Image();
+            image.src = address;
+            await image.decode();
+            return seen(image, image.naturalWidth, image.naturalHeight);
+        }
+        const video = Object.assign(document.createElement("video"), { muted: true, src: address });
+        await new Promise((resume, give_up) => Object.assign(video, { onloadeddata: resume, onerror: () => give_up(video.error) }));
+        const first = seen(video, video.videoWidth, video.videoHeight);
+        await video.play();
+        await new Promise((resume) => (video.onended = resume));
+        return { first, last: seen(video, video.videoWidth, video.videoHeight), length: video.currentTime };
+    }, [kind, bytes.toString("base64")]);
+    await other.close();
+    return facts;
+}
+
+test("figures are saved as SVG that needs no style sheet, and as PNG", async () => {
+    await open_run();
+    const figure = await downloaded("#runout-plot .under-plot button:has-text('SVG')");
+    assert.equal(figure.name, "A_column_made_of_formulas_Runout.svg");
+    const text = figure.bytes.toString();
+    for (const part of ["transfer time t_T [s]", "runout from the toe [m]", "99 % of the mobile soil", "failed", "A column made of formulas"]) {
+        assert.ok(text.includes(part), `${part} is in it`);
+    }
+    assert.ok(!text.includes("var(--"), "all colours are colours");
+    const drawn = await looked_at("image/svg+xml", figure.bytes);
+    const png = await downloaded("#runout-plot .under-plot button:has-text('PNG')");
+    const seen = await looked_at("image/png", png.bytes);
+    assert.deepEqual([seen.width, seen.height], [2 * drawn.width, 2 * drawn.height]);
+    assert.ok(drawn.colours > 30 && seen.colours > 30, `${drawn.colours}, ${seen.colours} colours`);
+});
+
+test("the soil is saved as PNG and SVG with its legend, and as a film that says when it is not at rest", async () => {
+    const run = api.add_run({ ...study, name: "moving", title: "Still moving", transfer_times: [0.5] }, { began: Date.now() - 60000, flagged: { 0.5: [still_moving] } });
+    await open_run(run.id);
+    await until("the verdict", async () => /Not at rest at the end \(moving, 12 % in motion\)/.test(await text_of("#view-verdict")));
+    const drawing = await downloaded("#view-svg");
+    assert.equal(drawing.name, "moving_epsilon_q_12s.svg");
+    for (const part of ["Still moving", "MPM from t_T = 0.5 s, t = 12.00 s", "deviatoric strain ε_q [–]", "Not at rest at the end", "Range fixed", run.id]) {
+        assert.ok(drawing.bytes.toString().includes(part), `${part} is in it`);
+    }
+    const png = await looked_at("image/png", (await downloaded("#view-png")).bytes);
+    assert.ok(png.colours > 100, `${png.colours} colours`);
+    const film = await downloaded("#view-film");
+    assert.match(film.name, /\.webm$/);
+    const seen = await looked_at("video/webm", film.bytes);
+    assert.ok(Math.abs(2 * seen.first.width - png.width) <= 4);
+    assert.ok(seen.last.colours > 100 && seen.first.sum !== seen.last.sum, `it moves: ${JSON.stringify(seen)}`);
+    assert.ok(seen.length > 2, `${seen.length} s`); // 25 pictures at most 12 per second, and the last one stays
+    console.log(`a film of 25 pictures: ${film.bytes.length} bytes, ${seen.length} s, ${seen.first.width} x ${seen.first.height}`);
+    assert.equal(await text_of("#view-film"), "Film (WebM)");
+    await page.goto(`${url}/#/compare/run-1-task-3/${run.id}-task-3`);
+    await until("both", async () => (await canvas_facts(page, "compare-1")).share > 0.02);
+    const both = (await downloaded("#compare-svg")).bytes.toString();
+    assert.equal(both.match(/<image /g).length, 2);
+    assert.match(both, /Right: Not at rest at the end/);
 });
 
 test("nothing failed inside the page", () => {

@@ -6,6 +6,7 @@ import { Database } from "./database.js";
 import { by_id, set_text } from "./dom.js";
 import { is_active, variants_of } from "./format.js";
 import { Particles } from "./particles.js";
+import { Plot } from "./plot.js";
 import { Provenance } from "./provenance.js";
 import { Results } from "./results.js";
 import { draw_list, run_address, RunHead, searched } from "./runs.js";
@@ -19,7 +20,8 @@ const look_again = 1500;   // [ms] between looks while something runs: progress 
 const most_share = 0.5;    // of the time that looking may take: a large sweep is looked at less often
 
 new TokenDialog();
-const particles = new Particles();
+Plot.of = () => (by_id("run").hidden ? "" : by_id("run-title").textContent);
+const particles = new Particles((task) => results.rows.find((row) => row.mpm_task === task));
 function look_at(row) {
     particles.show_point(row);
     by_id("particles").scrollIntoView({ block: "nearest" });

@@ -35,12 +35,12 @@ function blend(fraction) {
     return "#" + mixed.map((value) => value.toString(16).padStart(2, "0")).join("");
 }
 
-const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
+export const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
 /// Scale for numbers, low to high.
 export const scale_packed = Uint32Array.from(scale_css, packed);
 export const scale_gradient = `linear-gradient(to right, ${anchors.join(", ")})`;
 /// The same in steps, for contours.
-const band_css = Array.from({ length: band_count }, (_, i) => blend((i + 0.5) / band_count));
+export const band_css = Array.from({ length: band_count }, (_, i) => blend((i + 0.5) / band_count));
 export const band_colours = Uint32Array.from(band_css, packed);
 export const band_gradient = `linear-gradient(to right, ${band_css.map((colour, i) =>
     `${colour} ${(100 * i) / band_count}% ${(100 * (i + 1)) / band_count}%`).join(", ")})`;

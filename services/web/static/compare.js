@@ -1,13 +1,16 @@
 // Two pictures side by side on one time: same part of the world, same colours, one slider. Of any two tasks that leave snapshots.
 import * as api from "./api.js";
+import { AnimationFiles } from "./animation_files.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { field_name, fields_of, is_named } from "./fields.js";
-import { rest_text } from "./flags.js";
+import { pace_text } from "./film.js";
+import { picture_verdict, rest_text } from "./flags.js";
 import { clock, is_active, number, seconds } from "./format.js";
 import { first_with_frames, picture_tasks, size_canvas, source_name } from "./particles.js";
 import { extents_of, PointView, spacing_of } from "./points.js";
 import { Scale } from "./scale.js";
 import { materials_in, overlay_of, water_of } from "./scene.js";
+import { sheet_of } from "./sheet.js";
 import { Snapshots } from "./snapshots.js";
 
 const frames_per_second = 12;
@@ -77,6 +80,9 @@ export class Compare {
         by_id("compare-fit").addEventListener("click", () => this.sides.forEach(({ view }) => view.fit()));
         this.times = [];
         this.at = 0;
+        this.files = new AnimationFiles("compare", {
+            count: () => this.times.length, at: () => this.at, show: (i) => this.seek(i), sheet: (film) => this.sheet(film), name: () => "comparison",
+        });
     }
 
     choose(index, task) {
@@ -104,6 +110,7 @@ export class Compare {
         this.count = times.length;
         if (!fresh) return;
         this.pause();
+        this.files.stop();
         this.times = times.filter((time, i) => i === 0 || time - times[i - 1] > same_time);
         await this.find_box();
         await this.seek(this.times.length - 1);
@@ -202,6 +209,20 @@ export class Compare {
         const names = (snapshot) => (field === "region" ? snapshot.regions : snapshot.materials ?? []).join();
         if (is_named(field) && names(a) !== names(b)) doubts.push("Their names differ: the legend is the left one's.");
         return doubts.join(" ");
+    }
+
+    /// What is seen, with all that must be known of it, for a file.
+    sheet(film) {
+        if (this.sides.some(({ snapshot }) => !snapshot)) return null;
+        const { colour, names, grey, notes } = this.scale.shown;
+        const parts = this.sides.map((side) => {
+            side.view.paint();
+            return { view: side.view, caption: `${side.run.title || side.run.name}, ${source_name(side.task)}: ${side.says(this.times[this.at])}` };
+        });
+        const verdicts = this.sides.map(({ task, row, index }) => [["Left", "Right"][index], picture_verdict(task, row)]).filter(([, verdict]) => verdict);
+        return sheet_of({ title: `t = ${this.times[this.at].toFixed(2)} s, each on its own clock`, parts, colour, names, grey,
+                          notes: [...verdicts.map((each) => each.join(": ")), by_id("compare-note").textContent, ...notes,
+                                  film ? pace_text(this.times) : "", `Runs ${this.sides.map(({ run }) => run.id).join(" and ")}, Breachline.`] });
     }
 
     update_controls() {

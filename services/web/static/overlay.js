@@ -62,12 +62,16 @@ export function draw_water({ context, to_screen, ratio }, line, halo) {
     dash(context, ratio);
 }
 
-/// Displacements at nodes that are apart enough to be told from each other, the longest of all nodes `longest_vector` long. Returns
-/// the length of that one [m]; 0 when nothing has moved.
-export function draw_vectors({ context, to_screen, ratio }, { columns: { x, y, u_x, u_y }, count }, halo) {
-    let longest = 0;
-    for (let i = 0; i < count; i += 1) longest = Math.max(longest, Math.hypot(u_x[i], u_y[i]));
-    if (longest === 0) return 0;
+/// Length of the longest displacement [m].
+export function longest_of({ columns: { u_x, u_y } }) {
+    return u_x.reduce((longest, each, i) => Math.max(longest, Math.hypot(each, u_y[i])), 0);
+}
+
+/// Displacements at nodes that are apart enough to be told from each other, the longest of all nodes `longest_vector` long.
+export function draw_vectors({ context, to_screen, ratio }, snapshot, halo) {
+    const { columns: { x, y, u_x, u_y }, count } = snapshot;
+    const longest = longest_of(snapshot);
+    if (longest === 0) return;
     const factor = (longest_vector * ratio) / longest;
     const taken = new Set();
     context.beginPath();
@@ -85,7 +89,6 @@ export function draw_vectors({ context, to_screen, ratio }, { columns: { x, y, u
     context.strokeStyle = colour;
     context.lineWidth = 1.3 * ratio;
     context.stroke();
-    return longest;
 }
 
 function draw_arrow(context, x, y, dx, dy, ratio) {

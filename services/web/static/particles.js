@@ -1,24 +1,35 @@
 // The moving picture of a run: which task, which snapshot, coloured by what. The snapshots are in snapshots.js, the
 // drawing itself in points.js.
+import { AnimationFiles } from "./animation_files.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { field_name, fields_of, is_named } from "./fields.js";
+import { pace_text } from "./film.js";
+import { picture_verdict } from "./flags.js";
 import { by_point, is_active, mpm_name, number, seconds, variants_of } from "./format.js";
 import { Gauges } from "./gauges.js";
+import { longest_of } from "./overlay.js";
 import { extents_of, PointView, spacing_of } from "./points.js";
 import { Profile } from "./profile.js";
 import { Scale } from "./scale.js";
 import { materials_in, overlay_of, water_of } from "./scene.js";
+import { sheet_of } from "./sheet.js";
 import { Snapshots } from "./snapshots.js";
 
 const frames_per_second = 12;
 const ahead = 2;                // snapshots fetched before a playing picture needs them
 
 export class Particles {
-    constructor() {
+    /// row_of(task): the row of results that the task made, if it is known.
+    constructor(row_of) {
+        this.row_of = row_of;
         this.view = new PointView(by_id("view"));
         this.scale = new Scale("view", () => this.paint());
         this.profile = new Profile(this.view);
         this.gauges = new Gauges();
+        this.files = new AnimationFiles("view", {
+            count: () => this.frames.length, at: () => this.at, show: (i) => this.seek(i), sheet: (film) => this.sheet(film),
+            name: () => `${this.run.name}_${this.field}_${this.snapshot.time}s`,
+        });
         this.source = null; // Snapshots of the task that is shown
         this.at = -1;
         by_id("view-source").addEventListener("change", (event) => this.choose(event.target.value));
@@ -84,6 +95,7 @@ export class Particles {
 
     forget() {
         this.pause();
+        this.files.stop();
         this.source?.close();
         this.source = null;
         this.at = -1;
@@ -225,6 +237,8 @@ export class Particles {
         this.view.overlay.vectors = by_id("view-vectors").checked;
         this.view.show(snapshot, this.scale.of(this.field, [snapshot], [this.source], { contours }), this.spacing ?? 1);
         this.gauges.mark(snapshot.time);
+        by_id("view-verdict").hidden = this.verdict() === "";
+        set_text(by_id("view-verdict"), this.verdict());
         this.tell_vectors(snapshot);
         const what = is_mesh ? `${snapshot.quads.length / 4} elements` : `${snapshot.count} points`;
         set_text(by_id("view-count"), what);
@@ -234,14 +248,28 @@ export class Particles {
         this.profile.show(snapshot, this.field, this.spacing ?? 1, `${this.run.title || this.run.name}, ${by_id("view-source").selectedOptions[0]?.textContent}`);
     }
 
-    tell_vectors({ columns, count }) {
-        let text = "";
-        if (columns.u_x && by_id("view-vectors").checked) {
-            let longest = 0;
-            for (let i = 0; i < count; i += 1) longest = Math.max(longest, Math.hypot(columns.u_x[i], columns.u_y[i]));
-            text = longest > 0 ? `longest vector ${number(longest, 3)} m, the others to its scale` : "nothing has moved: no vectors";
-        }
-        set_text(by_id("view-vectors-note"), text);
+    tell_vectors({ columns }) {
+        const longest = columns.u_x && by_id("view-vectors").checked ? longest_of(this.snapshot) : null;
+        set_text(by_id("view-vectors-note"), longest === null ? "" : longest > 0 ? `Longest vector ${number(longest, 3)} m, the others to its scale.`
+            : "Nothing has moved: no vectors.");
+    }
+
+    verdict() {
+        const task = this.run.tasks.find(({ id }) => id === this.task);
+        return task ? picture_verdict(task, this.row_of(task.id)) : "";
+    }
+
+    /// What is seen, with all that must be known of it, for a file.
+    sheet(film) {
+        if (!this.snapshot) return null;
+        this.view.paint();
+        const { colour, names, grey, notes } = this.scale.shown;
+        const caption = `${by_id("view-source").selectedOptions[0]?.textContent}, t = ${this.snapshot.time.toFixed(2)} s`;
+        const more = [by_id("view-vectors-note").textContent, this.view.overlay.water ? "Blue: phreatic line before the shaking." : "",
+                      this.snapshot.quads ? "" : `${this.snapshot.count} points.`];
+        return sheet_of({ title: this.run.title || this.run.name, parts: [{ view: this.view, caption }], colour, names, grey,
+                          notes: [this.verdict(), ...notes, more.filter(Boolean).join(" "), film ? pace_text(this.frames.map(({ time }) => time)) : "",
+                                  `Run ${this.run.id}, Breachline.`] });
     }
 
     update_controls() {

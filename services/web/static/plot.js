@@ -1,6 +1,7 @@
 // A plot of curves against one abscissa, as SVG: axes with units, gaps where values are missing, marks on the
 // abscissa, hover and keyboard readout. Knows nothing of where the numbers come from.
 import { element, set_text, svg } from "./dom.js";
+import { figure_of, offer_png, offer_svg } from "./figure_files.js";
 import { looks } from "./flags.js";
 import { number } from "./format.js";
 import { band, curve, error_at, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
@@ -16,6 +17,9 @@ function with_errors(series) {
 }
 
 export class Plot {
+    /// What the figures of this page are of, for those that are saved.
+    static of = () => "";
+
     /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: what the
     /// verticals without a text are. choose(x, key) is called when a person picks a point with a click or Enter; key is
     /// the point's entry in its series' `keys`, null for a mark.
@@ -30,7 +34,11 @@ export class Plot {
         this.picture = svg("svg", { class: "plot", role: "img", tabindex: 0 });
         this.readout = element("p", { class: "readout", "aria-live": "polite" });
         this.legend = element("ul", { class: "legend" });
-        host.replaceChildren(this.legend, this.picture, this.readout);
+        const button = (kind, offer) => element("button", { type: "button", class: "link", title: `Save this figure as ${kind}`, onclick: () => {
+            if (this.width) offer([Plot.of(), this.labels.title].filter(Boolean).join(" "), figure_of(this, Plot.of()));
+        } }, kind);
+        host.replaceChildren(this.legend, this.picture, element("div", { class: "under-plot" }, this.readout,
+            element("span", { class: "buttons" }, button("SVG", offer_svg), button("PNG", offer_png))));
         new ResizeObserver(() => this.draw()).observe(host);
         this.picture.addEventListener("pointermove", (event) => this.point_at(...this.nearest(event)));
         this.picture.addEventListener("pointerleave", () => this.point_at(null));

@@ -58,7 +58,6 @@ export class PointView {
         this.overlay = { outlines: [], toe: null };
         this.moved = () => {};
         this.pick = null;
-        this.longest_vector = 0; // [m]
         this.box = null;
         this.fitted = true;
         this.paint_time = 0; // [ms] of the last picture
@@ -297,7 +296,7 @@ export class PointView {
         draw_outlines(pen, outlines);
         if (toe) draw_toe(pen, toe);
         draw_gauges(pen, gauges ?? []);
-        this.longest_vector = vectors && this.snapshot.columns.u_x ? draw_vectors(pen, this.snapshot, halo) : 0;
+        if (vectors && this.snapshot.columns.u_x) draw_vectors(pen, this.snapshot, halo);
         in_colour("--water");
         if (water) draw_water(pen, water, halo);
         in_colour("--fired");

@@ -16,18 +16,23 @@ export class Scale {
         return by_id(`${this.prefix}-${name}`);
     }
 
+    // shown: what was drawn last: {colour, names, grey: some have no value, notes: [what the range is of, what the values are]}
+
     /// The colours of a field in these snapshots, which are shown at once; sources: the Snapshots that they are of. Draws the legend.
     of(field, snapshots, sources, { contours = false } = {}) {
         const named = is_named(field);
         this.part("scale").hidden = named;
         this.part("regions").hidden = !named;
         if (named) {
-            this.draw_names(field, snapshots);
-            return { field, named };
+            const names = field === "region" ? snapshots[0].regions : snapshots[0].materials;
+            this.draw_names(names);
+            this.shown = { colour: { field, named }, names, grey: false, notes: [] };
+        } else {
+            const range = this.range(field, snapshots, sources);
+            const notes = this.draw(field, range, snapshots, contours);
+            this.shown = { colour: { field, ...range, contours }, grey: !this.part("none").hidden, notes };
         }
-        const range = this.range(field, snapshots, sources);
-        this.draw(field, range, snapshots, contours);
-        return { field, ...range, contours };
+        return this.shown.colour;
     }
 
     range(field, snapshots, sources) {
@@ -54,13 +59,13 @@ export class Scale {
         set_text(this.part("range"), `${field_label(field)}, ${number(low)} to ${number(high)}`);
         const ends = snapshots.map(({ columns }) => extremes_of(columns[field] ?? []));
         const spans = ends.map((end) => (end ? `${number(end[0], 3)} to ${number(end[1], 3)} ${unit_of(field)}`.replace(/ –$/, "") : "no value"));
-        set_text(this.part("scale-note"), [`Range ${text}.`, `Shown now: ${spans.join(" | ")}; beyond the ends, the colour of the end.`,
-                                           note_of(field, is_mesh) && `Values: ${note_of(field, is_mesh)}.`].filter(Boolean).join(" "));
+        const [range, values] = [`Range ${text}.`, note_of(field, is_mesh) && `Values: ${note_of(field, is_mesh)}.`];
+        set_text(this.part("scale-note"), [range, `Shown now: ${spans.join(" | ")}; beyond the ends, the colour of the end.`, values].filter(Boolean).join(" "));
         this.part("none").hidden = !snapshots.some(({ columns }) => columns[field]?.some(Number.isNaN));
+        return [range, values];
     }
 
-    draw_names(field, snapshots) {
-        const names = field === "region" ? snapshots[0].regions : snapshots[0].materials;
+    draw_names(names) {
         // A region and a material may share their name and not their colour: the place in the list is the key.
         mirror(this.part("regions"), names.map((name, i) => ({ name, i })), ({ name, i }) => `${i}/${name}`,
                ({ name, i }) => element("li", {}, element("span", { class: "chip", style: `background: ${region_css(i)}` }), ` ${name}`),
