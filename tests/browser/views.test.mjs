@@ -72,7 +72,7 @@ test("a fixed range is that of all snapshots, another one says of which", async 
     assert.equal(await text_of("#view-range"), fixed);
     await page.selectOption("#view-scale-of", "this");
     assert.match(await text_of("#view-range"), /0 to 1$/, "nothing has moved yet");
-    assert.match(await text_of("#view-scale-note"), /this snapshot: colours of other snapshots mean other values.*Shown now: 0 to 0 m/);
+    assert.match(await text_of("#view-scale-note"), /this snapshot: in another one the colours mean other values.*Shown now: 0 to 0 m/);
 });
 
 test("vectors tell their length, and that there are none where nothing moved", async () => {

@@ -55,7 +55,7 @@ class Side {
     /// What is to be known of this picture: whose clock, how late, whether more would come.
     says(time) {
         if (!this.snapshot) return "No snapshot yet.";
-        const clock_name = this.task.phase === "fem_solver" ? "since the shaking began"
+        const clock_name = this.task.phase === "fem_solver" ? "since the first dynamic stage began"
             : Number.isFinite(this.task.transfer_time) ? `since its transfer at t_T = ${number(this.task.transfer_time)} s` : "since it began";
         const over = this.is_last && time > this.snapshot.time + same_time ? "; its last snapshot, it goes no further" : "";
         const rest = this.row ? `; at its end: ${rest_text(this.row)}` : "";
@@ -205,7 +205,7 @@ export class Compare {
         if (!b) return "";
         const doubts = [];
         const [one, other] = this.sides.map(({ task }) => task.phase);
-        if (one !== other) doubts.push("The two have different clocks: a mesh's time is since the shaking began, a runout's since its transfer.");
+        if (one !== other) doubts.push("The two have different clocks: a mesh's time is since its first dynamic stage began, a runout's since its transfer.");
         const names = (snapshot) => (field === "region" ? snapshot.regions : snapshot.materials ?? []).join();
         if (is_named(field) && names(a) !== names(b)) doubts.push("Their names differ: the legend is the left one's.");
         return doubts.join(" ");

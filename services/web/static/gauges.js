@@ -54,7 +54,7 @@ export class Gauges {
             this.plots[quantity].mark_now(this.now);
         }
         set_text(by_id("gauges-note"), seen.length === 0 ? "The gauges have not told anything yet."
-            : "Means over a cell each way, of soil that moves: depth by height, velocity by mass. A gauge that no soil has reached reads 0. " +
+            : "Means over a cell each way, of the mobile soil: its depth, and its horizontal velocity by mass. Where there is none, both are 0. " +
               `Recorded to ${seconds(x.at(-1))}.`);
     }
 

@@ -265,7 +265,7 @@ export class Particles {
         this.view.paint();
         const { colour, names, grey, notes } = this.scale.shown;
         const caption = `${by_id("view-source").selectedOptions[0]?.textContent}, t = ${this.snapshot.time.toFixed(2)} s`;
-        const more = [by_id("view-vectors-note").textContent, this.view.overlay.water ? "Blue: phreatic line before the shaking." : "",
+        const more = [by_id("view-vectors-note").textContent, this.view.overlay.water ? "Blue: phreatic line of the scene, before anything moves." : "",
                       this.snapshot.quads ? "" : `${this.snapshot.count} points.`];
         return sheet_of({ title: this.run.title || this.run.name, parts: [{ view: this.view, caption }], colour, names, grey,
                           notes: [this.verdict(), ...notes, more.filter(Boolean).join(" "), film ? pace_text(this.frames.map(({ time }) => time)) : "",

@@ -48,8 +48,8 @@ export class Scale {
             high_input.value = number(high > low ? high : low + 1, 2);
         }
         const [low, high] = [Number(low_input.value), Number(high_input.value)];
-        const texts = { all: `fixed: 98 % of the values of ${[...new Set(sources.map((source) => source.reach_text()))].join(" and ")}`,
-                        this: "98 % of the values of this snapshot: colours of other snapshots mean other values", hand: "set by hand" };
+        const texts = { all: `fixed over time, from 98 % of the values of ${[...new Set(sources.map((source) => source.reach_text()))].join(" and ")}`,
+                        this: "from 98 % of the values of this snapshot: in another one the colours mean other values", hand: "set by hand" };
         return { low, high: high > low ? high : low + 1, text: texts[of] };
     }
 

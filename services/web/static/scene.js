@@ -12,7 +12,7 @@ export function overlay_of(scene) {
              gauges: (scene?.mpm?.gauges ?? []).map(({ name, x }) => ({ name, x, y: ground(x) })) };
 }
 
-/// The phreatic line before the shaking, level beyond its first and last point, as wide as the section; null: the scene has none.
+/// The phreatic line that the scene begins with, level beyond its first and last point, as wide as the section; null: the scene has none.
 export function water_of(scene) {
     const line = scene?.fem?.water?.line ?? scene?.transfer?.phreatic_line ?? scene?.lem?.water?.line;
     const xs = outlines_in(scene).flat().map(([x]) => x);
