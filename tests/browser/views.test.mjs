@@ -252,7 +252,7 @@ async function looked_at(kind, bytes) {
 test("figures are saved as SVG that needs no style sheet, and as PNG", async () => {
     await open_run();
     const figure = await downloaded("#runout-plot .under-plot button:has-text('SVG')");
-    assert.equal(figure.name, "A_column_made_of_formulas_Runout.svg");
+    assert.equal(figure.name, "Runout_A_column_made_of_formulas.svg");
     const text = figure.bytes.toString();
     for (const part of ["transfer time t_T [s]", "runout from the toe [m]", "99 % of the mobile soil", "failed", "A column made of formulas"]) {
         assert.ok(text.includes(part), `${part} is in it`);
@@ -289,6 +289,25 @@ test("the soil is saved as PNG and SVG with its legend, and as a film that says 
     const both = (await downloaded("#compare-svg")).bytes.toString();
     assert.equal(both.match(/<image /g).length, 2);
     assert.match(both, /Right: Not at rest at the end/);
+});
+
+test("all of it fits at 1400, 1000 and 400 px", async () => {
+    for (const width of [1000, 400, 1400]) {
+        await page.setViewportSize({ width, height: 900 });
+        await open_mesh("r_u");
+        await page.check("#view-vectors");
+        for (const [id, value] of [["x1", 5], ["y1", 24], ["x2", 5], ["y2", 0]]) await page.fill(`#cut-${id}`, String(value));
+        const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+        assert.ok((await overflow()) <= 0, `run at ${width} px`);
+        await screenshot(page, `views_mesh_${width}`);
+        await page.click("#view-compare");
+        await page.evaluate(() => { // a title as long as they may be
+            for (const select of document.querySelectorAll("#compare select")) select.append(new Option("long ".repeat(40)));
+        });
+        await until("both", async () => (await canvas_facts(page, "compare-1")).share > 0.02);
+        assert.ok((await overflow()) <= 0, `comparison at ${width} px`);
+        await screenshot(page, `views_compare_${width}`);
+    }
 });
 
 test("nothing failed inside the page", () => {

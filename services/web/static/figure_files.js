@@ -1,6 +1,7 @@
 // Figures as files: SVG with its styles inside, and PNG of that.
 import { svg } from "./dom.js";
 import { file_word, offer_file } from "./download.js";
+import { wrapped } from "./sheet.js";
 
 const styles = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray", "stroke-linejoin", "font-size", "font-weight",
                 "font-family", "text-anchor", "paint-order"];
@@ -25,8 +26,11 @@ export function figure_of({ picture, legend, labels, width, height }, of) {
     const made = [];
     const write = (text, x, y, more = {}) => made.push(svg("text", { x, y, fill: page.getPropertyValue("--text").trim(), "font-size": "13px",
                                                                      "font-family": font.fontFamily, ...more }, text));
-    write([labels.title, of].filter(Boolean).join(" – "), 12, 22, { "font-weight": "bold" });
-    let [x, y] = [12, 32];
+    let [x, y] = [12, 12];
+    for (const line of wrapped([labels.title, of].filter(Boolean).join(" – "), 13, width - 24, "bold")) {
+        write(line, x, y + 10, { "font-weight": "bold" });
+        y += 19;
+    }
     for (const item of legend.children) {
         const wide = item.getBoundingClientRect().width + 18;
         if (x > 12 && x + wide > width) [x, y] = [12, y + row_height];

@@ -35,7 +35,7 @@ export class Plot {
         this.readout = element("p", { class: "readout", "aria-live": "polite" });
         this.legend = element("ul", { class: "legend" });
         const button = (kind, offer) => element("button", { type: "button", class: "link", title: `Save this figure as ${kind}`, onclick: () => {
-            if (this.width) offer([Plot.of(), this.labels.title].filter(Boolean).join(" "), figure_of(this, Plot.of()));
+            if (this.width) offer([this.labels.title, Plot.of()].filter(Boolean).join(" "), figure_of(this, Plot.of()));
         } }, kind);
         host.replaceChildren(this.legend, this.picture, element("div", { class: "under-plot" }, this.readout,
             element("span", { class: "buttons" }, button("SVG", offer_svg), button("PNG", offer_png))));

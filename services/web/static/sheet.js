@@ -15,11 +15,11 @@ function width_of(text, size, weight = "normal") {
 }
 
 /// The text as lines that fit.
-function wrapped(text, size, room) {
+export function wrapped(text, size, room, weight = "normal") {
     const lines = [""];
     for (const word of text.split(" ")) {
         const longer = lines.at(-1) ? `${lines.at(-1)} ${word}` : word;
-        if (width_of(longer, size) <= room || !lines.at(-1)) lines[lines.length - 1] = longer;
+        if (width_of(longer, size, weight) <= room || !lines.at(-1)) lines[lines.length - 1] = longer;
         else lines.push(word);
     }
     return lines;
@@ -35,7 +35,7 @@ export function sheet_of({ title, parts, colour, names, grey, notes }) {
     const shapes = [];
     let y = pad;
     const write = (words, size, x = pad, colour_of = text, weight = "normal") => shapes.push({ text: words, x, y: y + size, size, colour: colour_of, weight });
-    for (const line of wrapped(title, 17, width - 2 * pad)) {
+    for (const line of wrapped(title, 17, width - 2 * pad, "bold")) {
         write(line, 17, pad, text, "bold");
         y += 23;
     }
