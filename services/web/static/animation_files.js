@@ -1,6 +1,6 @@
-// The buttons that make files of an animation: the picture as PNG and SVG, all pictures as a film. Elements: PREFIX-png, -svg, -film,
-// -file-note.
-import { by_id, set_text } from "./dom.js";
+// The buttons that make files of an animation: the picture as PNG and SVG, all pictures as a film; in the page's
+// PREFIX-files.
+import { by_id, element, set_text } from "./dom.js";
 import { offer_canvas, offer_svg } from "./figure_files.js";
 import { film_of, offer_film } from "./film.js";
 import { draw_sheet, sheet_as_svg } from "./sheet.js";
@@ -10,13 +10,16 @@ export class AnimationFiles {
     /// of the files, without an ending.
     constructor(prefix, animation) {
         Object.assign(this, { prefix, animation, recording: false });
-        this.part("png").addEventListener("click", () => this.save((sheet) => {
-            const canvas = document.createElement("canvas");
-            draw_sheet(canvas, sheet);
-            offer_canvas(animation.name(), canvas);
-        }));
-        this.part("svg").addEventListener("click", () => this.save((sheet) => offer_svg(animation.name(), sheet_as_svg(sheet))));
-        this.part("film").addEventListener("click", () => (this.recording ? this.stop() : this.record()));
+        const button = (name, text, onclick) => element("button", { type: "button", id: `${prefix}-${name}`, onclick }, text);
+        by_id(`${prefix}-files`).append(
+            button("png", "PNG", () => this.save((sheet) => {
+                const canvas = document.createElement("canvas");
+                draw_sheet(canvas, sheet);
+                offer_canvas(animation.name(), canvas);
+            })),
+            button("svg", "SVG", () => this.save((sheet) => offer_svg(animation.name(), sheet_as_svg(sheet)))),
+            button("film", "Film (WebM)", () => (this.recording ? this.stop() : this.record())),
+            element("span", { id: `${prefix}-file-note`, class: "muted", role: "status" }));
     }
 
     part(name) {

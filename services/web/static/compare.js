@@ -92,9 +92,15 @@ export class Compare {
     }
 
     async choose_run(index, id) {
+        const select = by_id(`compare-source-${index}`);
+        select.disabled = true; // its tasks are still those of the run before
         const task = first_with_frames(picture_tasks(await api.read_run(id)));
         if (task) this.choose(index, task.id);
-        else set_text(by_id(`compare-says-${index}`), "This run leaves no snapshots.");
+        else {
+            select.disabled = false;
+            by_id(`compare-run-${index}`).value = this.sides[index].run.id;
+            set_text(by_id(`compare-says-${index}`), "That run leaves no snapshots; this is still the one before.");
+        }
     }
 
     /// Tasks by id; the second one may be left out: then it is to be chosen.
@@ -125,6 +131,7 @@ export class Compare {
         mirror(by_id(`compare-source-${index}`), picture_tasks(run), ({ id }) => id, ({ id }) => element("option", { value: id }),
                (option, task) => set_text(option, source_name(task)));
         by_id(`compare-source-${index}`).value = source.task;
+        by_id(`compare-source-${index}`).disabled = false;
     }
 
     /// One part of the world for both.

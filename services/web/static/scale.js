@@ -1,5 +1,5 @@
-// The scale of a field: from where to where it goes, what that is the range of, and its legend. For pictures whose elements' names
-// begin with `prefix`: PREFIX-scale, -range, -low, -ramp, -high, -scale-of, -scale-note, -none, -regions.
+// The scale of a field: from where to where it goes, what that is the range of, and its legend, in the page's PREFIX-scale (of numbers,
+// filled here) and PREFIX-regions (of names).
 import { band_gradient, region_css, scale_gradient } from "./colours.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { extremes_of, field_label, is_named, note_of, reach_of, unit_of } from "./fields.js";
@@ -9,7 +9,16 @@ export class Scale {
     /// changed(): a person wants another range.
     constructor(prefix, changed) {
         this.prefix = prefix;
-        for (const id of ["low", "high", "scale-of"]) this.part(id).addEventListener("change", changed);
+        const id = (name) => `${prefix}-${name}`;
+        const end = (name, label) => element("input", { type: "number", id: id(name), step: "any", value: 0, "aria-label": label, onchange: changed });
+        const option = (value, text) => element("option", { value }, text);
+        this.part("scale").append(
+            element("p", { id: id("range"), class: "scale-name" }),
+            end("low", "low end of the scale"), element("span", { id: id("ramp"), class: "ramp", "aria-hidden": "true" }), end("high", "high end of the scale"),
+            element("label", {}, "range ", element("select", { id: id("scale-of"), onchange: changed }, option("all", "fixed over time"),
+                                                   option("this", "of each snapshot"), option("hand", "by hand"))),
+            element("span", { id: id("none") }, element("span", { class: "chip none" }), " no value there"),
+            element("p", { id: id("scale-note"), class: "muted hint" }));
     }
 
     part(name) {
