@@ -46,6 +46,7 @@ struct Arguments {
     ResultsWish results;
     CheckWish check;
     std::int64_t priority = 0;
+    std::string title;
     std::size_t most_runs = 20;
     LogWish log;
     bool follow = false;
@@ -310,6 +311,11 @@ class CommandLine {
         add_order("retry", "try what failed, was skipped or cancelled once more");
         add_order("pin", "keep a run whatever the server is told to remove");
         add_order("unpin", "let a pinned run be removed again");
+        CLI::App* rename_ =
+            add("rename", "give a run another title", "latest \"Weak beach, second try\"",
+                [this](Server& s, const Console& c) { return rename(s, a_.id, a_.title, c); });
+        take_run(rename_);
+        rename_->add_option("TITLE", a_.title, "one line of at most 200 bytes")->required();
         CLI::App* priority_ = add(
             "priority", "which of the waiting tasks go first", "latest 10",
             [this](Server& s, const Console& c) { return set_priority(s, a_.id, a_.priority, c); });

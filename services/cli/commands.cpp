@@ -125,6 +125,13 @@ ExitCode set_priority(Server& server, const std::string& run, std::int64_t prior
                       console);
 }
 
+ExitCode rename(Server& server, const std::string& run, const std::string& title,
+                const Console& console) {
+    return show_order(
+        server.post(path_of({"runs", run_named(server, run), "title"}), {{"title", title}}),
+        console);
+}
+
 ExitCode code_of_end(const json& run, Doubt doubt, const Console& console) {
     if (end_of(run) == RunEnd::bad) return ExitCode::breakdown;
     if (!is_questionable(run)) return ExitCode::done;

@@ -37,6 +37,8 @@ fault::ExitCode show(Server& server, const std::string& id, const Console& conso
 /// `word`: cancel, pause, resume or retry.
 fault::ExitCode order(Server& server, const std::string& run, const std::string& word,
                       const Console& console);
+fault::ExitCode rename(Server& server, const std::string& run, const std::string& title,
+                       const Console& console);
 fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_t priority,
                              const Console& console);
 

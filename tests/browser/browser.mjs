@@ -40,9 +40,9 @@ export async function screenshot(page, name) {
 
 /// What the particle canvas shows inside its axes: share of pixels that are soil, number of different colours, share of
 /// the soil in the two commonest ones (outlines blend into a few others), and a sum that changes when the picture does.
-export function canvas_facts(page) {
-    return page.evaluate(() => {
-        const canvas = document.getElementById("view");
+export function canvas_facts(page, id = "view") {
+    return page.evaluate((wanted) => {
+        const canvas = document.getElementById(wanted);
         const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
         const ground = data.slice(0, 3).join();
         const colours = new Map();
@@ -59,7 +59,7 @@ export function canvas_facts(page) {
         }
         const [first = 0, second = 0] = [...colours.values()].sort((a, b) => b - a);
         return { share: soil / (width * height), colours: colours.size, two_commonest: (first + second) / soil, sum };
-    });
+    }, id);
 }
 
 /// Waits until probe() is true; says what was waited for when it never is.

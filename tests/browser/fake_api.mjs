@@ -13,7 +13,8 @@ const scene = {
     format: "breachline-scene/1", name: "column",
     section: { regions: [{ name: "base", material: "rock", polygon: [[0, 0], [10, 0], [10, 5], [0, 5], [0, 0]] },
                          { name: "column", material: "sand", polygon: [[0, 0], [10, 0], [10, 20], [0, 20], [0, 0]] }] },
-    mpm: { runout: { toe: [10, 0] } },
+    fem: { water: { line: [[0, 14], [10, 12]] } },
+    mpm: { runout: { toe: [10, 0] }, floor: { level: 0 }, gauges: [{ name: "road", x: 14 }, { name: "house", x: 18 }] },
 };
 export const study = { format: "breachline-study/1", name: "fake-column", title: "A column made of formulas", scene,
                        transfer_times: [0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2] };
@@ -165,7 +166,7 @@ class FakeRun {
         for (const { code } of verdicts.flatMap(({ flags }) => flags ?? [])) flag_counts[code] = (flag_counts[code] ?? 0) + 1;
         const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : questionable ? "questionable" : "succeeded";
         const moving = flag_counts.still_moving ?? 0;
-        return { id: this.id, name: this.study.name, title: this.study.title, state,
+        return { id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
@@ -226,7 +227,10 @@ class FakeRun {
         for (let i = 0; i < count; i += 1) {
             const time = i * 0.005;
             const slip = Math.max(0, time - 0.3);
-            lines.push({ time, crest_dx: 0.8 * slip ** 2, crest_dy: -1.1 * slip ** 2,
+            const on_way = Math.max(0, 6 * time - 3); // the runout's 12 s
+            const gauges = { "gauge.road.depth": 2 * (1 - Math.exp(-on_way)), "gauge.road.velocity": 5 * on_way * Math.exp(-on_way),
+                             "gauge.house.depth": 0, "gauge.house.velocity": 0 };
+            lines.push({ ...(phase === "mpm_solver" ? { time: 6 * time, ...gauges } : { time }), crest_dx: 0.8 * slip ** 2, crest_dy: -1.1 * slip ** 2,
                          kinetic_energy: 4e5 * slip ** 2 * Math.exp(-slip), jacobian_ratio_avg: 1 - 0.12 * slip,
                          epsilon_q_avg: 0.03 + 0.2 * slip ** 1.5, newton_iterations: 3 + (i % 4), liquefaction_depth: 8 * Math.min(1, slip),
                          critical_depth: 6, r_u_max: Math.min(1, slip), failure_surfaces: Math.floor(2 * slip),
@@ -248,7 +252,8 @@ class FakeRun {
         const rows = is_mesh ? 41 : Math.round(Math.sqrt(2 * this.points));
         const columns = is_mesh ? 21 : Math.round(this.points / rows);
         const spread = 1 - Math.exp(-index / (is_mesh ? 30 : 6));
-        const values = { x: [], y: [], speed: [], epsilon_q: [], region: [], r_u: [], pore_pressure: [] };
+        const values = { x: [], y: [], speed: [], epsilon_q: [], region: [], r_u: [], pore_pressure: [],
+                         ...(is_mesh ? { u_x: [], u_y: [], displacement: [], sigma_v: [] } : { epsilon_q_plastic: [] }) };
         for (let j = 0; j < rows; j += 1) {
             for (let i = 0; i < columns; i += 1) {
                 if (!is_mesh && (j * columns + i) % stride !== 0) continue;
@@ -259,8 +264,16 @@ class FakeRun {
                 values.speed.push(6 * spread * (1 - spread) * 4 * u * (1 - v));
                 values.epsilon_q.push(1.4 * spread * Math.exp(-(((v - 0.9 * (1 - u)) / 0.25) ** 2)));
                 values.region.push(v < 0.25 ? 0 : 1);
-                values.r_u.push(spread * (1 - v));
+                values.r_u.push(is_mesh && v > 0.7 ? NaN : spread * (1 - v)); // dry above
                 values.pore_pressure.push(2e5 * (0.7 - v)); // suction above the water
+                if (!is_mesh) {
+                    values.epsilon_q_plastic.push(values.epsilon_q.at(-1) / 2);
+                    continue;
+                }
+                values.u_x.push(values.x.at(-1) - 10 * u);
+                values.u_y.push(values.y.at(-1) - 20 * v);
+                values.displacement.push(Math.hypot(values.u_x.at(-1), values.u_y.at(-1)));
+                values.sigma_v.push(3e5 * (1 - v));
             }
         }
         const quads = [];
@@ -317,6 +330,9 @@ export class FakeApi {
         if (parts[0] !== "v1") return this.serve_file(response, url.pathname);
         const [, kind, id, ...rest] = parts;
         if (kind === "artifacts") return this.serve_artifact(id, response);
+        if (kind === "storage") {
+            return json(response, { runs: this.runs.map((run) => ({ id: run.id, freed_bytes: 12.3e6, shared_bytes: run.pinned ? 0 : 4e6 })) });
+        }
         if (kind === "events") return this.serve_events(url, response);
         if (kind === "examples") {
             return json(response, id ? study : { examples: [{ name: study.name, title: study.title }] });
@@ -335,6 +351,7 @@ export class FakeApi {
             return json(response, { id: run.id, freed_bytes: 1000 }, 202);
         }
         if (["cancel", "pause", "resume", "retry", "pin", "unpin"].includes(rest[0])) return this.command(run, rest[0], response);
+        if (rest[0] === "title") return this.rename(run, request, response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
         if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means() });
         if (rest[0] === "telemetry") {
@@ -347,10 +364,22 @@ export class FakeApi {
     }
 
     list_runs(url, response) {
-        const all = this.runs.map((run) => run.summary()).reverse();
+        const wanted = (url.searchParams.get("search") ?? "").toLowerCase();
+        const all = this.runs.map((run) => run.summary()).reverse()
+            .filter(({ name, title, id }) => `${name}\n${title}\n${id}`.toLowerCase().includes(wanted));
         const limit = Math.min(Number(url.searchParams.get("limit") ?? 100), this.most_per_page);
         const from = Number(url.searchParams.get("cursor") ?? 0);
         json(response, { runs: all.slice(from, from + limit), next: from + limit < all.length ? String(from + limit) : null });
+    }
+
+    async rename(run, request, response) {
+        let text = "";
+        for await (const chunk of request) text += chunk;
+        const { title } = JSON.parse(text);
+        if (!title) return problem(response, 400, "the body must be {\"title\": \"...\"}");
+        run.title = title;
+        this.tell(run.id, "rename");
+        return json(response, run.summary(), 202);
     }
 
     command(run, order, response) {

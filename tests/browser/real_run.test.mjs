@@ -237,6 +237,55 @@ test("the database has the run's rows", async () => {
     await page.click("#run-list a");
 });
 
+test("the FEM's snapshot has displacements and vertical stresses, drawn as contours and along a cut", async () => {
+    const fem = await page.$eval("#view-source", (select) => [...select.options].find((each) => each.textContent === "FEM mesh").value);
+    const { frames } = await answer_of(`/v1/tasks/${fem}/frames`);
+    const address = `/v1/tasks/${fem}/frames/${frames.at(-1).name}/points`;
+    const bytes = await (await fetch(`${url}${address}?fields=u_x,u_y,displacement,sigma_v`)).arrayBuffer();
+    const snapshot = await page.evaluate(async (numbers) => {
+        const { decode_points } = await import("/static/api.js");
+        const { count, columns } = decode_points(Uint8Array.from(numbers).buffer);
+        return { count, columns: Object.fromEntries(Object.entries(columns).map(([name, values]) => [name, [...values]])) };
+    }, [...new Uint8Array(bytes)]);
+    const { x, y, u_x, u_y, displacement, sigma_v } = snapshot.columns;
+    assert.deepEqual(Object.keys(snapshot.columns), ["x", "y", "u_x", "u_y", "displacement", "sigma_v"]);
+    displacement.forEach((length, i) => assert.ok(Math.abs(length - Math.hypot(u_x[i], u_y[i])) < 1e-5 * (1 + length)));
+    const below = y.map((height, i) => (height < 1e-6 && Math.abs(x[i]) < 1e-6 ? sigma_v[i] : 0)).reduce((a, b) => Math.max(a, b));
+    assert.ok(below > 2e5 && below < 4.5e5, `${below} Pa below 20 m of 1800 kg/m3, from the mean of an element 2 m high that fails`);
+    assert.equal((await fetch(`${url}${address}?fields=r_u`)).status, 400, "a dry scene has no r_u");
+
+    await page.selectOption("#view-source", { label: "FEM mesh" });
+    await until("the mesh", async () => /elements$/.test(await text_of("#view-count")));
+    await page.selectOption("#view-field", "sigma_v");
+    await page.check("#view-vectors");
+    for (const [id, value] of [["x1", 1], ["y1", 25], ["x2", 1], ["y2", 0]]) await page.fill(`#cut-${id}`, String(value));
+    await page.waitForSelector("#profile:not([hidden]) svg.plot > path.curve");
+    assert.match(await text_of("#view-range"), /σ′_v \[kPa\]/);
+    const longest = Math.max(...displacement);
+    const shown = Number(/Longest vector ([\d.]+) m/.exec(await text_of("#view-vectors-note"))[1]);
+    assert.ok(Math.abs(shown / longest - 1) < 0.01, `${shown} of ${longest}`);
+    await screenshot(page, "real_contours");
+    await page.click("#cut-clear");
+    await page.uncheck("#view-vectors");
+});
+
+test("a run gets another title, is found by it, and its removal says what it gives back", async () => {
+    const run = page.url().split("/").at(-1);
+    await page.click("#rename");
+    await page.fill("#rename-text", "Renamed column");
+    await page.keyboard.press("Enter");
+    await until("the new title", async () => (await text_of("#run-title")) === "Renamed column");
+    assert.equal((await answer_of("/v1/runs?search=renamed%20COL")).runs[0].id, run);
+    assert.match(execFileSync(program("breach"), ["--server", url, "rename", run, study.title], { encoding: "utf8" }), /./);
+    await until("the old one again", async () => (await text_of("#run-title")) === study.title);
+    await page.click("#remove");
+    const [use] = (await answer_of("/v1/storage")).runs.filter(({ id }) => id === run);
+    await until("what it gives back", async () => /^That gives back [\d.]+ [KM]B of disk/.test(await text_of("#remove-frees")));
+    const [, value, unit] = /back ([\d.]+) ([KM])B/.exec(await text_of("#remove-frees"));
+    assert.ok(Math.abs((value * (unit === "M" ? 1e6 : 1e3)) / use.freed_bytes - 1) < 0.01, `${value} ${unit}B of ${use.freed_bytes}`);
+    await page.keyboard.press("Escape");
+});
+
 test("variants are curves of their own, and a trigger's threshold and firing are drawn", async () => {
     const several = structuredClone(study);
     const friction = (coefficient) => [`/mpm/floor/friction/0/coefficient=${coefficient}`];

@@ -43,7 +43,9 @@ struct Cloud {
     double time = 0.0;
     std::vector<std::string> regions, materials;
     std::vector<float> x, y, region;
-    std::vector<float> speed, epsilon_q, r_u, pore_pressure;  ///< empty when the file has none
+    /// Empty when the file has none.
+    std::vector<float> speed, epsilon_q, epsilon_q_plastic, r_u, pore_pressure;
+    std::vector<float> u_x, u_y, displacement, sigma_v;  ///< of a mesh only
     std::vector<std::uint32_t> quads;
 
     void add(const mechanics::Vec2& position, std::int32_t region_index) {
@@ -53,8 +55,8 @@ struct Cloud {
     }
 };
 
-float speed_of(const mechanics::Vec2& velocity) {
-    return static_cast<float>(std::hypot(velocity[0], velocity[1]));
+float length_of(const mechanics::Vec2& vector) {
+    return static_cast<float>(std::hypot(vector[0], vector[1]));
 }
 
 template <class Number>
@@ -62,16 +64,39 @@ void append(std::string& bytes, const std::vector<Number>& numbers) {
     bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
 }
 
-std::string packed(const Cloud& cloud) {
-    std::vector<std::pair<std::string, const std::vector<float>*>> fields{
-        {"x", &cloud.x},
-        {"y", &cloud.y},
-        {"speed", &cloud.speed},
-        {"epsilon_q", &cloud.epsilon_q},
-        {"region", &cloud.region},
-        {"r_u", &cloud.r_u},
-        {"pore_pressure", &cloud.pore_pressure}};
+using Fields = std::vector<std::pair<std::string, const std::vector<float>*>>;
+
+/// Those that the file has, and of them those that are wanted.
+Fields fields_of(const Cloud& cloud, const std::vector<std::string>& wanted) {
+    Fields fields{{"x", &cloud.x},
+                  {"y", &cloud.y},
+                  {"speed", &cloud.speed},
+                  {"epsilon_q", &cloud.epsilon_q},
+                  {"region", &cloud.region},
+                  {"r_u", &cloud.r_u},
+                  {"pore_pressure", &cloud.pore_pressure},
+                  {"epsilon_q_plastic", &cloud.epsilon_q_plastic},
+                  {"u_x", &cloud.u_x},
+                  {"u_y", &cloud.u_y},
+                  {"displacement", &cloud.displacement},
+                  {"sigma_v", &cloud.sigma_v}};
     std::erase_if(fields, [](const auto& field) { return field.second->empty(); });
+    if (wanted.empty()) return fields;
+    for (const std::string& name : wanted) {
+        if (std::ranges::find(fields, name, &Fields::value_type::first) != fields.end()) continue;
+        std::string known;
+        for (const auto& field : fields) known += (known.empty() ? "" : ", ") + field.first;
+        throw NoSuchField("the snapshot has no field \"" + name + "\"; it has " + known);
+    }
+    std::erase_if(fields, [&](const auto& field) {
+        return field.first != "x" && field.first != "y" &&
+               std::ranges::find(wanted, field.first) == wanted.end();
+    });
+    return fields;
+}
+
+std::string packed(const Cloud& cloud, const std::vector<std::string>& wanted) {
+    const Fields fields = fields_of(cloud, wanted);
     json head{{"time", cloud.time},
               {"count", cloud.x.size()},
               {"fields", json::array()},
@@ -95,57 +120,81 @@ Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
     cloud.materials = state.materials_of_regions;
     for (std::size_t p = 0; p < state.size(); p += stride) {
         cloud.add(state.position[p], state.region[p]);
-        if (!state.velocity.empty()) cloud.speed.push_back(speed_of(state.velocity[p]));
+        if (!state.velocity.empty()) cloud.speed.push_back(length_of(state.velocity[p]));
         for (const auto& [from, to] :
              {std::pair{&state.epsilon_q, &cloud.epsilon_q}, std::pair{&state.r_u, &cloud.r_u},
-              std::pair{&state.pore_pressure, &cloud.pore_pressure}})
+              std::pair{&state.pore_pressure, &cloud.pore_pressure},
+              std::pair{&state.epsilon_q_plastic, &cloud.epsilon_q_plastic}})
             if (!from->empty()) to->push_back(static_cast<float>((*from)[p]));
     }
     return cloud;
 }
 
-/// u and r_u = (u - u_0) / sigma'_v0 of the nodes, where the snapshot has them. Ground without
-/// effective stress before the shaking has no r_u: not a number, which the page draws grey.
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
+
+/// u and r_u = (u - u_0) / sigma'_v0 of the nodes, where the snapshot has them. Dry soil and ground
+/// without effective stress before the shaking have no r_u: not a number, which no zero may stand for.
 void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh) {
     for (const double u : mesh.pore_pressure) cloud.pore_pressure.push_back(static_cast<float>(u));
     const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
-    for (std::size_t node = 0; node < excess.size(); ++node) {
-        const double ratio = mesh.sigma_v0[node] > 0.0 ? excess[node] / mesh.sigma_v0[node]
-                                                       : std::numeric_limits<double>::quiet_NaN();
-        cloud.r_u.push_back(static_cast<float>(ratio));
+    if (excess.empty()) return;
+    cloud.r_u.assign(excess.size(), no_value);
+    for (const auto& quad : mesh.quads) {
+        // As nodal_excess_pressure has it: an element without u_0 at a corner is dry.
+        const bool wet = std::ranges::any_of(
+            quad, [&](std::int32_t i) { return mesh.pore_pressure_0[i] != 0.0; });
+        for (const std::int32_t i : quad)
+            if (wet && mesh.sigma_v0[i] > 0.0)
+                cloud.r_u[i] = static_cast<float>(excess[i] / mesh.sigma_v0[i]);
     }
 }
 
-/// Nodes at their displaced places; a node's strain is the mean of its elements' Gauss values, its
-/// region the last one that touches it.
+/// At each node the mean over the elements around it of the means of their Gauss points.
+template <class Value>
+std::vector<float> nodal_means(const exchange::MeshSnapshot& mesh, const Value& value_at) {
+    const auto per_element = static_cast<std::size_t>(mesh.gauss_per_element);
+    std::vector<double> sum(mesh.position_0.size(), 0.0), touched(mesh.position_0.size(), 0.0);
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        double mean = 0.0;
+        for (std::size_t g = 0; g < per_element; ++g)
+            mean += value_at(e * per_element + g) / static_cast<double>(per_element);
+        for (const std::int32_t i : mesh.quads[e]) {
+            sum[i] += mean;
+            touched[i] += 1.0;
+        }
+    }
+    std::vector<float> means(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        means[i] = static_cast<float>(sum[i] / std::max(1.0, touched[i]));
+    return means;
+}
+
+/// Nodes at their displaced places; a node's region is that of the last element that touches it.
 Cloud nodes_of(const std::filesystem::path& file) {
     const auto mesh = exchange::read_mesh_snapshot(file).snapshot;
     const std::size_t n_nodes = mesh.position_0.size();
-    const auto per_element = static_cast<std::size_t>(mesh.gauss_per_element);
-    std::vector<double> strain(n_nodes, 0.0);
-    std::vector<double> touched(n_nodes, 0.0);
     std::vector<std::int32_t> region(n_nodes, 0);
     Cloud cloud;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        double sum = 0.0;
-        for (std::size_t g = 0; g < per_element; ++g) sum += mesh.epsilon_q[e * per_element + g];
-        for (const std::int32_t node : mesh.quads[e]) {
-            const auto i = static_cast<std::size_t>(node);
-            strain[i] += sum / static_cast<double>(per_element);
-            touched[i] += 1.0;
+        for (const std::int32_t i : mesh.quads[e]) {
             region[i] = mesh.region_of_element[e];
-            cloud.quads.push_back(static_cast<std::uint32_t>(node));
+            cloud.quads.push_back(static_cast<std::uint32_t>(i));
         }
     }
     cloud.time = mesh.time;
     cloud.regions = mesh.regions;
     cloud.materials = mesh.materials_of_regions;
     for (std::size_t i = 0; i < n_nodes; ++i) {
-        const mechanics::Vec2 position = mesh.position_0[i] + mesh.displacement[i];
-        cloud.add(position, region[i]);
-        cloud.speed.push_back(speed_of(mesh.velocity[i]));
-        cloud.epsilon_q.push_back(static_cast<float>(strain[i] / std::max(1.0, touched[i])));
+        const mechanics::Vec2& u = mesh.displacement[i];
+        cloud.add(mesh.position_0[i] + u, region[i]);
+        cloud.speed.push_back(length_of(mesh.velocity[i]));
+        cloud.u_x.push_back(static_cast<float>(u[0]));
+        cloud.u_y.push_back(static_cast<float>(u[1]));
+        cloud.displacement.push_back(length_of(u));
     }
+    cloud.epsilon_q = nodal_means(mesh, [&](std::size_t g) { return mesh.epsilon_q[g]; });
+    // Compression positive, as sigma_v0.
+    cloud.sigma_v = nodal_means(mesh, [&](std::size_t g) { return -mesh.stress[g][1]; });
     add_water(cloud, mesh);
     return cloud;
 }
@@ -173,10 +222,10 @@ std::vector<Frame> frames_in(const std::filesystem::path& output, const std::str
 }
 
 std::string FrameReader::points(const std::filesystem::path& file, const std::string& phase,
-                                std::size_t stride) {
+                                std::size_t stride, const std::vector<std::string>& wanted) {
     const std::lock_guard lock(mutex_);
-    return packed(kind_of(phase) == phases::fem.frames ? nodes_of(file)
-                                                       : particles_of(file, stride));
+    return packed(
+        kind_of(phase) == phases::fem.frames ? nodes_of(file) : particles_of(file, stride), wanted);
 }
 
 }  // namespace breach::orchestrator

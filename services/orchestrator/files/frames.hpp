@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,16 +27,21 @@ std::vector<Frame> frames_in(const std::filesystem::path& output, const std::str
 /// A frame's name as it may come from outside: a plain .vtkhdf file name without any path.
 bool is_frame_name(const std::string& name);
 
+/// A snapshot has no such field; what() says which there are.
+struct NoSuchField : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Reads snapshots for drawing. HDF5's serial library is not safe in two threads: one reader at a
 /// time.
 class FrameReader {
   public:
     /// One JSON line padded with spaces to a multiple of 4 bytes, then little-endian float32
     /// arrays, then the quads of a mesh as uint32 (rest_contract: frames/{name}/points). Every
-    /// stride-th particle; a mesh is never thinned. Throws IoError (the file vanished) or BadInput
-    /// (it is damaged).
+    /// stride-th particle; a mesh is never thinned. wanted: fields beside x and y; empty: all. Throws
+    /// IoError (the file vanished), BadInput (it is damaged) or NoSuchField.
     std::string points(const std::filesystem::path& file, const std::string& phase,
-                       std::size_t stride);
+                       std::size_t stride, const std::vector<std::string>& wanted = {});
 
     /// With HDF5 to itself.
     void alone(const std::function<void()>& work) {

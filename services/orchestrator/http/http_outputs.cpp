@@ -64,17 +64,23 @@ Task meant_task(const Service& service, const std::string& run, const std::strin
     return std::move(*found);
 }
 
+/// Of a parameter that lists names by commas.
+std::vector<std::string> names_in(const Call& call, const std::string& parameter) {
+    std::vector<std::string> names;
+    std::istringstream text(call.parameter(parameter).value_or(""));
+    for (std::string name; std::getline(text, name, ',');) names.push_back(name);
+    return names;
+}
+
 void telemetry(const Service& service, Call& call) {
     call.allow_parameters({"phase", "transfer_time", "variant", "fields", "from", "stride"});
     wanted_run(service, call.parts[0]);
     const std::string phase = call.parameter("phase").value_or(phases::fem.program);
     const Task task = meant_task(service, call.parts[0], phase, call.number("transfer_time"),
                                  call.parameter("variant"));
-    TelemetryWish wish{.fields = {},
-                       .from = call.whole_number("from", 0, 0, largest_count),
-                       .stride = call.whole_number("stride", 1, 1, largest_count)};
-    std::istringstream names(call.parameter("fields").value_or(""));
-    for (std::string name; std::getline(names, name, ',');) wish.fields.push_back(name);
+    const TelemetryWish wish{.fields = names_in(call, "fields"),
+                             .from = call.whole_number("from", 0, 0, largest_count),
+                             .stride = call.whole_number("stride", 1, 1, largest_count)};
     reply(call.response,
           read_telemetry(service.data.output(task) / phases::files::telemetry, wish));
 }
@@ -95,7 +101,7 @@ void frames(const Service& service, Call& call) {
 }
 
 void points(Service& service, Call& call) {
-    call.allow_parameters({"stride"});
+    call.allow_parameters({"stride", "fields"});
     const Task task = wanted_task(service, call.parts[0]);
     const std::string& name = call.parts[1];
     const auto file = service.data.output(task) / name;
@@ -105,8 +111,11 @@ void points(Service& service, Call& call) {
         throw not_found("frame " + name + " of task " + task.id);
     const auto stride = static_cast<std::size_t>(call.whole_number("stride", 1, 1, largest_count));
     try {
-        call.response.set_content(service.frames.points(file, task.phase, stride),
-                                  "application/octet-stream");
+        call.response.set_content(
+            service.frames.points(file, task.phase, stride, names_in(call, "fields")),
+            "application/octet-stream");
+    } catch (const NoSuchField& fault) {
+        throw bad_request(fault.what());
     } catch (const fault::IoError&) {
         throw gone(name);
     }

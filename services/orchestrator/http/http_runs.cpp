@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 
 #include "services/orchestrator/accuracy/runout_error.hpp"
@@ -44,7 +45,7 @@ void submit(Service& service, Call& call) {
 }
 
 void list_runs(const Service& service, Call& call) {
-    call.allow_parameters({"limit", "cursor", "state", "name"});
+    call.allow_parameters({"limit", "cursor", "state", "name", "search"});
     const RunPage page = wanted_page(service, call, RunFilter{});
     json runs = json::array();
     for (const Run& each : page.runs) runs.push_back(as_json(each, service.board));
@@ -108,6 +109,28 @@ void set_priority(Service& service, Call& call) {
     if (!sound) throw bad_request("the body must be {\"priority\": -100..100}");
     command_run(service, call, [&](Transaction& transaction, const std::string& run) {
         return transaction.set_priority(run, body["priority"].get<std::int64_t>());
+    });
+}
+
+/// A title is one line: 1 to 200 bytes of UTF-8 without control characters, not only spaces.
+bool is_title(const json& text) {
+    if (!text.is_string()) return false;
+    const auto& title = text.get_ref<const std::string&>();
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    return title.size() <= 200 && title.find_first_not_of(' ') != std::string::npos &&
+           std::ranges::none_of(title, is_control);
+}
+
+void rename(Service& service, Call& call) {
+    const json body = json::parse(call.json_body(), nullptr, false);
+    const bool sound =
+        body.is_object() && body.size() == 1 && body.contains("title") && is_title(body["title"]);
+    if (!sound)
+        throw bad_request(
+            "the body must be {\"title\": \"...\"}: one line of at most 200 bytes that is not "
+            "empty");
+    command_run(service, call, [&](Transaction& transaction, const std::string& run) {
+        return transaction.rename_run(run, body["title"].get<std::string>());
     });
 }
 
@@ -214,7 +237,7 @@ void extend_sweep(Service& service, Call& call) {
 }
 
 void list_sweeps(const Service& service, Call& call) {
-    call.allow_parameters({"limit", "cursor", "state", "name"});
+    call.allow_parameters({"limit", "cursor", "state", "name", "search"});
     RunFilter filter;
     filter.sweeps_only = true;
     const RunPage page = wanted_page(service, call, filter);
@@ -279,6 +302,7 @@ void add_run_routes(Router& router, Service& service) {
         });
     });
     router.post("/v1/runs/{id}/priority", [&](Call& call) { set_priority(service, call); });
+    router.post("/v1/runs/{id}/title", [&](Call& call) { rename(service, call); });
     router.get("/v1/runs/{id}/results", [&](Call& call) { results(service, call); });
     router.get("/v1/tasks/{id}", [&](Call& call) {
         call.allow_parameters({});

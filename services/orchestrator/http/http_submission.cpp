@@ -137,6 +137,7 @@ RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) 
     const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
     filter.state = call.parameter("state");
     filter.name = call.parameter("name");
+    filter.search = call.parameter("search");
     if (filter.state && std::ranges::find(run_states, *filter.state) == run_states.end())
         throw bad_request(
             "state must be queued, running, succeeded, questionable, partial, failed or cancelled");

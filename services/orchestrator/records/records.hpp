@@ -127,6 +127,8 @@ struct ResultFilter {
 struct RunFilter {
     std::optional<std::string> state;
     std::optional<std::string> name;
+    /// A part of its name, title or id; letters of ASCII are alike in both cases.
+    std::optional<std::string> search{};
     std::optional<std::pair<std::string, std::string>> before;  ///< (created, id)
     bool sweeps_only = false;
 };

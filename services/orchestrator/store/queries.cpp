@@ -93,6 +93,10 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
         sql += " AND r.name=?";
         values.emplace_back(*filter.name);
     }
+    if (filter.search) {
+        sql += " AND instr(lower(r.name || char(10) || r.title || char(10) || r.id), lower(?)) > 0";
+        values.emplace_back(*filter.search);
+    }
     if (filter.before) {
         sql += " AND (r.created, r.id) < (?, ?)";
         values.emplace_back(filter.before->first);

@@ -293,6 +293,18 @@ bool Transaction::resume_run(const std::string& run) {
 bool Transaction::pin_run(const std::string& run) { return mark_run(run, "pinned", 1, "pin"); }
 bool Transaction::unpin_run(const std::string& run) { return mark_run(run, "pinned", 0, "unpin"); }
 
+bool Transaction::rename_run(const std::string& run, const std::string& title) {
+    std::optional<std::string> before;
+    database_.query("SELECT title FROM runs WHERE id=?", {run},
+                    [&](const Row& row) { before = row.text(0); });
+    if (before && *before != title) {
+        database_.change("UPDATE runs SET title=? WHERE id=?", {title, run});
+        add_event(run, std::nullopt, "run",
+                  {{"event", "rename"}, {"from", *before}, {"title", title}});
+    }
+    return before.has_value();
+}
+
 bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
     const bool known =
         database_.change("UPDATE tasks SET priority=? WHERE run=?", {priority, run}) > 0;

@@ -72,6 +72,8 @@ class Transaction {
     bool set_priority(const std::string& run, std::int64_t priority);
     bool pin_run(const std::string& run);
     bool unpin_run(const std::string& run);
+    /// What lists call it from now on; its study keeps the title that it was sent with.
+    bool rename_run(const std::string& run, const std::string& title);
     /// Every row of a run that is over, at once: from then on no list, no cache and no artifact knows
     /// it. Its folder is to be removed next (Store::removals, forget_removal). `why` is for the event
     /// "remove", which stays.

@@ -61,6 +61,11 @@ const post_json = (path, text) => get_json(path, json_body(text));
 const path_of = (...parts) => "/v1/" + parts.map(encodeURIComponent).join("/");
 
 export const list_runs = async () => (await get_json("/v1/runs")).runs;
+/// {runs, next}: the newest with this in their name, title or id; next is null when these are all.
+export const find_runs = (search) => get_json(`/v1/runs${search ? `?${new URLSearchParams({ search })}` : ""}`);
+/// What lies on the disk, run by run: the server looks at every file.
+export const read_storage = () => get_json("/v1/storage");
+export const rename_run = (run, title) => post_json(path_of("runs", run, "title"), JSON.stringify({ title }));
 /// {runs, next}; cursor: the `next` of the page before.
 export function page_of_runs(cursor, limit) {
     const query = new URLSearchParams({ limit });

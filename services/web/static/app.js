@@ -1,13 +1,15 @@
 // Puts the page together: which run is open, when to look again, what to say when the server is gone.
 import * as api from "./api.js";
+import { Compare } from "./compare.js";
 import { Cost } from "./cost.js";
 import { Database } from "./database.js";
 import { by_id, set_text } from "./dom.js";
 import { is_active, variants_of } from "./format.js";
 import { Particles } from "./particles.js";
+import { Plot } from "./plot.js";
 import { Provenance } from "./provenance.js";
 import { Results } from "./results.js";
-import { draw_list, run_address, RunHead } from "./runs.js";
+import { draw_list, run_address, RunHead, searched } from "./runs.js";
 import { SubmitDialog } from "./submit.js";
 import { Tasks } from "./tasks.js";
 import { Telemetry } from "./telemetry.js";
@@ -18,7 +20,8 @@ const look_again = 1500;   // [ms] between looks while something runs: progress 
 const most_share = 0.5;    // of the time that looking may take: a large sweep is looked at less often
 
 new TokenDialog();
-const particles = new Particles();
+Plot.of = () => (by_id("run").hidden ? "" : by_id("run-title").textContent);
+const particles = new Particles((task) => results.rows.find((row) => row.mpm_task === task));
 function look_at(row) {
     particles.show_point(row);
     by_id("particles").scrollIntoView({ block: "nearest" });
@@ -30,6 +33,7 @@ const ask = (row, column) => provenance.ask(results.run, row, column);
 const results = new Results({ look_at, ask });
 const cost = new Cost((key, column) => ask(results.row(key), column));
 const database = new Database();
+const compare = new Compare();
 const telemetry = new Telemetry();
 const tasks = new Tasks();
 const head = new RunHead(() => look_soon());
@@ -38,7 +42,10 @@ new SubmitDialog((run) => {
     look_soon();
 });
 
+by_id("run-search").addEventListener("input", () => look_soon());
+
 const open_table = () => location.hash.match(/^#\/database(?:\/([^/]+))?(?:\/([^/]+))?$/);
+const open_pair = () => location.hash.match(/^#\/compare\/([^/]+)(?:\/([^/]+))?$/)?.slice(1).filter(Boolean).map(decodeURIComponent);
 const open_id = () => decodeURIComponent(location.hash.match(/^#\/runs\/(.+)$/)?.[1] ?? "");
 
 // ---- connection
@@ -76,9 +83,10 @@ async function look() {
     let busy = false;
     const began = performance.now();
     try {
-        const runs = await api.list_runs();
-        draw_list(runs, open_id());
-        busy = runs.some((run) => is_active(run.state));
+        const search = searched();
+        const found = await api.find_runs(search);
+        if (search === searched()) draw_list(found, open_id());
+        busy = found.runs.some((run) => is_active(run.state));
         await show_open_run();
         by_id("page-fault").hidden = true;
     } catch (fault) {
@@ -98,13 +106,17 @@ async function look() {
 async function show_open_run() {
     const id = open_id();
     const tables = open_table() !== null;
-    by_id("welcome").hidden = tables || id !== "";
+    const pair = open_pair();
+    by_id("welcome").hidden = tables || Boolean(pair) || id !== "";
+    by_id("compare").hidden = !pair;
     by_id("database").hidden = !tables;
     by_id("missing").hidden = true;
     if (tables) document.title = "Run database – Breachline";
+    if (pair) document.title = "Comparison – Breachline";
     if (tables || id === "") {
         by_id("run").hidden = true;
-        if (!tables) document.title = "Breachline";
+        if (pair) await show_pair(pair);
+        else if (!tables) document.title = "Breachline";
         return;
     }
     let run;
@@ -128,22 +140,36 @@ async function show_open_run() {
     if (broken) throw broken.reason;
 }
 
+async function show_pair(pair) {
+    try {
+        await compare.show(pair);
+    } catch (fault) {
+        if (!(fault instanceof api.Problem) || fault.status !== 404) throw fault;
+        by_id("compare").hidden = true;
+        by_id("missing").hidden = false;
+    }
+}
+
 // ---- light and dark
 
 const themes = ["auto", "light", "dark"];
 const signs = { auto: "◐ Auto", light: "☀ Light", dark: "☾ Dark" };
+
+function redraw_soil() {
+    for (const view of [particles.view, ...compare.sides.map((side) => side.view)]) view.redraw();
+}
 
 function set_theme(theme) {
     document.documentElement.dataset.theme = theme;
     set_text(by_id("theme"), signs[theme]);
     by_id("theme").setAttribute("aria-label", `Colours: ${theme}. Press to change.`);
     localStorage.setItem("theme", theme);
-    particles.view.redraw();
+    redraw_soil();
 }
 by_id("theme").addEventListener("click", () => {
     set_theme(themes[(themes.indexOf(document.documentElement.dataset.theme) + 1) % themes.length]);
 });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => particles.view.redraw());
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw_soil);
 const stored = localStorage.getItem("theme");
 set_theme(themes.includes(stored) ? stored : "auto");
 

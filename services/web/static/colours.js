@@ -1,5 +1,6 @@
 // Colours of the particle viewer: a scale for numbers that reads on a white and on a dark ground, and distinct ones
 // for regions. 32-bit values are little-endian RGBA, as ImageData holds them.
+import { band_count } from "./contours.js";
 
 const anchors = ["#2b5ea7", "#2a8fb0", "#4fae86", "#d9a92c", "#dd6b20", "#b3132b"];
 // Twelve that stay apart for colour-blind eyes too, on a light and on a dark canvas; a test measures it.
@@ -34,10 +35,15 @@ function blend(fraction) {
     return "#" + mixed.map((value) => value.toString(16).padStart(2, "0")).join("");
 }
 
-const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
+export const scale_css = Array.from({ length: scale_steps }, (_, i) => blend(i / (scale_steps - 1)));
 /// Scale for numbers, low to high.
 export const scale_packed = Uint32Array.from(scale_css, packed);
 export const scale_gradient = `linear-gradient(to right, ${anchors.join(", ")})`;
+/// The same in steps, for contours.
+export const band_css = Array.from({ length: band_count }, (_, i) => blend((i + 0.5) / band_count));
+export const band_colours = Uint32Array.from(band_css, packed);
+export const band_gradient = `linear-gradient(to right, ${band_css.map((colour, i) =>
+    `${colour} ${(100 * i) / band_count}% ${(100 * (i + 1)) / band_count}%`).join(", ")})`;
 
 export const region_count = region_colours.length;
 export const region_css = (index) => region_colours[index % region_colours.length];

@@ -49,6 +49,15 @@ export function rest_text({ at_rest, kinetic_share }) {
     return Number.isFinite(kinetic_share) ? `moving, ${number(100 * kinetic_share, 2)} % in motion` : "moving";
 }
 
+/// What must be known of a picture of a task, in a sentence; row: its results, if it has any. "" when nothing is to be said.
+export function picture_verdict({ phase, state, ended, end_time }, row) {
+    if (["running", "starting", "finalizing"].includes(state)) return "Still running: more snapshots will come.";
+    if (phase === "fem_solver") return ended === "entangled" ? `The mesh entangled at ${number(end_time)} s: there is no later state.` : "";
+    if (!row || row.at_rest === true) return "";
+    if (row.at_rest === false) return `Not at rest at the end (${rest_text(row)}): the last picture is no final deposit.`;
+    return "Whether the soil came to rest is not known.";
+}
+
 /// Flags as a list with messages and places, questionable ones first.
 export function flag_items(flags) {
     const order = [...flags].sort((a, b) => is_doubt(b) - is_doubt(a));

@@ -1,38 +1,37 @@
-// The moving picture of a run: which task, which snapshot, coloured by what. Fetches snapshots and keeps the recent
-// ones; the drawing itself is in points.js.
-import * as api from "./api.js";
-import { region_css, scale_gradient } from "./colours.js";
+// The moving picture of a run: which task, which snapshot, coloured by what. The snapshots are in snapshots.js, the
+// drawing itself in points.js.
+import { AnimationFiles } from "./animation_files.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
+import { field_name, fields_of, is_named } from "./fields.js";
+import { pace_text } from "./film.js";
+import { picture_verdict } from "./flags.js";
 import { by_point, is_active, mpm_name, number, seconds, variants_of } from "./format.js";
-import { extents_of, PointView, reach_of, spacing_of } from "./points.js";
+import { Gauges } from "./gauges.js";
+import { longest_of } from "./overlay.js";
+import { extents_of, PointView, spacing_of } from "./points.js";
+import { Profile } from "./profile.js";
+import { Scale } from "./scale.js";
+import { materials_in, overlay_of, water_of } from "./scene.js";
+import { sheet_of } from "./sheet.js";
+import { Snapshots } from "./snapshots.js";
 
 const frames_per_second = 12;
-const kept_bytes = 192e6;       // snapshots kept in memory
-const easy_count = 250000;      // more points than this are thinned at first sight
 const ahead = 2;                // snapshots fetched before a playing picture needs them
 
-const known_fields = {
-    epsilon_q: { name: "deviatoric strain ε_q", unit: "–" },
-    speed: { name: "velocity (magnitude)", unit: "m/s" },
-    region: { name: "region", unit: "" },
-    material: { name: "material", unit: "" },
-    r_u: { name: "pore pressure ratio r_u", unit: "–" },
-    pore_pressure: { name: "pore pressure u", unit: "Pa" },
-    mean_stress: { name: "mean effective stress", unit: "Pa" },
-};
-const categories = ["region", "material"];
-const field_name = (field) => known_fields[field]?.name ?? field;
-
 export class Particles {
-    constructor() {
+    /// row_of(task): the row of results that the task made, if it is known.
+    constructor(row_of) {
+        this.row_of = row_of;
         this.view = new PointView(by_id("view"));
-        this.task = null;
-        this.frames = [];
+        this.scale = new Scale("view", () => this.paint());
+        this.profile = new Profile(this.view);
+        this.gauges = new Gauges();
+        this.files = new AnimationFiles("view", {
+            count: () => this.frames.length, at: () => this.at, show: (i) => this.seek(i), sheet: (film) => this.sheet(film),
+            name: () => `${this.run.name}_${this.field}_${this.snapshot.time}s`,
+        });
+        this.source = null; // Snapshots of the task that is shown
         this.at = -1;
-        this.kept = new Map(); // frame name -> {snapshot, bytes}, oldest first
-        this.reaches = {};     // field -> [low, high] end of its scale so far
-        this.coming = new Map(); // key -> snapshot that is being fetched
-        this.times = new Map(); // frame name -> time in the file
         by_id("view-source").addEventListener("change", (event) => this.choose(event.target.value));
         by_id("view-field").addEventListener("change", (event) => {
             this.field = event.target.value;
@@ -44,8 +43,15 @@ export class Particles {
         by_id("view-in").addEventListener("click", () => this.view.zoom(1.25));
         by_id("view-out").addEventListener("click", () => this.view.zoom(0.8));
         by_id("view-fit").addEventListener("click", () => this.view.fit());
-        for (const id of ["view-low", "view-high"]) by_id(id).addEventListener("change", () => this.paint());
-        by_id("view-auto").addEventListener("change", () => this.paint());
+        for (const id of ["view-shading", "view-water", "view-vectors"]) by_id(id).addEventListener("change", () => this.paint());
+    }
+
+    get task() {
+        return this.source?.task ?? null;
+    }
+
+    get frames() {
+        return this.source?.frames ?? [];
     }
 
     /// Another run, or the same one further on.
@@ -53,23 +59,21 @@ export class Particles {
         const same = this.run?.id === run.id;
         this.run = run;
         if (!same) this.close();
-        const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver")
-            .sort(by_point(variants_of(run)));
+        const sources = picture_tasks(run);
         mirror(by_id("view-source"), sources, (task) => task.id,
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
         by_id("particles").hidden = sources.length === 0;
-        const scene = run.study?.scene;
-        this.materials = new Map((scene?.section?.regions ?? []).map(({ name, material }) => [name, material]));
-        this.view.overlay = { outlines: (scene?.section?.regions ?? []).map((region) => region.polygon),
-                              toe: scene?.mpm?.runout?.toe ?? null };
+        this.view.overlay = { ...this.view.overlay, ...overlay_of(run.study?.scene) };
+        by_id("view-water-label").hidden = !water_of(run.study?.scene);
         const best = first_with_frames(sources);
         const current = sources.find((task) => task.id === this.task);
         // Until a person chooses, the mesh gives way to the first runout that there is.
         const follow = !current || (!this.by_hand && current.phase === "fem_solver" && !this.playing);
         const chosen = follow ? best : current;
         if (!chosen) return;
+        const news = is_active(chosen.state) || this.frames.length === 0 || this.was_active;
         if (chosen.id !== this.task) await this.open(chosen.id);
-        else if (is_active(chosen.state) || this.frames.length === 0 || this.was_active) await this.extend();
+        else if (news) await Promise.all([this.extend(), this.show_gauges()]);
         this.was_active = is_active(chosen.state);
     }
 
@@ -84,21 +88,18 @@ export class Particles {
     }
 
     close() {
-        this.pause();
-        this.task = null;
         this.by_hand = false;
         this.forget();
         this.tell("");
     }
 
     forget() {
-        this.abort?.abort();
-        this.frames = [];
+        this.pause();
+        this.files.stop();
+        this.source?.close();
+        this.source = null;
         this.at = -1;
-        this.kept.clear();
-        this.times.clear();
-        this.reaches = {};
-        this.coming.clear();
+        this.snapshot = null;
         this.box_frames = "";
         this.view.snapshot = null;
         this.view.box = null;
@@ -108,133 +109,78 @@ export class Particles {
     }
 
     async open(task) {
-        this.pause();
-        this.task = task;
-        by_id("view-source").value = task;
         this.forget();
-        await this.extend();
+        this.source = new Snapshots(task, materials_in(this.run.study?.scene));
+        this.source.stride = this.stride();
+        by_id("view-source").value = task;
+        by_id("view-compare").href = `#/compare/${encodeURIComponent(task)}`;
+        await Promise.all([this.extend(), this.show_gauges()]);
+    }
+
+    show_gauges() {
+        return this.gauges.show(this.run, this.run.tasks.find(({ id }) => id === this.task));
     }
 
     async reload() {
-        const at = this.at;
-        this.kept.clear();
-        await this.seek(at);
+        this.source.stride = this.stride();
+        await this.seek(this.at);
     }
 
     /// Looks for new snapshots; stays with the newest one when it was shown.
     async extend() {
-        const task = this.task;
-        const frames = last_state_last(await api.list_frames(task));
-        if (task !== this.task) return;
-        for (const frame of frames) frame.time = this.times.get(frame.name) ?? frame.time;
+        const source = this.source;
         const at_end = this.at === this.frames.length - 1;
-        const grew = frames.length !== this.frames.length;
-        this.frames = frames;
-        if (frames.length === 0) {
+        const grew = await source.list();
+        if (source !== this.source) return;
+        if (this.frames.length === 0) {
             this.tell("No snapshots yet.");
             this.update_controls();
             return;
         }
         this.tell("");
         if (grew) await this.find_box();
-        if (this.at < 0 || (at_end && grew && !this.playing)) await this.seek(frames.length - 1);
+        if (this.at < 0 || (at_end && grew && !this.playing)) await this.seek(this.frames.length - 1);
         else this.update_controls();
+        if (grew) source.survey(() => source === this.source && this.paint()); // goes on beside
     }
 
     /// The picture must not jump while it plays: it shows where the soil begins and where it ends.
     async find_box() {
+        const source = this.source;
         const ends = [this.frames[0].name, this.frames.at(-1).name];
         if (ends.join() === this.box_frames) return;
         const snapshots = [];
-        for (const name of new Set(ends)) snapshots.push(await this.fetch(name));
-        if (snapshots.some((snapshot) => !snapshot)) return;
+        for (const name of new Set(ends)) snapshots.push(await source.fetch(name));
+        if (source !== this.source || snapshots.some((snapshot) => !snapshot)) return;
         this.box_frames = ends.join();
         const box = extents_of(snapshots);
         if (!box) return;
-        this.size_canvas(box);
+        size_canvas(by_id("view"), box);
         this.view.set_box(box);
         this.spacing = spacing_of(snapshots[0]);
-    }
-
-    /// A flat runout gets a flat picture.
-    size_canvas(box) {
-        const slenderness = (box.y[1] - box.y[0]) / Math.max(box.x[1] - box.x[0], 1e-9);
-        by_id("view").style.setProperty("--slenderness", Math.min(0.75, Math.max(0.2, slenderness * 1.04)));
     }
 
     stride() {
         return Number(by_id("view-stride").value);
     }
 
-    async fetch(name) {
-        const key = `${name}/${this.stride()}`;
-        if (this.kept.has(key)) {
-            const entry = this.kept.get(key);
-            this.kept.delete(key); // to the young end
-            this.kept.set(key, entry);
-            return entry.snapshot;
-        }
-        if (!this.coming.has(key)) {
-            const coming = this.get(name, key).finally(() => this.coming.get(key) === coming && this.coming.delete(key));
-            this.coming.set(key, coming);
-        }
-        return this.coming.get(key);
-    }
-
-    async get(name, key) {
-        this.abort ??= new AbortController();
-        if (this.abort.signal.aborted) this.abort = new AbortController();
-        const task = this.task;
-        let snapshot;
-        try {
-            snapshot = await api.read_points(task, name, this.stride(), this.abort.signal);
-        } catch (fault) {
-            if (fault.name === "AbortError") return null;
-            throw fault;
-        }
-        if (task !== this.task) return null;
-        if (snapshot.count > easy_count && this.kept.size === 0 && this.stride() === 1) {
-            by_id("view-stride").value = "4";
-            return this.fetch(name);
-        }
-        add_material(snapshot, this.materials);
-        this.keep(key, snapshot);
-        return snapshot;
-    }
-
-    keep(key, snapshot) {
-        this.kept.set(key, { snapshot, bytes: 4 * snapshot.count * Object.keys(snapshot.columns).length });
-        let total = [...this.kept.values()].reduce((sum, entry) => sum + entry.bytes, 0);
-        for (const [oldest, entry] of this.kept) {
-            if (total <= kept_bytes || this.kept.size <= 2) break;
-            this.kept.delete(oldest);
-            total -= entry.bytes;
-        }
-        for (const [field, values] of Object.entries(snapshot.columns)) {
-            if (["x", "y", ...categories].includes(field)) continue;
-            const [low, high] = reach_of(values);
-            const [lowest, highest] = this.reaches[field] ?? [0, 0];
-            this.reaches[field] = [Math.min(low, lowest), Math.max(high, highest)];
-        }
-    }
-
     async seek(index) {
+        const source = this.source;
         const frame = this.frames[index];
         if (!frame) return;
         this.at = index;
         this.update_controls();
         let snapshot;
         try {
-            snapshot = await this.fetch(frame.name);
+            snapshot = await source.fetch(frame.name);
         } catch (fault) {
             this.pause();
             this.tell(`Snapshot ${frame.name}: ${fault.message}`);
             return;
         }
-        if (!snapshot || this.at !== index) return;
+        if (!snapshot || source !== this.source || this.at !== index) return;
+        by_id("view-stride").value = source.stride;
         this.snapshot = snapshot;
-        this.times.set(frame.name, snapshot.time); // the list has it from the file's name, if at all
-        frame.time = snapshot.time;
         this.update_controls();
         if (!this.view.box) await this.find_box();
         this.paint();
@@ -254,7 +200,7 @@ export class Particles {
         const began = performance.now();
         await this.seek(this.at + 1);
         if (!this.playing) return;
-        for (const frame of this.frames.slice(this.at + 1, this.at + 1 + ahead)) this.fetch(frame.name).catch(() => {}); // seek tells
+        for (const frame of this.frames.slice(this.at + 1, this.at + 1 + ahead)) this.source.fetch(frame.name).catch(() => {}); // seek tells
         if (this.at >= this.frames.length - 1) {
             this.pause();
             return;
@@ -276,53 +222,54 @@ export class Particles {
     }
 
     paint() {
-        if (!this.snapshot || this.at < 0) return;
-        const fields = Object.keys(this.snapshot.columns).filter((field) => field !== "x" && field !== "y");
+        const { snapshot } = this;
+        if (!snapshot || this.at < 0) return;
+        const fields = fields_of(snapshot);
         mirror(by_id("view-field"), fields, (field) => field, (field) => element("option", { value: field }),
                (option, field) => set_text(option, field_name(field)));
         if (!fields.includes(this.field)) this.field = fields.includes("epsilon_q") ? "epsilon_q" : fields[0];
         by_id("view-field").value = this.field;
-        const field = this.field;
-        const named = categories.includes(field);
-        by_id("view-scale").hidden = named;
-        by_id("view-regions").hidden = !named;
-        const colour = named ? { field, named } : { field, ...this.scale_of(field) };
-        if (named) this.draw_names(field === "region" ? this.snapshot.regions : this.snapshot.materials);
-        else this.draw_scale(field, colour);
-        this.view.show(this.snapshot, colour, this.spacing ?? 1);
-        const what = this.snapshot.quads ? `${this.snapshot.quads.length / 4} elements` : `${this.snapshot.count} points`;
+        const is_mesh = Boolean(snapshot.quads);
+        const contours = is_mesh && !is_named(this.field) && by_id("view-shading").value === "contours";
+        by_id("view-shading-label").hidden = !is_mesh || is_named(this.field);
+        by_id("view-vectors-label").hidden = !snapshot.columns.u_x;
+        this.view.overlay.water = by_id("view-water").checked ? water_of(this.run.study?.scene) : null;
+        this.view.overlay.vectors = by_id("view-vectors").checked;
+        this.view.show(snapshot, this.scale.of(this.field, [snapshot], [this.source], { contours }), this.spacing ?? 1);
+        this.gauges.mark(snapshot.time);
+        by_id("view-verdict").hidden = this.verdict() === "";
+        set_text(by_id("view-verdict"), this.verdict());
+        this.tell_vectors(snapshot);
+        const what = is_mesh ? `${snapshot.quads.length / 4} elements` : `${snapshot.count} points`;
         set_text(by_id("view-count"), what);
         by_id("view").setAttribute("aria-label",
-            `Soil at ${seconds(this.snapshot.time)}, ${what}, coloured by ${field_name(field)}. ` +
+            `Soil at ${seconds(snapshot.time)}, ${what}, coloured by ${field_name(this.field)}. ` +
             "Arrow keys move, plus and minus zoom, zero shows all.");
+        this.profile.show(snapshot, this.field, this.spacing ?? 1, `${this.run.title || this.run.name}, ${by_id("view-source").selectedOptions[0]?.textContent}`);
     }
 
-    scale_of(field) {
-        const auto = by_id("view-auto").checked;
-        const [low_input, high_input] = [by_id("view-low"), by_id("view-high")];
-        low_input.disabled = auto;
-        high_input.disabled = auto;
-        if (auto) {
-            const [low, high] = this.reaches[field] ?? [0, 1];
-            low_input.value = number(low, 2);
-            high_input.value = number(high > low ? high : 1, 2);
-        }
-        const low = Number(low_input.value);
-        const high = Number(high_input.value);
-        return high > low ? { low, high } : { low, high: low + 1 };
+    tell_vectors({ columns }) {
+        const longest = columns.u_x && by_id("view-vectors").checked ? longest_of(this.snapshot) : null;
+        set_text(by_id("view-vectors-note"), longest === null ? "" : longest > 0 ? `Longest vector ${number(longest, 3)} m, the others to its scale.`
+            : "Nothing has moved: no vectors.");
     }
 
-    draw_scale(field, { low, high }) {
-        by_id("view-ramp").style.background = scale_gradient;
-        const unit = known_fields[field]?.unit ?? "";
-        set_text(by_id("view-range"), `${field_name(field)}${unit ? ` [${unit}]` : ""}, ${number(low)} to ${number(high)}`);
+    verdict() {
+        const task = this.run.tasks.find(({ id }) => id === this.task);
+        return task ? picture_verdict(task, this.row_of(task.id)) : "";
     }
 
-    draw_names(names) {
-        // A region and a material may share their name and not their colour: the place in the list is the key.
-        mirror(by_id("view-regions"), names.map((name, i) => ({ name, i })), ({ name, i }) => `${i}/${name}`,
-               ({ name, i }) => element("li", {}, element("span", { class: "chip", style: `background: ${region_css(i)}` }), ` ${name}`),
-               () => {});
+    /// What is seen, with all that must be known of it, for a file.
+    sheet(film) {
+        if (!this.snapshot) return null;
+        this.view.paint();
+        const { colour, names, grey, notes } = this.scale.shown;
+        const caption = `${by_id("view-source").selectedOptions[0]?.textContent}, t = ${this.snapshot.time.toFixed(2)} s`;
+        const more = [by_id("view-vectors-note").textContent, this.view.overlay.water ? "Blue: phreatic line of the scene, before anything moves." : "",
+                      this.snapshot.quads ? "" : `${this.snapshot.count} points.`];
+        return sheet_of({ title: this.run.title || this.run.name, parts: [{ view: this.view, caption }], colour, names, grey,
+                          notes: [this.verdict(), ...notes, more.filter(Boolean).join(" "), film ? pace_text(this.frames.map(({ time }) => time)) : "",
+                                  `Run ${this.run.id}, Breachline.`] });
     }
 
     update_controls() {
@@ -340,29 +287,24 @@ export class Particles {
     }
 }
 
-/// "final.vtkhdf" has no time in its name, so it is listed with 0.
-function last_state_last(frames) {
-    const timed = (frame) => /\d/.test(frame.name);
-    return [...frames.filter(timed), ...frames.filter((frame) => !timed(frame))];
+/// A flat runout gets a flat picture.
+export function size_canvas(canvas, box) {
+    const slenderness = (box.y[1] - box.y[0]) / Math.max(box.x[1] - box.x[0], 1e-9);
+    canvas.style.setProperty("--slenderness", Math.min(0.75, Math.max(0.2, slenderness * 1.04)));
 }
 
-/// Which material each point is of, from its region: a colour of its own where regions share materials.
-function add_material(snapshot, materials_of_regions) {
-    const of_region = snapshot.regions.map((name, i) => snapshot.region_materials?.[i] ?? materials_of_regions.get(name) ?? "unknown");
-    const names = [...new Set(of_region)];
-    if (names.length === 0 || !snapshot.columns.region) return;
-    const index = Float32Array.from(of_region, (name) => names.indexOf(name));
-    snapshot.columns.material = snapshot.columns.region.map((region) => index[region]);
-    snapshot.materials = names;
+/// The tasks of a run that leave snapshots.
+export function picture_tasks(run) {
+    return run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver").sort(by_point(variants_of(run)));
 }
 
-function source_name(task) {
+export function source_name(task) {
     const what = task.phase === "fem_solver" ? ["FEM mesh", task.variant].filter(Boolean).join(", ") : mpm_name(task);
     return ["succeeded", "cached"].includes(task.state) ? what : `${what} (${task.state})`;
 }
 
 /// The last finished runout says most; before there is one, whatever runs.
-function first_with_frames(tasks) {
+export function first_with_frames(tasks) {
     return tasks.findLast((task) => task.phase === "mpm_solver" && !is_active(task.state) && task.state !== "skipped") ??
            tasks.find((task) => task.phase === "mpm_solver" && task.state === "running") ??
            tasks.find((task) => task.phase === "fem_solver");

@@ -1,6 +1,7 @@
 // A plot of curves against one abscissa, as SVG: axes with units, gaps where values are missing, marks on the
 // abscissa, hover and keyboard readout. Knows nothing of where the numbers come from.
 import { element, set_text, svg } from "./dom.js";
+import { figure_of, offer_png, offer_svg } from "./figure_files.js";
 import { looks } from "./flags.js";
 import { number } from "./format.js";
 import { band, curve, error_at, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
@@ -16,6 +17,9 @@ function with_errors(series) {
 }
 
 export class Plot {
+    /// What the figures of this page are of, for those that are saved.
+    static of = () => "";
+
     /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: what the
     /// verticals without a text are. choose(x, key) is called when a person picks a point with a click or Enter; key is
     /// the point's entry in its series' `keys`, null for a mark.
@@ -30,7 +34,11 @@ export class Plot {
         this.picture = svg("svg", { class: "plot", role: "img", tabindex: 0 });
         this.readout = element("p", { class: "readout", "aria-live": "polite" });
         this.legend = element("ul", { class: "legend" });
-        host.replaceChildren(this.legend, this.picture, this.readout);
+        const button = (kind, offer) => element("button", { type: "button", class: "link", title: `Save this figure as ${kind}`, onclick: () => {
+            if (this.width) offer([this.labels.title, Plot.of()].filter(Boolean).join(" "), figure_of(this, Plot.of()));
+        } }, kind);
+        host.replaceChildren(this.legend, this.picture, element("div", { class: "under-plot" }, this.readout,
+            element("span", { class: "buttons" }, button("SVG", offer_svg), button("PNG", offer_png))));
         new ResizeObserver(() => this.draw()).observe(host);
         this.picture.addEventListener("pointermove", (event) => this.point_at(...this.nearest(event)));
         this.picture.addEventListener("pointerleave", () => this.point_at(null));
@@ -69,6 +77,7 @@ export class Plot {
         this.picture.setAttribute("height", this.height);
         this.picture.setAttribute("aria-label", this.summary());
         this.cursor = svg("g", { class: "cursor" });
+        this.now_line = svg("path", { class: "now" });
         this.picture.replaceChildren(
             ...bands.filter((each) => each.from < this.x_range[1] && each.to > this.x_range[0]).flatMap((each, i) => band(this, each, i)),
             ...this.axes(),
@@ -76,9 +85,22 @@ export class Plot {
             ...levels.flatMap((each, i) => level(this, each, i)),
             ...series.flatMap((each, i) => curve(this, each, i)),
             ...marks.map((each) => mark(this, each)),
-            this.cursor);
+            this.now_line, this.cursor);
         this.legend.replaceChildren(...legend(this.data, this.labels.lines));
         this.draw_cursor();
+        this.mark_now(this.now);
+    }
+
+    /// A vertical that moves along with something else that is shown; null: none. One beyond the axis stays at its end.
+    mark_now(x) {
+        this.now = x;
+        if (!this.now_line) return;
+        if (!Number.isFinite(x)) {
+            this.now_line.removeAttribute("d");
+            return;
+        }
+        const at = this.px(Math.min(this.x_range[1], Math.max(this.x_range[0], x))).toFixed(1);
+        this.now_line.setAttribute("d", `M${at},${margin.top}V${this.height - this.bottom}`);
     }
 
     /// Named ticks that do not fit side by side are turned, and the picture grows for them.
@@ -244,6 +266,6 @@ export class Plot {
         });
         for (const each of this.data.marks) if (each.x === x) values.push(each.label);
         const named = this.data.names?.find((each) => each.x === x)?.label;
-        set_text(this.readout, `${named ?? `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}`}: ${values.join(" · ")}`);
+        set_text(this.readout, `${named ?? `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}`.trim()}: ${values.join(" · ")}`);
     }
 }

@@ -1,6 +1,8 @@
 // Draws one snapshot, particles or a mesh of quads, on a canvas: equal aspect, pan, zoom, axes in metres.
-import { mixed, packed, region_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
+import { band_colours, mixed, packed, region_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
+import { fill_contours } from "./contours.js";
 import { number } from "./format.js";
+import { draw_cut, draw_gauges, draw_outlines, draw_toe, draw_vectors, draw_water } from "./overlay.js";
 import { ticks } from "./plot_scale.js";
 import { draw_edge, fill_quad, fill_square } from "./raster.js";
 
@@ -45,24 +47,17 @@ export function spacing_of({ columns: { x, y }, count }) {
     return distances.length ? distances[Math.floor(0.9 * (distances.length - 1))] : 1;
 }
 
-/// The values that only one in a hundred is below and above, zero included: a few wild points do not own the scale.
-export function reach_of(values) {
-    const step = Math.max(1, Math.floor(values.length / 2000));
-    const picked = new Float32Array(Math.ceil(values.length / step));
-    let count = 0;
-    for (let i = 0; i < values.length; i += step) if (Number.isFinite(values[i])) picked[count++] = values[i];
-    const sample = picked.subarray(0, count).sort();
-    const at = (share) => sample[Math.floor(share * (sample.length - 1))];
-    return sample.length ? [Math.min(0, at(0.01)), Math.max(0, at(0.99))] : [0, 0];
-}
-
 export class PointView {
-    /// overlay: {outlines: [[[x, y], ...], ...], toe: [x, y] | null} drawn as thin lines over the soil.
+    /// overlay, drawn over the soil: {outlines: [[[x, y], ...], ...], toe: [x, y] | null, gauges: [{name, x, y}], water: [[x, y], ...] | null,
+    /// vectors: true | false, cut: [[x, y], [x, y]] | null}. moved(view): a hand has moved the picture. pick([x, y]): a person clicks and
+    /// someone waits for it; null otherwise.
     constructor(canvas) {
         this.canvas = canvas;
         this.context = canvas.getContext("2d", { alpha: false });
         this.snapshot = null;
         this.overlay = { outlines: [], toe: null };
+        this.moved = () => {};
+        this.pick = null;
         this.box = null;
         this.fitted = true;
         this.paint_time = 0; // [ms] of the last picture
@@ -71,7 +66,8 @@ export class PointView {
         this.listen();
     }
 
-    /// colour: {field, low, high} of numbers, or {field, named: true} of indices into a list of names.
+    /// colour: {field, low, high, contours} of numbers (contours: nodal values of a mesh in bands, else one colour per element), or
+    /// {field, named: true} of indices into a list of names.
     show(snapshot, colour, spacing) {
         this.snapshot = snapshot;
         this.colour = colour;
@@ -105,6 +101,13 @@ export class PointView {
         const moved = this.to_world(px, py);
         this.centre = [this.centre[0] + fixed[0] - moved[0], this.centre[1] + fixed[1] - moved[1]];
         this.fitted = false;
+        this.moved(this);
+        this.redraw();
+    }
+
+    /// Shows what another view of the same size shows.
+    follow({ scale, centre, fitted }) {
+        Object.assign(this, { scale, centre, fitted });
         this.redraw();
     }
 
@@ -113,6 +116,7 @@ export class PointView {
         if (!this.scale) return;
         this.centre = [this.centre[0] - (dx * this.ratio) / this.scale, this.centre[1] + (dy * this.ratio) / this.scale];
         this.fitted = false;
+        this.moved(this);
         this.redraw();
     }
 
@@ -166,7 +170,7 @@ export class PointView {
         context.fillRect(0, 0, canvas.width, canvas.height);
         if (this.snapshot && this.scale) {
             this.paint_soil(ground, style.getPropertyValue("--mesh").trim());
-            this.paint_overlay(style.getPropertyValue("--text").trim());
+            this.paint_overlay(style);
             this.paint_axes(style, ground);
         }
         this.paint_time = performance.now() - began;
@@ -197,7 +201,8 @@ export class PointView {
         image.pixels.fill(packed(ground));
         const shades = this.shades();
         const palette = this.colour.named ? region_packed : scale_packed;
-        if (this.snapshot.quads) this.paint_quads(image, shades, palette, line);
+        if (this.snapshot.quads && this.colour.contours) this.paint_contours(image, line);
+        else if (this.snapshot.quads) this.paint_quads(image, shades, palette, line);
         else this.paint_squares(image, shades, palette);
         this.context.putImageData(this.data, 0, 0);
     }
@@ -213,26 +218,43 @@ export class PointView {
         }
     }
 
-    /// Every element in the mean of its corners' shades; edges in the same colour drawn towards the line's, unless the
-    /// elements are so small that nothing else would be seen.
-    paint_quads(image, shades, palette, line) {
-        const { quads, columns } = this.snapshot;
+    /// The nodes' places [device pixels].
+    nodes() {
+        const { columns } = this.snapshot;
         const [origin_x, origin_y] = this.to_screen(0, 0);
-        const x = columns.x.map((value) => origin_x + value * this.scale);
-        const y = columns.y.map((value) => origin_y - value * this.scale);
+        return { x: columns.x.map((value) => origin_x + value * this.scale), y: columns.y.map((value) => origin_y - value * this.scale) };
+    }
+
+    paint_contours(image, line) {
+        const { quads, columns } = this.snapshot;
+        const { field, low, high } = this.colour;
+        const { x, y } = this.nodes();
+        const share = columns[field].map((value) => (value - low) / Math.max(high - low, 1e-30));
+        fill_contours(image, { x, y, share, quads, palette: band_colours, unknown });
+        this.paint_edges(image, x, y, () => packed(line), 0.18);
+    }
+
+    /// Every element in the mean of its corners' shades, its edges drawn towards the line's colour.
+    paint_quads(image, shades, palette, line) {
+        const { quads } = this.snapshot;
+        const { x, y } = this.nodes();
         const edges = palette.map((colour) => mixed(colour, packed(line), 0.35));
         const unknown_edge = mixed(unknown, packed(line), 0.35);
-        const with_edges = this.mean_edge(x, y) > least_edge * this.ratio;
+        const colour_of = (q, colours, none) => {
+            const shade = this.shade_of(quads.subarray(q, q + 4), shades);
+            return shade < 0 ? none : colours[shade & 255];
+        };
+        for (let q = 0; q < quads.length; q += 4) fill_quad(image, x, y, quads.subarray(q, q + 4), colour_of(q, palette, unknown));
+        this.paint_edges(image, x, y, (q) => colour_of(q, edges, unknown_edge));
+    }
+
+    /// Unless the elements are so small that nothing else would be seen. share: how much of the line's colour goes over what is there.
+    paint_edges(image, x, y, colour_of, share = 1) {
+        const { quads } = this.snapshot;
+        if (this.mean_edge(x, y) <= least_edge * this.ratio) return;
         for (let q = 0; q < quads.length; q += 4) {
-            const corners = quads.subarray(q, q + 4);
-            const shade = this.shade_of(corners, shades);
-            fill_quad(image, x, y, corners, shade < 0 ? unknown : palette[shade & 255]);
-        }
-        for (let q = 0; with_edges && q < quads.length; q += 4) {
-            const corners = quads.subarray(q, q + 4);
-            const shade = this.shade_of(corners, shades);
-            const colour = shade < 0 ? unknown_edge : edges[shade & 255];
-            for (let k = 0; k < 4; k += 1) draw_edge(image, x, y, corners[k], corners[(k + 1) & 3], colour);
+            const colour = colour_of(q);
+            for (let k = 0; k < 4; k += 1) draw_edge(image, x, y, quads[q + k], quads[q + ((k + 1) & 3)], colour, share);
         }
     }
 
@@ -262,27 +284,23 @@ export class PointView {
         return sum / Math.max(count, 1);
     }
 
-    paint_overlay(colour) {
-        const { context } = this;
-        context.strokeStyle = colour;
-        context.fillStyle = colour;
-        context.lineWidth = this.ratio;
-        context.setLineDash([5 * this.ratio, 4 * this.ratio]);
-        for (const outline of this.overlay.outlines) {
-            context.beginPath();
-            outline.forEach(([x, y], i) => (i ? context.lineTo(...this.to_screen(x, y))
-                                              : context.moveTo(...this.to_screen(x, y))));
-            context.stroke();
-        }
-        context.setLineDash([]);
-        if (!this.overlay.toe) return;
-        const [px, py] = this.to_screen(...this.overlay.toe);
-        const d = 6 * this.ratio;
-        context.beginPath();
-        context.moveTo(px, py);
-        context.lineTo(px - d, py - 1.8 * d);
-        context.lineTo(px + d, py - 1.8 * d);
-        context.fill();
+    paint_overlay(style) {
+        const { context, ratio } = this;
+        const { outlines, toe, gauges, water, vectors, cut } = this.overlay;
+        const pen = { context, ratio, to_screen: (x, y) => this.to_screen(x, y) };
+        const in_colour = (name) => {
+            context.strokeStyle = context.fillStyle = style.getPropertyValue(name).trim();
+        };
+        const halo = style.getPropertyValue("--canvas").trim();
+        in_colour("--text");
+        draw_outlines(pen, outlines);
+        if (toe) draw_toe(pen, toe);
+        draw_gauges(pen, gauges ?? []);
+        if (vectors && this.snapshot.columns.u_x) draw_vectors(pen, this.snapshot, halo);
+        in_colour("--water");
+        if (water) draw_water(pen, water, halo);
+        in_colour("--fired");
+        if (cut) draw_cut(pen, cut);
     }
 
     paint_axes(style, ground) {
@@ -330,9 +348,11 @@ export class PointView {
     listen() {
         const { canvas } = this;
         const hands = new Map();
+        let pressed = null; // where a click may have begun
         canvas.addEventListener("pointerdown", (event) => {
             canvas.setPointerCapture(event.pointerId);
             hands.set(event.pointerId, event);
+            pressed = event;
         });
         canvas.addEventListener("pointermove", (event) => {
             const before = hands.get(event.pointerId);
@@ -346,6 +366,10 @@ export class PointView {
             }
             hands.set(event.pointerId, event);
         });
+        canvas.addEventListener("pointerup", (event) => {
+            const still = pressed && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < 4;
+            if (this.pick && still && this.scale) this.pick(this.to_world(...this.place_of(event)));
+        });
         for (const end of ["pointerup", "pointercancel"]) {
             canvas.addEventListener(end, (event) => hands.delete(event.pointerId));
         }
@@ -353,11 +377,15 @@ export class PointView {
             // The page scrolls past the picture unless it was clicked or Ctrl is held.
             if (document.activeElement !== canvas && !event.ctrlKey) return;
             event.preventDefault();
-            const box = canvas.getBoundingClientRect();
-            this.zoom(1.0015 ** -event.deltaY,
-                      [(event.clientX - box.left) * this.ratio, (event.clientY - box.top) * this.ratio]);
+            this.zoom(1.0015 ** -event.deltaY, this.place_of(event));
         }, { passive: false });
         canvas.addEventListener("keydown", (event) => this.key(event));
+    }
+
+    /// [device pixels]
+    place_of(event) {
+        const box = this.canvas.getBoundingClientRect();
+        return [(event.clientX - box.left) * this.ratio, (event.clientY - box.top) * this.ratio];
     }
 
     key(event) {

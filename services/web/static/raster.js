@@ -1,5 +1,6 @@
 // Pixels of soil: squares for particles, quads and their edges for a mesh, written straight into an image. Faster than a
 // canvas's paths by far, without a GPU. A colour is 32 bits as ImageData holds them; coordinates are device pixels.
+import { mixed } from "./colours.js";
 
 const short_span = 24; // pixels; a loop is quicker than fill() below
 
@@ -43,8 +44,8 @@ export function fill_quad(image, x, y, [a, b, c, d], colour) {
     }
 }
 
-/// A line one pixel wide from node a to node b.
-export function draw_edge(image, x, y, a, b, colour) {
+/// A line one pixel wide from node a to node b; share: how much of its colour goes over what is there.
+export function draw_edge(image, x, y, a, b, colour, share_of_colour = 1) {
     const { pixels, width, height } = image;
     const [dx, dy] = [x[b] - x[a], y[b] - y[a]];
     const steps = Math.ceil(Math.max(Math.abs(dx), Math.abs(dy)));
@@ -53,6 +54,8 @@ export function draw_edge(image, x, y, a, b, colour) {
         const share = steps ? i / steps : 0;
         const column = Math.floor(x[a] + share * dx);
         const row = Math.floor(y[a] + share * dy);
-        if (column >= 0 && column < width && row >= 0 && row < height) pixels[row * width + column] = colour;
+        if (!(column >= 0 && column < width && row >= 0 && row < height)) continue;
+        const at = row * width + column;
+        pixels[at] = share_of_colour === 1 ? colour : mixed(pixels[at], colour, share_of_colour);
     }
 }

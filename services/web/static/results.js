@@ -4,6 +4,7 @@ import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_codes, flag_note, look_of, rest_text, trust_of } from "./flags.js";
 import { by_point, is_active, number, point_name, show_state, state_look, variants_of } from "./format.js";
 import { draws_of, mean_rows } from "./means.js";
+import { parameters_of } from "./parameters.js";
 import { Plot } from "./plot.js";
 import { plateaus, windows } from "./triggers.js";
 
@@ -34,6 +35,7 @@ export class Results {
             this.refresh();
         });
         by_id("runout-measure").addEventListener("change", () => this.draw());
+        by_id("runout-abscissa").addEventListener("change", () => this.refresh());
         by_id("runout-all").addEventListener("change", (event) => by_id("runout-table").classList.toggle("all", event.target.checked));
         by_id("runout-trust").addEventListener("change", () => this.refresh());
         by_id("runout-rows").addEventListener("click", (event) => {
@@ -88,6 +90,7 @@ export class Results {
         this.variants = variants_of(run);
         this.rows = rows.sort(by_point(this.variants));
         this.offer_what_there_is();
+        this.offer_parameters();
         this.refresh();
         const finished = rows.filter(is_finished).length;
         const several = this.variants.length > 1;
@@ -116,6 +119,22 @@ export class Results {
         shown.toggle("no-time", this.is_static());
     }
 
+    /// What can stand on the abscissa instead: the numbers that differ between the variants.
+    offer_parameters() {
+        this.parameters = parameters_of(this.run.study);
+        const select = by_id("runout-abscissa");
+        const before = select.value;
+        const plain = this.is_static() ? "variant" : "transfer time";
+        mirror(select, [{ pointer: "" }, ...this.parameters], ({ pointer }) => pointer, ({ pointer }) => element("option", { value: pointer }),
+               (option, { pointer }) => set_text(option, pointer || plain));
+        select.value = this.parameters.some(({ pointer }) => pointer === before) ? before : "";
+        by_id("runout-abscissa-label").hidden = this.parameters.length === 0;
+    }
+
+    parameter() {
+        return this.parameters.find(({ pointer }) => pointer === by_id("runout-abscissa").value);
+    }
+
     /// The rows that a person wants to see: all, or without the finished ones that are not known to be sound.
     shown() {
         if (by_id("runout-trust").value === "all") return this.chosen();
@@ -127,11 +146,33 @@ export class Results {
         by_id("runout-table").classList.toggle("one-variant", this.shown_variants().length < 2);
         by_id("runout-csv").href = api.results_csv(this.run.id, this.shows_means());
         const of = this.of_mean ? `Only the draws of ${point_name(this.of_mean)}. ` : "";
-        const note = of + trust_note(chosen, chosen.length - this.shown().length);
+        const note = of + trust_note(chosen, chosen.length - this.shown().length) + this.unplaced_note();
         by_id("runout-note").hidden = !note;
         set_text(by_id("runout-note"), note);
         mirror(by_id("runout-rows"), this.shown(), key_of, () => this.new_row(), fill_row);
         this.draw();
+    }
+
+    /// Variants that have no place on a parameter's axis are not silently left out.
+    unplaced_note() {
+        const parameter = this.parameter();
+        const without = parameter ? this.shown_variants().filter((variant) => parameter.value_of(variant) === null) : [];
+        return without.length === 0 ? "" : ` Not in the figure, because neither they nor the scene that was sent give ${parameter.pointer} as a number: ` +
+            `${without.map((variant) => variant || "the scene itself").join(", ")}.`;
+    }
+
+    /// One colour and one shape per variant, over a number that differs between them.
+    draw_against({ pointer, value_of }, lines, points, marks, errors_name) {
+        const placed = lines.filter(({ variant }) => value_of(variant) !== null);
+        this.plot.labels.x_name = pointer.split("/").at(-1);
+        this.plot.labels.x_unit = "";
+        this.plot.show({
+            series: placed.map(({ variant, rows }) => ({ name: variant || this.run.name, scatter: true, ...points(rows),
+                                                         names: rows.map((row) => point_name({ ...row, variant: "" })),
+                                                         x: rows.map(() => value_of(variant)) })),
+            marks: marks.filter((row) => value_of(row.variant) !== null).map((row) => ({ ...mark_of(row, true), x: value_of(row.variant) })),
+            x_label: pointer, errors_name,
+        });
     }
 
     draw() {
@@ -145,8 +186,15 @@ export class Results {
                                     errors: some.map((row) => error_of(row, measure)), looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
         const errors_name = this.shows_means() ? "standard deviation of the draws" : "error of one run";
-        const side_by_side = this.is_static() || (several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1);
         const what = measure === "factor_of_safety" ? "Factor of safety" : "Runout";
+        const parameter = this.parameter();
+        if (parameter) {
+            set_text(by_id("runout-title"), `${what} against a parameter`);
+            this.draw_against(parameter, lines, points, marks, errors_name);
+            return;
+        }
+        Object.assign(this.plot.labels, { x_name: "t_T", x_unit: "s" });
+        const side_by_side = this.is_static() || (several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1);
         set_text(by_id("runout-title"), what + (!side_by_side ? " against transfer time" : several ? " by variant" : ""));
         if (side_by_side) {
             // One transfer time: the variants stand side by side.

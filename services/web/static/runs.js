@@ -2,27 +2,37 @@
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { counts_text } from "./flags.js";
-import { clock, elapsed, is_active, percent, show_state, span, task_state } from "./format.js";
+import { bytes, clock, elapsed, is_active, percent, show_state, span, task_state } from "./format.js";
+import { RenameDialog } from "./rename.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
 
 const state_of = (run) => (run.paused && is_active(run.state) ? "paused" : run.state);
 
-export function draw_list(runs, open_id) {
+/// What a person searches for; "" is nothing.
+export const searched = () => by_id("run-search").value.trim();
+
+/// {runs, next} as api.find_runs gives them.
+export function draw_list({ runs, next }, open_id) {
     by_id("no-runs").hidden = runs.length > 0;
+    set_text(by_id("no-runs"), searched() ? "None has this in its name, title or id." : "None yet.");
+    by_id("more-runs").hidden = !next;
+    set_text(by_id("more-runs"), `The newest ${runs.length}; ${searched() ? "there are more" : "search finds older ones"}.`);
     mirror(by_id("run-list"), runs, (run) => run.id, new_item, (item, run) => fill_item(item, run, open_id));
 }
 
 function new_item(run) {
     return element("li", {}, element("a", { href: run_address(run.id) },
-        element("span", { class: "run-name" }), element("span"), element("progress", { max: 1 }),
+        element("span", { class: "run-name" }), element("span"), element("span", { class: "run-called" }), element("progress", { max: 1 }),
         element("span", { class: "run-time" }), element("span", { class: "run-why" })));
 }
 
 function fill_item(item, run, open_id) {
     const link = item.firstElementChild;
-    const [name, state, progress, time, why] = link.children;
+    const [name, state, called, progress, time, why] = link.children;
     set_text(name, run.name);
+    set_text(called, run.title);
+    called.hidden = !run.title;
     show_state(state, state_of(run));
     progress.value = run.progress ?? 0;
     progress.hidden = !is_active(run.state);
@@ -48,7 +58,9 @@ export class RunHead {
         this.changed = changed;
         by_id("cancel").addEventListener("click", () => by_id("cancel-dialog").showModal());
         by_id("cancel-dialog").addEventListener("close", () => this.answer(by_id("cancel-dialog").returnValue));
-        by_id("remove").addEventListener("click", () => by_id("remove-dialog").showModal());
+        by_id("remove").addEventListener("click", () => this.ask_removal());
+        this.rename = new RenameDialog(changed);
+        by_id("rename").addEventListener("click", () => this.rename.open(this.run));
         by_id("remove-dialog").addEventListener("close", () => this.answer_removal(by_id("remove-dialog").returnValue));
         by_id("pin").addEventListener("click", () => this.command(this.run.pinned ? "unpin" : "pin"));
         for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
@@ -81,6 +93,22 @@ export class RunHead {
     async answer(choice) {
         by_id("cancel-dialog").returnValue = "";
         if (choice === "cancel-run") await this.command("cancel");
+    }
+
+    /// Says how much disk it would give back; the server looks at the files for that, which may take a moment.
+    async ask_removal() {
+        const { id } = this.run;
+        const say = (text) => set_text(by_id("remove-frees"), text);
+        say("Looking how much disk that gives back…");
+        by_id("remove-dialog").showModal();
+        try {
+            const use = (await api.read_storage()).runs.find((run) => run.id === id);
+            if (this.run.id !== id) return;
+            say(!use ? "" : `That gives back ${bytes(use.freed_bytes)} of disk` +
+                (use.shared_bytes > 0 ? `; ${bytes(use.shared_bytes)} more are shared with other runs and stay with those.` : "."));
+        } catch (fault) {
+            say(`How much disk that gives back is not known: ${fault.message}`);
+        }
     }
 
     async answer_removal(choice) {

@@ -52,8 +52,7 @@ export class Telemetry {
     /// Takes the lines written since the last look.
     async extend() {
         const task = this.chosen();
-        const alone = this.run.tasks.filter((other) => other.phase === task.phase &&
-                                                       other.transfer_time === task.transfer_time).length === 1;
+        const alone = is_alone(this.run, task);
         for (;;) {
             const from = this.next;
             let answer;
@@ -143,3 +142,7 @@ function source_name(task) {
     if (task.phase === "fem_solver") return task.variant ? `FEM, ${task.variant}` : "FEM";
     return mpm_name(task);
 }
+
+/// No other task of the run shares its phase and transfer time.
+export const is_alone = (run, task) =>
+    run.tasks.filter((other) => other.phase === task.phase && other.transfer_time === task.transfer_time).length === 1;

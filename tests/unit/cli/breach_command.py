@@ -129,6 +129,8 @@ class Breach(unittest.TestCase):
             self.assertEqual((done.returncode, "running" in done.stdout), (0, True), done.stderr)
             self.assertEqual(service.posted[-1][0], f"/v1/runs/{run_id}/{words[0]}")
         self.assertEqual(service.posted[-1][1], {"priority": 10})
+        self.assertEqual(call(service, "rename", "latest", "Weak beach").returncode, 0)
+        self.assertEqual(service.posted[-1][:2], (f"/v1/runs/{run_id}/title", {"title": "Weak beach"}))
 
     def test_a_scene_is_made_a_study(self):
         service = self.serve()
@@ -141,7 +143,7 @@ class Breach(unittest.TestCase):
         self.assertEqual((both.returncode, len(service.posted)), (2, 1))
 
     def test_every_word_has_an_example_and_a_wrong_one_is_named(self):
-        words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "priority",
+        words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "rename", "priority",
                  "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "pin", "unpin", "completion")
         for word in words:
             self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)

@@ -180,6 +180,12 @@ class Described(unittest.TestCase):
         for order in ("pause", "resume", "retry"):
             post(f"/v1/runs/{{id}}/{order}", f"/v1/runs/{run}/{order}", 202)
         post("/v1/runs/{id}/priority", f"/v1/runs/{run}/priority", 202, {"priority": 3})
+        renamed = json.loads(post("/v1/runs/{id}/title", f"/v1/runs/{run}/title", 202, {"title": "Weak beach, zweiter Versuch"}))
+        self.assertEqual(renamed["title"], "Weak beach, zweiter Versuch")
+        self.assertEqual([each["id"] for each in json.loads(get("/v1/runs", "/v1/runs?search=weak%20BEACH"))["runs"]], [run])
+        self.assertEqual(json.loads(get("/v1/runs", "/v1/runs?search=nothing%25"))["runs"], [])
+        for wrong in ("", "  ", "a\nb", 3, "x" * 201):
+            post("/v1/runs/{id}/title", f"/v1/runs/{run}/title", 400, {"title": wrong})
         post("/v1/sweeps/{id}/cancel", f"/v1/sweeps/{run}/cancel", 202)
         post("/v1/runs/{id}/cancel", f"/v1/runs/{run}/cancel", 202)
         delete = lambda template, path, status: self.check("DELETE", template, path, status)
@@ -205,7 +211,7 @@ class Described(unittest.TestCase):
             if "{id}" not in template:
                 continue
             path = template.replace("{id}", "nobody").replace("{n}", "1").replace("{name}", "x")
-            bodies = {"priority": {"priority": 1}, "triggers": {"kind": "manual"}, "extend": {"transfer_times": [1]}}
+            bodies = {"priority": {"priority": 1}, "title": {"title": "new"}, "triggers": {"kind": "manual"}, "extend": {"transfer_times": [1]}}
             for method in methods:
                 body = bodies.get(path.split("/")[-1]) if method == "post" else None
                 self.check(method.upper(), template, path, 404, body)

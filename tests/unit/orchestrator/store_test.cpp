@@ -43,6 +43,35 @@ class StoreTest : public ::testing::Test {
     const test::Folder folder_;
 };
 
+TEST_F(StoreTest, ARunKeepsItsNewTitleAndIsFoundByAPartOfIt) {
+    NewRun run = small_run(), other = small_run();
+    run.title = "First try";
+    {
+        Store store(file());
+        bool known = true;
+        store.write([&](Transaction& t) {
+            t.add_run(run);
+            t.add_run(other);
+            EXPECT_TRUE(t.rename_run(run.id, "100 % Weak beach"));
+            known = t.rename_run("nobody", "x");
+        });
+        EXPECT_FALSE(known);
+    }
+    const Store store(file());
+    EXPECT_EQ(store.run(run.id)->title, "100 % Weak beach");
+    const auto found = [&](const std::string& text) {
+        RunFilter filter;
+        filter.search = text;
+        return store.runs(filter, 10).size();
+    };
+    EXPECT_EQ(found("weak"), 1u);
+    EXPECT_EQ(found("0 % w"), 1u);
+    EXPECT_EQ(found("%"), 1u) << "no wildcard";
+    EXPECT_EQ(found("First"), 0u);
+    EXPECT_EQ(found("SMALL"), 2u) << "their name";
+    EXPECT_EQ(found(run.id.substr(3)), 1u);
+}
+
 TEST_F(StoreTest, RunsTasksAttemptsAndArtifactsComeBackAsTheyWereWritten) {
     Store store(file());
     const NewRun run = small_run();
