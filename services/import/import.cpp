@@ -10,6 +10,7 @@
 #include "services/import/document.hpp"
 #include "services/import/dxf.hpp"
 #include "services/import/dxf_records.hpp"
+#include "services/import/guess.hpp"
 #include "services/import/join_lines.hpp"
 
 namespace breach::importing {
@@ -297,6 +298,7 @@ class Import {
             return each.cause.ends_with("encloses no area") && is_told(each.pointer);
         });
         tell(healed);
+        if (result_.faults.empty()) check_for_air(healed.soils);
         if (!healed.terrain.empty()) lines_.terrain = healed.terrain;
         for (const LayerWish& each : layers_) {
             if (!result_.faults.empty()) return;
@@ -312,6 +314,17 @@ class Import {
         choose_materials(healed.soils);
         tell_areas(healed.soils);
         finish(healed.soils);
+    }
+
+    /// A gap that is open to a side is no face of the drawing, and no valley either.
+    void check_for_air(const std::vector<Soil>& soils) {
+        const auto air = highest_void(soils, wish_.tolerance);
+        if (!air) return;
+        const Soil &above = soils[air->above], &below = soils[air->below];
+        refuse(at_line(above.origin.line),
+               "air below " + above.name + " at " + text(air->at) + ": it stands " +
+                   metres(air->height) + " above " + below.name,
+               "let both share a border, or draw the soil that lies between them");
     }
 
     bool is_told(const std::string& pointer) const {
