@@ -50,11 +50,14 @@ std::vector<Triangle> triangles(Polygon polygon) {
             const Vec2& a = polygon[(i + n - 1) % n];
             const Vec2& b = polygon[i];
             const Vec2& c = polygon[(i + 1) % n];
-            if (turn(a, b, c) < 0) continue;
-            const bool blocked = std::any_of(polygon.begin(), polygon.end(), [&](const Vec2& p) {
-                return p != a && p != b && p != c && turn(a, b, p) > 0 && turn(b, c, p) > 0 &&
-                       turn(c, a, p) > 0;
-            });
+            const double bend = turn(a, b, c);
+            if (bend < 0) continue;
+            // On the border, too: what is left must not pass through a vertex.
+            const bool blocked =
+                bend > 0 && std::any_of(polygon.begin(), polygon.end(), [&](const Vec2& p) {
+                    return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+                           turn(c, a, p) >= 0;
+                });
             if (blocked) continue;
             result.push_back({a, b, c});
             polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));

@@ -161,7 +161,8 @@ class Snapping {
                 const Segment& t = segments[j];
                 const auto place = crossing(s, t);
                 if (!place) continue;
-                const std::pair key = std::minmax(edge_of(s.a, s.b), edge_of(t.a, t.b));
+                const Edge one = edge_of(s.a, s.b), other = edge_of(t.a, t.b);
+                const std::pair<Edge, Edge> key = std::minmax(one, other);
                 const auto [entry, fresh] = known.try_emplace(key, 0);
                 if (fresh) {
                     if (known.size() > most_nodes) return true;

@@ -29,6 +29,18 @@ std::optional<std::pair<Vec2, Vec2>> top_between(const std::vector<Soil>& soils,
     return top;
 }
 
+/// Where a vertical at x crosses the ring, ascending.
+std::vector<double> levels_at(const Polygon& ring, double x) {
+    std::vector<double> levels;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        if ((a.x() > x) != (b.x() > x))
+            levels.push_back(a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
+    }
+    std::ranges::sort(levels);
+    return levels;
+}
+
 Vec2 mirrored(const Vec2& place) { return {-place.x(), place.y()}; }
 
 std::vector<Vec2> mirrored(std::vector<Vec2> line) {
@@ -80,6 +92,36 @@ std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
         add(top->second);
     }
     return ground;
+}
+
+std::optional<Void> highest_void(const std::vector<Soil>& soils, double tolerance) {
+    struct Span {
+        double low, high;
+        std::size_t soil;
+    };
+    std::vector<double> xs;
+    for (const Soil& soil : soils)
+        for (const Vec2& each : soil.ring) xs.push_back(each.x());
+    std::ranges::sort(xs);
+    std::optional<Void> highest;
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+        if (xs[i + 1] <= xs[i]) continue;
+        const double x = 0.5 * (xs[i] + xs[i + 1]);
+        std::vector<Span> spans;
+        for (std::size_t s = 0; s < soils.size(); ++s) {
+            const std::vector<double> levels = levels_at(soils[s].ring, x);
+            for (std::size_t k = 0; k + 1 < levels.size(); k += 2)
+                spans.push_back({levels[k], levels[k + 1], s});
+        }
+        std::ranges::sort(spans, {}, &Span::low);
+        for (std::size_t k = 1; k < spans.size(); ++k) {
+            const double height = spans[k].low - spans[k - 1].high;
+            if (height <= (highest ? highest->height : tolerance)) continue;
+            const Vec2 at(x, 0.5 * (spans[k].low + spans[k - 1].high));
+            highest = {at, height, spans[k].soil, spans[k - 1].soil};
+        }
+    }
+    return highest;
 }
 
 std::optional<Slope> slope_of(const std::vector<Vec2>& ground) {

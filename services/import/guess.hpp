@@ -12,6 +12,15 @@ namespace breach::importing {
 /// Upper border of the soils from left to right; pieces where nothing lies between are left out [m].
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils);
 
+/// Air between soil and soil below it, where it is highest.
+struct Void {
+    Vec2 at;
+    double height;             ///< [m]
+    std::size_t above, below;  ///< indices of soils
+};
+/// None where nowhere more than `tolerance` [m].
+std::optional<Void> highest_void(const std::vector<Soil>& soils, double tolerance);
+
 /// The slope with the greatest fall between a height and the foot on one side of it.
 struct Slope {
     Vec2 crest, toe;

@@ -10,6 +10,7 @@
 #include "services/import/document.hpp"
 #include "services/import/dxf.hpp"
 #include "services/import/dxf_records.hpp"
+#include "services/import/guess.hpp"
 #include "services/import/join_lines.hpp"
 
 namespace breach::importing {
@@ -297,6 +298,7 @@ class Import {
             return each.cause.ends_with("encloses no area") && is_told(each.pointer);
         });
         tell(healed);
+        if (result_.faults.empty()) check_for_air(healed.soils);
         if (!healed.terrain.empty()) lines_.terrain = healed.terrain;
         for (const LayerWish& each : layers_) {
             if (!result_.faults.empty()) return;
@@ -312,6 +314,17 @@ class Import {
         choose_materials(healed.soils);
         tell_areas(healed.soils);
         finish(healed.soils);
+    }
+
+    /// A gap that is open to a side is no face of the drawing, and no valley either.
+    void check_for_air(const std::vector<Soil>& soils) {
+        const auto air = highest_void(soils, wish_.tolerance);
+        if (!air) return;
+        const Soil &above = soils[air->above], &below = soils[air->below];
+        refuse(at_line(above.origin.line),
+               "air below " + above.name + " at " + text(air->at) + ": it stands " +
+                   metres(air->height) + " above " + below.name,
+               "let both share a border, or draw the soil that lies between them");
     }
 
     bool is_told(const std::string& pointer) const {
@@ -438,50 +451,8 @@ class Import {
     Lines lines_;
 };
 
-std::string joined_names(const json& names) {
-    std::string all;
-    for (const json& each : names) all += (all.empty() ? "" : ", ") + each.get<std::string>();
-    return all;
-}
-
 }  // namespace
 
 Imported import_section(const Wish& wish) { return Import(wish).result(); }
-
-std::vector<std::string> lines_of(const json& report, std::size_t most) {
-    std::vector<std::string> lines;
-    const json& healed = report.at("healed");
-    std::map<std::string, std::size_t> counts;
-    double largest = 0.0;
-    for (const json& each : healed) {
-        ++counts[each.at("kind")];
-        largest = std::max(largest, each.at("size").get<double>());
-    }
-    if (!healed.empty()) {
-        std::string summary;
-        for (const auto& [kind, count] : counts)
-            summary += (summary.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
-        lines.push_back("healed: " + summary + "; the largest " + metres(largest));
-    }
-    for (std::size_t i = 0; i < std::min(most, healed.size()); ++i) {
-        const json& each = healed[i];
-        const Vec2 at(each.at("at")[0].get<double>(), each.at("at")[1].get<double>());
-        lines.push_back("  " + each.at("kind").get<std::string>() + " at " + text(at) + ", " +
-                        metres(each.at("size")) + ": " + joined_names(each.at("regions")));
-    }
-    if (healed.size() > most)
-        lines.push_back("  and " + std::to_string(healed.size() - most) + " more");
-    for (const json& each : report.at("areas")) {
-        const double drawn = each.at("drawn"), imported = each.at("imported");
-        lines.push_back("area of " + each.at("region").get<std::string>() + ": " +
-                        square_metres(drawn) + " as drawn, changed by " +
-                        square_metres(imported - drawn));
-    }
-    for (const json& each : report.at("guessed"))
-        lines.push_back("guessed: " + each.at("pointer").get<std::string>() + " " +
-                        each.at("value").dump() + ", from " + each.at("from").get<std::string>());
-    for (const json& each : report.at("remarks")) lines.push_back(each.get<std::string>());
-    return lines;
-}
 
 }  // namespace breach::importing

@@ -230,6 +230,16 @@ TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
         << test::told(cut.faults);
 }
 
+TEST(Import, AGapThatIsOpenToASideIsFoundAlsoUnderLevelGround) {
+    const Imported imported =
+        import_section(test::wish(dxf(light("ROCK", {{0, 0}, {30, 0}, {30, 4}, {0, 4}}) +
+                                      light("CLAY", {{0, 4.3}, {30, 4.7}, {30, 9}, {0, 9}}))));
+    ASSERT_EQ(imported.faults.size(), 1u) << test::told(imported.faults);
+    EXPECT_NE(imported.faults[0].cause.find("air below CLAY at (15, 4.25): it stands 0.5 m above"),
+              std::string::npos)
+        << imported.faults[0].cause;
+}
+
 TEST(Import, OptionsThatMakeNoSenseAreToldWithWhatWould) {
     Wish wish = test::wish(dxf(section()));
     wish.map = {"CLAY", "ROCK=granite", "SHELL=clay"};

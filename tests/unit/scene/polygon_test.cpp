@@ -42,4 +42,19 @@ TEST(Polygon, OverlapIsTheSharedArea) {
     EXPECT_NEAR(overlap_area(notched, notched), 10.0, 1e-12);
 }
 
+TEST(Polygon, OverlapIsRightWhereManyVerticesLieOnOneLine) {
+    // Two combs that fit: eight teeth, all tips at one level, all feet at another.
+    Polygon low{{0, -5}, {8, -5}}, high;
+    for (int i = 0; i < 8; ++i) {
+        high.push_back({double(i), 0});
+        high.push_back({i + 0.5, 8});
+    }
+    high.push_back({8, 0});
+    low.insert(low.end(), high.rbegin(), high.rend());
+    high.insert(high.end(), {{8, 12}, {0, 12}});
+    EXPECT_NEAR(overlap_area(low, high), 0.0, 1e-12);
+    EXPECT_NEAR(overlap_area(low, low), 8 * 5 + 8 * 4, 1e-9);
+    EXPECT_NEAR(overlap_area(high, high), 8 * 12 - 8 * 4, 1e-9);
+}
+
 }  // namespace

@@ -1,0 +1,58 @@
+// The report for people.
+#include <algorithm>
+#include <map>
+
+#include "services/import/drawing.hpp"
+#include "services/import/import.hpp"
+
+namespace breach::importing {
+
+using nlohmann::json;
+
+namespace {
+
+std::string joined_names(const json& names) {
+    std::string all;
+    for (const json& each : names) all += (all.empty() ? "" : ", ") + each.get<std::string>();
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string> lines_of(const json& report, std::size_t most) {
+    std::vector<std::string> lines;
+    const json& healed = report.at("healed");
+    std::map<std::string, std::size_t> counts;
+    double largest = 0.0;
+    for (const json& each : healed) {
+        ++counts[each.at("kind")];
+        largest = std::max(largest, each.at("size").get<double>());
+    }
+    if (!healed.empty()) {
+        std::string summary;
+        for (const auto& [kind, count] : counts)
+            summary += (summary.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+        lines.push_back("healed: " + summary + "; the largest " + metres(largest));
+    }
+    for (std::size_t i = 0; i < std::min(most, healed.size()); ++i) {
+        const json& each = healed[i];
+        const Vec2 at(each.at("at")[0].get<double>(), each.at("at")[1].get<double>());
+        lines.push_back("  " + each.at("kind").get<std::string>() + " at " + text(at) + ", " +
+                        metres(each.at("size")) + ": " + joined_names(each.at("regions")));
+    }
+    if (healed.size() > most)
+        lines.push_back("  and " + std::to_string(healed.size() - most) + " more");
+    for (const json& each : report.at("areas")) {
+        const double drawn = each.at("drawn"), imported = each.at("imported");
+        lines.push_back("area of " + each.at("region").get<std::string>() + ": " +
+                        square_metres(drawn) + " as drawn, changed by " +
+                        square_metres(imported - drawn));
+    }
+    for (const json& each : report.at("guessed"))
+        lines.push_back("guessed: " + each.at("pointer").get<std::string>() + " " +
+                        each.at("value").dump() + ", from " + each.at("from").get<std::string>());
+    for (const json& each : report.at("remarks")) lines.push_back(each.get<std::string>());
+    return lines;
+}
+
+}  // namespace breach::importing
