@@ -171,6 +171,7 @@ Json law_of(const Soil& soil, double c_kPa, double phi_deg, double nu) {
 Json frictional(const Soil& soil, const std::string& note) {
     return {{"notes", {note}},
             {"density", soil.density},
+            {"viscosity", 1000},
             {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
             {"law", law_of(soil, soil.c_kPa, soil.phi_deg, soil.nu)}};
 }
@@ -188,7 +189,7 @@ Json elastic_ground() {
 Json undrained(const Soil& soil, double c_kPa, const std::string& note) {
     return {{"notes", {note}},
             {"density", soil.density},
-            {"viscosity", 200},
+            {"viscosity", 1000},
             {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
             {"law", law_of(soil, c_kPa, 0.0, 0.49)}};
 }
@@ -347,7 +348,9 @@ Json fem_of(const Context& all) {
     Json fem{
         {"notes",
          {"assumed: rock below the model with V_s = 760 m/s; motion.csv is synthetic, no record",
-          "elements are for a first look: halve element_size before relying on the failure"}}};
+          "elements are for a first look: halve element_size before relying on the failure",
+          "gravity acts on elastic soil: PM4Sand, which has no cohesion, starts with the "
+          "shaking"}}};
     fem["element"] = "ssp";
     fem["supports"] = {{{"name", "base"},
                         {"from", {nanometres(outline.left), nanometres(bottom)}},
@@ -360,7 +363,6 @@ Json fem_of(const Context& all) {
     fem["newmark_beta"] = 4.0 / 9;
     fem["newmark_gamma"] = 5.0 / 6;
     fem["stages"] = {{{"type", "static"}, {"name", "elastic gravity"}, {"laws", "elastic"}},
-                     {{"type", "static"}, {"name", "plastic gravity"}, {"laws", "scene"}},
                      {{"type", "dynamic"},
                       {"name", "shaking"},
                       {"duration", values["shaking"]},
@@ -413,7 +415,8 @@ Json transfer_of(const Context& all) {
 Json runout_of(const Context& all) {
     const Values& values = all.values;
     const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
-    const double left = nanometres(all.outline.left);
+    // The FEM's sides sway: room for them.
+    const double left = nanometres(all.outline.left) - (all.with_fem ? 0.25 * h : 0.0);
     const double columns = std::ceil((values["runout_extent"] - left) / h);
     const double below = depth > 0.0 ? std::ceil((depth + h) / h) : 0.0;
     const double above = std::ceil(1.15 * H / h);
