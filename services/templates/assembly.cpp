@@ -18,6 +18,8 @@ namespace {
 constexpr double g = 9.81;              // m/s2
 constexpr double atmosphere = 101.325;  // kPa, to which strengths by stress refer
 constexpr double water_density = 1000;  // kg/m3
+/// Of soil that is to stand: a few per cent of critical damping, or it would swing for minutes.
+constexpr double damping = 3e4;  // Pa s
 
 /// What is assumed of a soil.
 struct Soil {
@@ -429,9 +431,9 @@ Json runout_of(const Context& all) {
     mpm["cell_size"] = h;
     mpm["domain_x"] = {left, right};
     mpm["domain_y"] = {floor, above * h};
-    const double end = nanometres(values["foundation_extent"]);
+    const double end = depth > 0.0 ? nanometres(values["foundation_extent"]) : 0.0;
     mpm["floor"] = {{"level", floor},
-                    {"friction", {{{"from", left}, {"to", right}, {"coefficient", 0.5}}}}};
+                    {"friction", {{{"from", end}, {"to", right}, {"coefficient", 0.5}}}}};
     if (depth > 0.0)
         mpm["terrain"] = {{left - h, nanometres(-depth)},
                           {end + 0.2 * h, nanometres(-depth)},
@@ -489,7 +491,12 @@ Json study_of(const Values& values, const Json& scene) {
                {"title", scene.at("title")},
                {"scene", "scene.json"}};
     if (values.is_on("with_fem")) {
-        study["transfer_times"] = {values["shaking"]};
+        study["triggers"] = {{{"kind", "window"},
+                              {"name", "last_sound_mesh"},
+                              {"lower", "time > " + words::text_of(values["shaking"] / 8)},
+                              {"upper", "jacobian_least_avg < 0.97 or epsilon_q_avg > 0.2"},
+                              {"pick", "last_before"},
+                              {"snapshot_interval_s", rounded(values["shaking"] / 32)}}};
         return study;
     }
     Json overrides = Json::array(), undrained_regions = Json::array();
@@ -506,6 +513,11 @@ Json study_of(const Values& values, const Json& scene) {
         undrained_regions.push_back({{"region", each.at("name")}, {"strength_kPa", peak}});
     }
     if (overrides.empty()) return study;
+    for (const auto& [name, material] : scene.at("materials").items())
+        overrides.push_back("/materials/" + name + "/viscosity=" + words::text_of(damping));
+    // What stands releases hardly any energy to measure its swinging by.
+    overrides.push_back("/mpm/rest_kinetic_share=0.05");
+    overrides.push_back("/mpm/rest_speed=0.2");
     overrides.push_back("/lem/undrained=" + undrained_regions.dump());
     study["variants"] = {{{"name", "liquefied"}},
                          {{"name", "undrained_peak"}, {"overrides", overrides}}};
