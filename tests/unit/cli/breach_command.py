@@ -142,9 +142,40 @@ class Breach(unittest.TestCase):
         both = call(service, "submit", self.study(), "--scene", self.here / "scene.json")
         self.assertEqual((both.returncode, len(service.posted)), (2, 1))
 
+    def test_a_new_scene_comes_from_a_template_and_is_never_written_over(self):
+        nobody = "http://127.0.0.1:1"
+        new = lambda *words: call(nobody, "new", *words)
+        for name in ("upstream_dam", "downstream_dam", "slope", "heap"):
+            self.assertIn(name, new("--list").stdout)
+        self.assertRegex(new("upstream_dam", "--help").stdout, r"--starter-height m +of the starter dam \(1 to 200 m; default height / 3 = 10 m\)")
+        folder = self.here / "My Dam"
+        made = new("slope", "--height", 12, "--output", folder)
+        self.assertEqual((made.returncode, made.stdout.split("\n")[:2]), (0, [str(folder / "scene.json"), str(folder / "study.json")]), made.stderr)
+        self.assertIn(f"breach submit {folder}/study.json", made.stderr)
+        self.assertEqual(json.loads((folder / "scene.json").read_text())["name"], "slope", "the folder's name names no run")
+        before = (folder / "scene.json").read_bytes()
+        again = new("slope", "--height", 15, "--output", folder)
+        self.assertEqual(again.returncode, 65)
+        self.assertIn("--force", again.stderr)
+        self.assertEqual((folder / "scene.json").read_bytes(), before)
+        shaken = new("slope", "--height", 15, "--with-fem", "--output", folder, "--force", "--name", "shaken", "--json")
+        self.assertEqual(json.loads(shaken.stdout)["options"]["with_fem"], True, shaken.stderr)
+        self.assertTrue((folder / "motion.csv").read_text().startswith("# Synthetic"))
+        self.assertEqual(json.loads((folder / "study.json").read_text())["name"], "shaken")
+
+    def test_a_new_scene_is_refused_by_its_options(self):
+        for words, told in ((["--height", "high"], '--height: is "high"'), (["--height", "-5"], "from 3 to 200 m"),
+                            (["--raises", "2.5"], "--raises: is 2.5"), (["--starter-height", "40"], "at most 0.95 height")):
+            refused = call("http://127.0.0.1:1", "new", "upstream_dam", "--output", self.here / "none", *words)
+            self.assertEqual(refused.returncode, 65, refused.stderr)
+            self.assertIn(told, refused.stderr)
+            self.assertFalse((self.here / "none").exists())
+        unknown = call("http://127.0.0.1:1", "new", "upstream_dam", "--hight", "20")
+        self.assertEqual(unknown.returncode, 2)
+
     def test_every_word_has_an_example_and_a_wrong_one_is_named(self):
         words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "rename", "priority",
-                 "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "pin", "unpin", "completion")
+                 "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "pin", "unpin", "new", "draw", "completion")
         for word in words:
             self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)
         wrong = call("http://127.0.0.1:1", "restart", run_id)
