@@ -87,6 +87,13 @@ export const artifact_path = (sha256) => path_of("artifacts", sha256);
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
 }
+/// of: "scene" or "study"
+export const read_schema = (of) => get_json(path_of("schema", of), { cache: "default" });
+/// Sends a file; {reference, kind, about, name, ...}.
+export const send_file = (file) => get_json(`/v1/files?${new URLSearchParams({ name: file.name })}`,
+    { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file });
+/// What was sent to the server before, newest first.
+export const list_files = async () => (await get_json("/v1/files")).files;
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
 /// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the

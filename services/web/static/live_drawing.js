@@ -6,9 +6,9 @@ import { by_id, set_text } from "./dom.js";
 const pause = 300; // ms without a key before the server is asked
 
 export class LiveDrawing {
-    /// fault_item(fault): a list item that leads to the fault's place; point_to(pointer): goes there.
-    constructor(fault_item, point_to) {
-        this.fault_item = fault_item;
+    /// fault_item(fault): a list item that leads to the fault's place; point_to(pointer): goes there; found(faults): of what is drawn.
+    constructor(fault_item, point_to, found) {
+        Object.assign(this, { fault_item, found });
         by_id("drawing-picture").addEventListener("click", (event) => {
             const mark = event.target.closest("[data-pointer]");
             if (mark) point_to(mark.dataset.pointer);
@@ -67,6 +67,7 @@ export class LiveDrawing {
 
     tell(note, faults) {
         set_text(by_id("drawing-note"), note);
+        this.found(faults);
         by_id("drawing-faults").replaceChildren(...faults.map((one) => this.fault_item(one)));
         by_id("drawing").hidden = false;
     }

@@ -1,8 +1,10 @@
-// The dialog that submits a study: pasted, chosen as a file, or one of the shipped examples. Every fault that the
-// server finds is listed with the place it concerns.
+// The dialog that submits a study: filled in the form or as JSON beside it, chosen as a file, or one of the shipped
+// examples. Every fault that the server finds is shown at its field and its line, and listed.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
-import { find_pointer } from "./json_pointer.js";
+import { Form } from "./form.js";
+import { JsonPane } from "./json_pane.js";
+import { print } from "./json_text.js";
 import { LiveDrawing } from "./live_drawing.js";
 
 export class SubmitDialog {
@@ -10,7 +12,10 @@ export class SubmitDialog {
     constructor(submitted) {
         this.submitted = submitted;
         this.dialog = by_id("submit-dialog");
-        this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer));
+        this.pane = new JsonPane((text) => this.changed(text));
+        this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer));
+        this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer),
+                                       (faults) => this.mark("drawing", faults));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {
             button.addEventListener("click", () => this.open());
         }
@@ -18,8 +23,7 @@ export class SubmitDialog {
         by_id("submit").addEventListener("click", () => this.submit());
         by_id("show-plan").addEventListener("click", () => this.show_plan());
         by_id("submit-close").addEventListener("click", () => this.dialog.close());
-        by_id("study").addEventListener("input", (event) => this.drawing.changed(event.target.value));
-        by_id("study").addEventListener("keydown", (event) => {
+        this.dialog.addEventListener("keydown", (event) => {
             if (event.key === "Enter" && event.ctrlKey) this.submit();
         });
     }
@@ -27,8 +31,10 @@ export class SubmitDialog {
     async open() {
         this.dialog.showModal();
         this.clear();
-        if (this.has_examples) return;
         try {
+            await this.form.start();
+            this.form.show(this.pane.text);
+            if (this.has_examples) return;
             const examples = await api.list_examples();
             by_id("examples").replaceChildren(...examples.map((example) => element("button", { type: "button",
                 title: example.title || null, onclick: () => this.take_example(example) }, `Load ${example.name}`)));
@@ -40,9 +46,20 @@ export class SubmitDialog {
     }
 
     take_text(text) {
-        by_id("study").value = text;
         this.clear();
+        this.pane.take(text);
+    }
+
+    /// By whom and whatever.
+    changed(text) {
+        this.form.show(text);
         this.drawing.changed(text);
+        by_id("study").removeAttribute("aria-invalid");
+    }
+
+    mark(source, faults) {
+        this.form.take_faults(source, faults);
+        this.pane.mark(this.form.faults);
     }
 
     async take_file(input) {
@@ -54,7 +71,7 @@ export class SubmitDialog {
     async take_example(example) {
         try {
             const study = example.study ?? await api.read_example(example.name);
-            this.take_text(JSON.stringify(study, null, 4));
+            this.take_text(print(study));
         } catch (fault) {
             this.refuse(fault);
         }
@@ -113,6 +130,7 @@ export class SubmitDialog {
         by_id("plan").hidden = true;
         by_id("fault-list").replaceChildren();
         by_id("study").removeAttribute("aria-invalid");
+        this.mark("submission", []);
     }
 
     refuse(fault) {
@@ -122,22 +140,20 @@ export class SubmitDialog {
         by_id("fault-list").replaceChildren(...faults.map((one) => this.fault_item(one)));
         by_id("faults").hidden = false;
         by_id("study").setAttribute("aria-invalid", "true");
-        by_id("fault-title").focus();
+        this.mark("submission", faults);
+        if (faults.length) this.pane.scroll_to(faults[0].pointer);
+        if (!faults.length || !this.form.reveal(faults[0].pointer, { focus: true })) by_id("fault-title").focus();
     }
 
     fault_item(one) {
-        return element("li", {}, this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause}`,
+        return element("li", {}, this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause} `,
+                       element("span", { class: "muted" }, `line ${this.pane.line_of(one.pointer)}`),
                        one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
-    /// Selects the text that the pointer names.
+    /// Selects the text that the pointer names, and opens its field.
     point_to(pointer) {
-        const box = by_id("study");
-        const place = find_pointer(box.value, pointer);
-        box.focus();
-        if (!place) return;
-        box.setSelectionRange(place.start, place.end);
-        const line = box.value.slice(0, place.start).split("\n").length;
-        box.scrollTop = (line - 4) * parseFloat(getComputedStyle(box).lineHeight);
+        this.form.reveal(pointer);
+        this.pane.select(pointer);
     }
 }
