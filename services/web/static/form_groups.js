@@ -37,7 +37,11 @@ export class Members {
     }
 
     update(value) {
-        for (const [name, part] of this.inside) part.update(value?.[name]);
+        for (const [name, part] of this.inside) {
+            part.update(value?.[name]);
+            // What another text sets is not left below "more".
+            if (value?.[name] !== undefined && !this.form.is_own && this.more.contains(part.element)) this.more.before(part.element);
+        }
         const names = Object.keys(value ?? {}).filter((name) => !(name in this.entry.properties));
         mirror(this.unknown, names, (name) => name, (name) => element("p", {}, element("code", {}, name), " is not known to this form; it stays in the JSON. ",
             element("button", { type: "button", onclick: () => this.form.remove([...this.parts, name]) }, `Remove ${name}`)), () => {});
@@ -167,7 +171,7 @@ export class Choice {
             this.inner = new Members(this.form, branch, this.parts);
             this.inner.make(value);
         } else {
-            this.inner = this.form.make(branch, this.parts, { name: this.name, required: true });
+            this.inner = this.form.make({ ...branch, description: "" }, this.parts, { name: branch_name(branch) });
             this.inner.update(value);
         }
         this.body.replaceChildren(this.inner.element);

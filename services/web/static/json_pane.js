@@ -5,7 +5,7 @@ import { find_pointer } from "./json_text.js";
 const most_steps = 200;
 
 export class JsonPane {
-    /// changed(text): after every change, whoever made it.
+    /// changed(text): after every change, whoever made it; it calls mark().
     constructor(changed) {
         Object.assign(this, { box: by_id("study"), gutter: by_id("study-lines"), undo: by_id("form-undo"), changed, past: [], kind: null, faults: [] });
         this.box.addEventListener("input", () => this.tell());
@@ -16,7 +16,6 @@ export class JsonPane {
 
     tell() {
         this.kind = null;
-        this.draw_lines();
         this.changed(this.text);
     }
 

@@ -53,6 +53,7 @@ export class SubmitDialog {
     /// By whom and whatever.
     changed(text) {
         this.form.show(text);
+        this.pane.mark(this.form.faults);
         this.drawing.changed(text);
         by_id("study").removeAttribute("aria-invalid");
     }
