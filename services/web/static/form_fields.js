@@ -96,11 +96,13 @@ export class Scalar {
         const found = read(this.entry, this.control.value);
         say_doubt(this, found ? doubt_about(this.entry, found.value) : is_done ? "this is not a number" : "");
         if (!found) return;
+        if (found.value === this.value) return; // also what a field says that is just being taken away
         if ("value" in found) this.form.set(this.parts, found.value);
         else if (is_done) this.form.remove(this.parts);
     }
 
     update(value) {
+        this.value = value;
         if (this.is_choice()) return this.show_choice(value);
         say_doubt(this, doubt_about(this.entry, value));
         const known = read(this.entry, this.control.value);

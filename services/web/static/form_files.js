@@ -42,6 +42,7 @@ export class FileField {
         if (!file) return;
         this.chooser.value = "";
         this.refuse(null);
+        const before = this.state.textContent;
         set_text(this.state, `Sending ${file.name}…`);
         try {
             const answer = await api.send_file(file);
@@ -49,7 +50,7 @@ export class FileField {
             this.form.set(this.parts, answer.reference);
             this.tell(answer);
         } catch (fault) {
-            set_text(this.state, "");
+            set_text(this.state, before);
             this.refuse(fault, file.name);
         }
     }

@@ -21,9 +21,9 @@ export class Points {
         this.control = this.element.firstElementChild;
         this.slot = element("div", { class: "field-faults" });
         this.rows = element("tbody");
-        this.fold.body.append(this.slot, element("table", { class: "points-table", onpaste: (event) => this.paste(event) }, element("thead", {}, element("tr", {},
+        this.fold.body.append(this.slot, element("div", { class: "scroll" }, element("table", { class: "points-table", onpaste: (event) => this.paste(event) }, element("thead", {}, element("tr", {},
             element("th", { scope: "col" }, "point"), element("th", { scope: "col" }, "x [m]"), element("th", { scope: "col" }, "y [m]"),
-            element("th", { scope: "col" }, element("span", { class: "unseen" }, "change")))), this.rows),
+            element("th", { scope: "col" }, element("span", { class: "unseen" }, "change")))), this.rows)),
             element("button", { type: "button", onclick: () => this.add(this.value?.length ?? 0) }, "Add point"));
         this.fold.fill = () => this.draw();
     }

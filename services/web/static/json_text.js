@@ -138,6 +138,7 @@ export function set_value(text, parts, value) {
     if (missing.length === 0) return splice(text, node.start, node.end, print(value, line_indent(text, node.start), unit_of(text)));
     const inner = missing.slice(1).reduceRight((made, part) => ({ [part]: made }), value);
     if (!node.members && !node.items) return splice(text, node.start, node.end, print({ [missing[0]]: inner }, line_indent(text, node.start), unit_of(text)));
+    if (node.items && !/^\d+$/.test(missing[0])) return text; // a list has no such entry
     return append(text, node, node.items ? null : missing[0], inner);
 }
 
