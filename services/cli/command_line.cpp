@@ -14,6 +14,7 @@
 #include "services/cli/draw.hpp"
 #include "services/cli/export_run.hpp"
 #include "services/cli/logs.hpp"
+#include "services/cli/new_scene.hpp"
 #include "services/cli/stored.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/watch.hpp"
@@ -51,6 +52,7 @@ struct Arguments {
     std::filesystem::path folder;
     std::filesystem::path scene;
     DrawWish draw;
+    NewWish make;
 };
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
@@ -92,6 +94,7 @@ class CommandLine {
         add_accuracy_command();
         add_task_commands();
         add_file_commands();
+        add_templates();
         add_drawing();
         add_storage_commands();
         add_completion();
@@ -355,6 +358,13 @@ class CommandLine {
             add("plan", "what a scene needs of each phase, what it leaves out, and why",
                 "scene.json", [this](Server& s, const Console& c) { return plan(s, a_.scene, c); });
         plan_->add_option("SCENE", a_.scene, "scene file (JSON)")->required();
+    }
+
+    void add_templates() {
+        take_templates(*add("new", "a scene and its study from a template: --list has them",
+                            "upstream_dam --height 30 --output my_dam",
+                            [this](Server&, const Console& c) { return make_new(a_.make, c); }),
+                       a_.make);
     }
 
     void add_drawing() {

@@ -18,6 +18,14 @@ std::string all_options_of(const CLI::App& word) {
     return words;
 }
 
+/// Words below a word; option groups have none.
+std::string words_below(const CLI::App& word) {
+    std::string words;
+    for (const CLI::App* each : word.get_subcommands(nullptr))
+        if (!each->get_name().empty()) words += (words.empty() ? "" : " ") + each->get_name();
+    return words;
+}
+
 bool takes_a_run(const CLI::App& word) {
     for (const CLI::Option* each : word.get_options())
         if (each->get_positional() && each->get_name().starts_with("RUN")) return true;
@@ -30,10 +38,14 @@ std::string bash_completion(const CLI::App& program) {
     std::string words;
     std::string cases;
     std::string runs;
+    std::string below;
     for (const CLI::App* each : program.get_subcommands(nullptr)) {
         words += (words.empty() ? "" : " ") + each->get_name();
         cases += "        " + each->get_name() + ") options=\"" + all_options_of(*each) + "\" ;;\n";
         if (takes_a_run(*each)) runs += (runs.empty() ? "" : "|") + each->get_name();
+        if (const std::string known = words_below(*each); !known.empty())
+            below += "        " + each->get_name() + ") COMPREPLY=($(compgen -W \"" + known +
+                     "\" -- \"$current\")) ;;\n";
     }
     return R"bash(# Completes the words of breach in bash; made by: breach completion bash
 _breach() {
@@ -56,7 +68,8 @@ _breach() {
            runs + R"bash()
             COMPREPLY=($(compgen -W "latest $(breach --json list 2>/dev/null |
                 sed -n 's/^    "id": "\(.*\)",$/\1/p')" -- "$current")) ;;
-        completion) COMPREPLY=($(compgen -W "bash" -- "$current")) ;;
+)bash" + below +
+           R"bash(        completion) COMPREPLY=($(compgen -W "bash" -- "$current")) ;;
         *) COMPREPLY=($(compgen -f -- "$current")) ;;
     esac
 }

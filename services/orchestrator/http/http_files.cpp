@@ -9,6 +9,7 @@
 
 #include "core/check/mesh_file.hpp"
 #include "core/exchange/provenance.hpp"
+#include "core/exchange/publish.hpp"
 #include "core/motion/plausibility.hpp"
 #include "core/motion/read_motion.hpp"
 #include "core/scene/file_paths.hpp"
@@ -130,6 +131,17 @@ bool is_whole(const Service& service, const StoredFile& file) {
     return !error && static_cast<std::int64_t>(size) == file.bytes;
 }
 
+void keep(Service& service, const Arriving& arriving, const StoredFile& file) {
+    reach(Failpoint::upload_before);
+    service.store.write([&](Transaction& transaction) {
+        transaction.keep_file(file, [&] {
+            fs::rename(arriving.path(), service.data.files() / file.file);
+            sync_folder(service.data.files());
+            reach(Failpoint::upload_after);
+        });
+    });
+}
+
 /// 201 when it is on the disk; 200 when it was there.
 void upload(Service& service, Call& call) {
     call.allow_parameters({"name", "sha256"});
@@ -149,14 +161,7 @@ void upload(Service& service, Call& call) {
     file.file = known ? known->file : file.sha256 + ending_of(file.name);
     const bool is_here = known && is_whole(service, *known);
     if (!is_here) recognise(arriving.path(), file);
-    reach(Failpoint::upload_before);
-    service.store.write([&](Transaction& transaction) {
-        transaction.keep_file(file, [&] {
-            fs::rename(arriving.path(), service.data.files() / file.file);
-            sync_folder(service.data.files());
-            reach(Failpoint::upload_after);
-        });
-    });
+    keep(service, arriving, file);
     call.response.set_header("Location", "/v1/files/" + file.sha256);
     reply(call.response, as_json(service.store.file(file.sha256).value()), is_here ? 200 : 201);
 }
@@ -205,6 +210,21 @@ void remove_file(Service& service, Call& call) {
 }
 
 }  // namespace
+
+std::string keep_motion(Service& service, const std::string& name, const std::string& text) {
+    Arriving arriving(service.data.scratch() / (new_run_id() + ending_of(name)));
+    exchange::publish_text(arriving.path(), text);
+    StoredFile file{.sha256 = exchange::sha256_of_file(arriving.path()),
+                    .file = {},
+                    .name = name,
+                    .kind = {},
+                    .about = {}};
+    file.bytes = static_cast<std::int64_t>(text.size());
+    file.file = file.sha256 + ending_of(name);
+    recognise(arriving.path(), file);
+    keep(service, arriving, file);
+    return scene::reference_to(file.file);
+}
 
 json files_json(const Service& service, const std::string& run) {
     json files = json::array();

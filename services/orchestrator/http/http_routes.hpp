@@ -22,6 +22,8 @@ void add_storage_routes(Router& router, Service& service);
 void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping);
 /// Studies that are shipped, whole, to begin with.
 void add_example_routes(Router& router, Service& service);
+/// Scenes from templates.
+void add_template_routes(Router& router, Service& service);
 /// /metrics as Prometheus text. `router` counts the requests.
 void add_metric_routes(Router& router, Service& service);
 /// Schemas, plans, health, the dashboard.
@@ -29,6 +31,8 @@ void add_page_routes(Router& router, Service& service);
 
 /// Files that were sent: motions and meshes that scenes name by their content.
 void add_file_routes(Router& router, Service& service);
+/// Keeps a motion that was made here like one that was sent; how a scene names it.
+std::string keep_motion(Service& service, const std::string& name, const std::string& text);
 /// Those that the run's scenes name.
 nlohmann::json files_json(const Service& service, const std::string& run);
 

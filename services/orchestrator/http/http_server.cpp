@@ -143,6 +143,7 @@ class HttpServer::Implementation {
         add_file_routes(router_, service);
         add_event_routes(router_, service, stopping_);
         add_example_routes(router_, service);
+        add_template_routes(router_, service);
         add_metric_routes(router_, service);
         add_page_routes(router_, service);
         add_drawing_routes(router_, service);

@@ -119,6 +119,14 @@ class Described(unittest.TestCase):
         get("/static/{file...}", "/static/none.js", 404)
         example = json.loads(get("/v1/examples", "/v1/examples"))["examples"][0]["name"]
         get("/v1/examples/{name}", f"/v1/examples/{example}")
+        of_template = "/v1/templates/{name}"
+        named = [each["name"] for each in json.loads(get("/v1/templates", "/v1/templates"))["templates"]]
+        made = json.loads(post(of_template, f"/v1/templates/{named[0]}", 200, {"height": 20, "with_fem": True}))
+        self.assertIn("file:sha256/", made["study"]["scene"]["fem"]["motion"]["file"])
+        post("/v1/cost", "/v1/cost", 200, made["study"])
+        refused = json.loads(post(of_template, f"/v1/templates/{named[0]}", 422, {"height": 20, "raises": 99}))
+        self.assertEqual(refused["faults"][0]["pointer"], "/raises")
+        post(of_template, "/v1/templates/none", 404, {})
         post("/v1/scenes/plan", "/v1/scenes/plan", 200, study([0.5])["scene"])
         for body in (study([0.5]), study([0.5])["scene"]):
             self.assertTrue(post("/v1/draw", "/v1/draw", 200, body).startswith(b"<svg "))

@@ -1,0 +1,172 @@
+#include "services/cli/new_scene.hpp"
+
+#include <algorithm>
+
+#include "core/exchange/publish.hpp"
+#include "core/words/number.hpp"
+#include "services/cli/table.hpp"
+#include "services/templates/templates.hpp"
+
+namespace breach::cli {
+
+using fault::ExitCode;
+using nlohmann::json;
+using templates::Kind;
+using templates::Option;
+
+namespace {
+
+/// "starter_height" is --starter-height.
+std::string flag_of(std::string name) {
+    std::ranges::replace(name, '_', '-');
+    return "--" + name;
+}
+
+std::string with_unit(double value, const Option& option) {
+    return words::text_of(value, 5) + (option.unit == "1" ? "" : " " + option.unit);
+}
+
+std::string help_of(const Option& option) {
+    const std::string rule = templates::rule_of(option);
+    return option.help + " (" + words::text_of(option.least) + " to " +
+           with_unit(option.most, option) + "; default " + (rule.empty() ? "" : rule + " = ") +
+           with_unit(option.value, option) + ")";
+}
+
+/// As it was written: a number where it is one; what else it is, the template says why not.
+json value_of(const std::string& text) {
+    const json value = json::parse(text, nullptr, false);
+    return value.is_number() ? value : json(text);
+}
+
+void take_option(CLI::App& word, const Option& option, NewWish& wish) {
+    const std::string flag = flag_of(option.name);
+    if (option.kind == Kind::yes_or_no) {
+        const auto add = [&](const std::string& name, bool value) {
+            CLI::Option* made = word.add_flag_callback(
+                name, [&wish, entry = option.name, value] { wish.options[entry] = value; },
+                option.help + " (default " + (option.value > 0.5 ? "yes" : "no") + ")");
+            if (value == (option.value > 0.5))
+                made->group("");  // it changes nothing: not in the help
+        };
+        add(flag, true);
+        add("--no-" + flag.substr(2), false);
+        return;
+    }
+    word.add_option_function<std::string>(
+            flag,
+            [&wish, name = option.name](const std::string& text) {
+                wish.options[name] = value_of(text);
+            },
+            help_of(option))
+        ->type_name(option.unit == "1" ? "N" : option.unit);
+}
+
+/// Folder names that may name a run do.
+std::string name_for(const std::filesystem::path& folder) {
+    std::string name =
+        std::filesystem::absolute(folder / ".").lexically_normal().parent_path().filename();
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    const bool fits = !name.empty() && name.size() <= 64 &&
+                      std::isalnum(static_cast<unsigned char>(name[0])) &&
+                      std::ranges::all_of(name, [](unsigned char c) {
+                          return (std::isalnum(c) && c < 0x80) || c == '_' || c == '-';
+                      });
+    return fits ? name : "";
+}
+
+void list_templates(const Console& console) {
+    if (console.style == Style::json) {
+        console.out << templates::as_json(templates::catalogue()).dump(2) << "\n";
+        return;
+    }
+    for (const templates::Template& each : templates::catalogue())
+        console.out << each.name << std::string(18 - each.name.size(), ' ') << each.title << "\n";
+    console.notes << "`breach new NAME --help` says what can be asked of each\n";
+}
+
+/// Where options are written as flags, faults name them so.
+templates::Made made_of(const NewWish& wish, const json& options) {
+    try {
+        return templates::make(wish.made_from, options);
+    } catch (const fault::BadInput& refusal) {
+        std::vector<fault::Fault> faults = refusal.faults();
+        for (fault::Fault& each : faults)
+            if (each.pointer.size() > 1) each.pointer = flag_of(each.pointer.substr(1));
+        throw fault::BadInput("breach new " + wish.made_from, std::move(faults));
+    }
+}
+
+void refuse_to_overwrite(const std::map<std::filesystem::path, std::string>& files) {
+    std::vector<fault::Fault> faults;
+    for (const auto& [path, text] : files)
+        if (std::filesystem::exists(path))
+            faults.push_back(
+                {path, "is there already", "give --force to write over it, or another --output"});
+    if (!faults.empty()) throw fault::BadInput("breach new", std::move(faults));
+}
+
+}  // namespace
+
+void take_templates(CLI::App& word, NewWish& wish) {
+    word.add_flag("--list", wish.list, "the templates");
+    word.require_subcommand(0, 1);
+    for (const templates::Template& each : templates::catalogue()) {
+        CLI::App* sub = word.add_subcommand(each.name, each.title);
+        for (const Option& option : each.options) take_option(*sub, option, wish);
+        sub->add_option_function<std::string>(
+            "--name", [&wish](const std::string& name) { wish.options["name"] = name; },
+            "of scene and study; without it that of the folder");
+        sub->add_option(
+            "--output", wish.folder,
+            "folder for scene.json and study.json; without it one that is named like the template");
+        sub->add_flag("--force", wish.force, "write over the files that are there");
+        sub->callback([&wish, name = each.name] { wish.made_from = name; });
+        sub->footer("Example:\n  breach new " + each.name + " --height 20 --output my_" +
+                    each.name);
+    }
+}
+
+ExitCode make_new(const NewWish& wish, const Console& console) {
+    if (wish.made_from.empty()) {
+        list_templates(console);
+        return ExitCode::done;
+    }
+    const std::filesystem::path folder =
+        wish.folder.empty() ? std::filesystem::path(wish.made_from) : wish.folder;
+    json options = wish.options;
+    if (const std::string name = name_for(folder); !options.contains("name") && !name.empty())
+        options["name"] = name;
+    const templates::Made made = made_of(wish, options);
+    std::map<std::filesystem::path, std::string> files{
+        {folder / "scene.json", templates::as_text(made.scene)},
+        {folder / "study.json", templates::as_text(made.study)}};
+    if (!made.motion.empty()) files[folder / "motion.csv"] = made.motion;
+    if (!wish.force) refuse_to_overwrite(files);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
+    json written = json::array();
+    for (const auto& [path, text] : files) {
+        exchange::publish_text(path, text);
+        written.push_back(path.string());
+    }
+    if (console.style == Style::json) {
+        console.out << json{{"template", wish.made_from},
+                            {"options", made.options},
+                            {"files", written}}
+                           .dump(2)
+                    << "\n";
+        return ExitCode::done;
+    }
+    for (const json& each : written) console.out << each.get<std::string>() << "\n";
+    const std::string study = (folder / "study.json").string();
+    console.notes << "What is assumed says so in the notes of scene.json. Next:\n"
+                  << "  breach draw " << study << " --output " << (folder / "section.svg").string()
+                  << "    # look at it, and at what it will cost\n"
+                  << "  breach submit " << study << " --watch\n"
+                  << "  breach results latest\n";
+    return ExitCode::done;
+}
+
+}  // namespace breach::cli

@@ -1,0 +1,488 @@
+#include "services/templates/assembly.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/geometry/polyline.hpp"
+#include "core/words/number.hpp"
+#include "services/templates/layers.hpp"
+
+namespace breach::templates {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr double g = 9.81;              // m/s2
+constexpr double atmosphere = 101.325;  // kPa, to which strengths by stress refer
+constexpr double water_density = 1000;  // kg/m3
+
+/// What is assumed of a soil.
+struct Soil {
+    std::string name;
+    double density, void_ratio, permeability;
+    double D_R, G_0, h_po;  ///< PM4Sand
+    double c_kPa, phi_deg;
+    double c_residual_kPa, phi_residual_deg;  ///< where it breaks
+    double E_MPa, nu;                         ///< in the runout
+};
+
+const Soil tailings{"tailings", 1850, 0.95, 1e-7, 0.35, 476, 2.7, 1, 31, 1, 31, 20, 0.3};
+const Soil loose_soil{"soil", 1850, 0.85, 1e-6, 0.35, 476, 2.7, 2, 34, 2, 34, 20, 0.3};
+const Soil embankment{"embankment", 1900, 0.7, 1e-6, 0.55, 677, 0.4, 10, 35, 1, 28, 40, 0.3};
+const Soil foundation{"foundation", 2000, 0.6, 1e-6, 0.75, 890, 0.63, 20, 36, 20, 36, 200, 0.3};
+
+double millimetres(double value) { return std::round(value * 1e3) / 1e3; }
+double digits(double value, double unit) { return std::round(value / unit) * unit; }
+/// Three significant digits.
+double rounded(double value) {
+    if (value == 0.0) return 0.0;
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
+    return std::stod(words::text_of(std::round(value / unit) * unit));
+}
+
+Json point(const Vec2& place) { return {millimetres(place.x()), millimetres(place.y())}; }
+Json points(const Line& line) {
+    Json all = Json::array();
+    for (const Vec2& each : line) all.push_back(point(each));
+    return all;
+}
+
+// ---------------------------------------------------------------- the section
+
+/// One region of the scene.
+struct Region {
+    Part part;
+    int layer;                  ///< below the phreatic line, from 1; 0: none
+    double sigma_v0_kPa = 0.0;  ///< mean vertical effective stress of the layer
+};
+
+/// Vertical effective stress below ground and phreatic line [kPa].
+double sigma_v0_at(const Vec2& place, const Outline& outline, double density) {
+    const double ground = geometry::level_at(outline.ground, place.x());
+    const double water = std::min(geometry::level_at(outline.phreatic, place.x()), ground);
+    const double pressure = std::max(0.0, water - place.y()) * water_density;
+    return (density * (ground - place.y()) - pressure) * g / 1e3;
+}
+
+double mean_sigma_v0(const Polygon& polygon, const Outline& outline, double density) {
+    constexpr int lines = 40;
+    const scene::Box box = scene::bounding_box(polygon);
+    double sum = 0.0;
+    int places = 0;
+    for (int i = 0; i < lines; ++i)
+        for (int j = 0; j < lines; ++j) {
+            const Vec2 share{(i + 0.5) / lines, (j + 0.5) / lines};
+            const Vec2 place = box.low + (box.high - box.low).cwiseProduct(share);
+            if (!scene::contains(polygon, place)) continue;
+            sum += sigma_v0_at(place, outline, density);
+            ++places;
+        }
+    return places > 0 ? sum / places : sigma_v0_at(polygon[0], outline, density);
+}
+
+/// Pieces of a layer get their common mean.
+void average_over_layers(std::vector<Region>& regions) {
+    std::map<int, std::array<double, 2>> sums;  // of stress times area, of area
+    for (const Region& each : regions) {
+        const double area = scene::area(each.part.polygon);
+        sums[each.layer][0] += each.sigma_v0_kPa * area;
+        sums[each.layer][1] += area;
+    }
+    for (Region& each : regions) each.sigma_v0_kPa = sums[each.layer][0] / sums[each.layer][1];
+}
+
+/// "tailings_2", "tailings_2_2" for its second piece, "tailings" above the line.
+std::string name_of(const std::string& whole, int layer, int piece) {
+    const std::string number = layer > 0 ? "_" + std::to_string(layer) : "";
+    return whole + (piece > 0 && layer == 0 ? "_0" : number) +
+           (piece > 0 ? "_" + std::to_string(piece + 1) : "");
+}
+
+std::vector<Region> regions_of(const Values& values, const Outline& outline, const Soil& wet) {
+    std::vector<Part> parts;
+    std::vector<int> layers;
+    if (values["foundation_depth"] > 0.0) {
+        const double right = values["foundation_extent"], depth = values["foundation_depth"];
+        parts.push_back(
+            {"foundation",
+             "foundation",
+             {{outline.left, -depth}, {right, -depth}, {right, 0.0}, {outline.left, 0.0}}});
+        layers.push_back(0);
+    }
+    for (const Part& part : outline.parts) {
+        if (part.name != outline.wet) {
+            parts.push_back(part);
+            layers.push_back(0);
+            continue;
+        }
+        const Cut cut{values["layer_thickness"], 0.25 * values["cell_size"],
+                      2.2 * values["cell_size"]};
+        int piece = 0, number = -1;
+        for (const Layer& layer : cut_by_depth(part.polygon, outline.phreatic, cut)) {
+            piece = layer.number == number ? piece + 1 : 0;
+            number = layer.number;
+            parts.push_back({name_of(part.name, number, piece), part.material, layer.polygon});
+            layers.push_back(number);
+        }
+    }
+    share_vertices(parts);
+    std::vector<Region> regions;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        regions.push_back({parts[i], layers[i]});
+        if (layers[i] > 0)
+            regions.back().sigma_v0_kPa = mean_sigma_v0(parts[i].polygon, outline, wet.density);
+    }
+    average_over_layers(regions);
+    return regions;
+}
+
+// ---------------------------------------------------------------- materials
+
+Json law_of(const Soil& soil, double c_kPa, double phi_deg, double nu) {
+    Json law{{"type", "mohr_coulomb"},
+             {"E_MPa", soil.E_MPa},
+             {"nu", nu},
+             {"c_kPa", c_kPa},
+             {"phi_deg", phi_deg}};
+    if (soil.c_residual_kPa != soil.c_kPa && phi_deg > 0.0)
+        law["softening"] = {{"epsilon_q_start", 0.01},
+                            {"epsilon_q_end", 0.05},
+                            {"c_residual_kPa", soil.c_residual_kPa},
+                            {"phi_residual_deg", soil.phi_residual_deg}};
+    return law;
+}
+
+Json frictional(const Soil& soil, const std::string& note) {
+    return {{"notes", {note}},
+            {"density", soil.density},
+            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
+            {"law", law_of(soil, soil.c_kPa, soil.phi_deg, soil.nu)}};
+}
+
+Json elastic_ground() {
+    return {
+        {"notes",
+         {"assumed: ground that does not move; E = 200 MPa; its strength counts in the limit "
+          "equilibrium only"}},
+        {"density", foundation.density},
+        {"limit_strength", {{"c_kPa", foundation.c_kPa}, {"phi_deg", foundation.phi_deg}}},
+        {"law", {{"type", "linear_elastic"}, {"E_MPa", foundation.E_MPa}, {"nu", foundation.nu}}}};
+}
+
+Json undrained(const Soil& soil, double c_kPa, const std::string& note) {
+    return {{"notes", {note}},
+            {"density", soil.density},
+            {"viscosity", 200},
+            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
+            {"law", law_of(soil, c_kPa, 0.0, 0.49)}};
+}
+
+Json sand(const Soil& soil, const std::string& note) {
+    Json law{{"type", "pm4sand"}, {"D_R", soil.D_R}, {"G_0", soil.G_0}, {"h_po", soil.h_po}};
+    if (soil.D_R < 0.5) {
+        law["Q"] = 11.998;
+        law["R"] = 3.75;
+    }
+    return {{"notes",
+             {note,
+              "assumed: PM4Sand, void ratio and permeability; calibrate them (breach calibrate, "
+              "docs/pm4sand.md)"}},
+            {"density", soil.density},
+            {"void_ratio", soil.void_ratio},
+            {"permeability", {soil.permeability, soil.permeability}},
+            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
+            {"law", law}};
+}
+
+std::string strength_note(const Soil& soil) {
+    return "assumed: drained strength c' = " + words::text_of(soil.c_kPa) +
+           " kPa, phi' = " + words::text_of(soil.phi_deg) + " deg, density " +
+           words::text_of(soil.density) + " kg/m3";
+}
+
+std::string breaking_note(const Soil& soil) {
+    return "assumed: breaks within 1 to 5 % of shear strain to c' = " +
+           words::text_of(soil.c_residual_kPa) +
+           " kPa, phi' = " + words::text_of(soil.phi_residual_deg) + " deg";
+}
+
+struct Context {
+    const Values& values;
+    const Outline& outline;
+    const Soil& wet;
+    std::vector<Region> regions;
+    bool with_fem;
+    double unit;  ///< sqrt(H / g), by which times are measured [s]
+};
+
+bool has(const Context& all, const std::string& material) {
+    return std::ranges::any_of(all.regions,
+                               [&](const Region& each) { return each.part.material == material; });
+}
+
+std::vector<Region> layers_of(const Context& all) {
+    std::vector<Region> layers;
+    for (const Region& each : all.regions)
+        if (each.layer > 0) layers.push_back(each);
+    return layers;
+}
+
+double residual_kPa(const Context& all, const Region& layer) {
+    return rounded(all.values["residual_ratio"] * layer.sigma_v0_kPa);
+}
+
+/// Without a FEM every layer below the phreatic line is its own material, of constant strength.
+std::string material_of(const Context& all, const Region& region) {
+    const bool liquefied = region.layer > 0 && !all.with_fem;
+    return region.part.material + (liquefied ? "_" + std::to_string(region.layer) : "");
+}
+
+Json materials_at_rest(const Context& all) {
+    Json materials;
+    if (has(all, "embankment")) {
+        materials["embankment"] = frictional(embankment, strength_note(embankment));
+        materials["embankment"]["notes"].push_back(breaking_note(embankment));
+    }
+    materials[all.wet.name] = frictional(all.wet, strength_note(all.wet));
+    for (const Region& each : layers_of(all))
+        materials[material_of(all, each)] = undrained(
+            all.wet, residual_kPa(all, each),
+            "assumed: liquefied, s_r = " + words::text_of(all.values["residual_ratio"]) +
+                " sigma'_v0, mean sigma'_v0 = " + words::text_of(rounded(each.sigma_v0_kPa)) +
+                " kPa; limit_strength is drained, before it liquefies");
+    if (has(all, "foundation")) materials["foundation"] = elastic_ground();
+    return materials;
+}
+
+Json materials_shaken(const Context& all) {
+    Json materials;
+    const auto both = [&](const Soil& soil) {
+        materials[soil.name] = sand(soil, strength_note(soil));
+        materials[soil.name + "_runout"] =
+            frictional(soil, "of " + soil.name + " in the runout, drained; " + strength_note(soil));
+        if (soil.c_residual_kPa != soil.c_kPa)
+            materials[soil.name + "_runout"]["notes"].push_back(breaking_note(soil));
+    };
+    if (has(all, "embankment")) both(embankment);
+    both(all.wet);
+    if (!layers_of(all).empty())
+        materials["liquefied"] =
+            undrained(all.wet, rounded(all.values["residual_ratio"] * atmosphere),
+                      "what liquefied layers are made like: their s_r comes from "
+                      "/transfer/liquefied/residual_strength");
+    materials["foundation"] = sand(foundation, strength_note(foundation));
+    materials["foundation_runout"] = elastic_ground();
+    return materials;
+}
+
+// ---------------------------------------------------------------- phases
+
+Json section_of(const Context& all) {
+    Json regions = Json::array();
+    for (const Region& each : all.regions) {
+        Json ring = points(each.part.polygon);
+        ring.push_back(ring.front());
+        regions.push_back(
+            {{"name", each.part.name}, {"material", material_of(all, each)}, {"polygon", ring}});
+        if (all.with_fem) regions.back()["mesh"] = {{"type", "unstructured"}};
+    }
+    Json section;
+    if (all.with_fem) section["element_size"] = all.values["element_size"];
+    section["regions"] = regions;
+    return section;
+}
+
+Json stability_of(const Context& all) {
+    const Outline& outline = all.outline;
+    const double H = all.values["height"], back = std::max(outline.left, outline.crest_from - H);
+    const double beyond = std::min(0.5 * H, 0.9 * all.values["foundation_extent"]);
+    const double face = -outline.crest.x();
+    Json lem{
+        {"notes",
+         {"depths below a tenth of the height are left out: a slip in the face is no breach",
+          "phreatic line: Dupuit's parabola from the pond (assumed: steady flow over a tight base)",
+          "residual strengths: residual_ratio times sigma'_v0 of every slice"}}};
+    lem["search"] = {{"entry", {millimetres(back), millimetres(outline.crest.x() - 0.01 * H)}},
+                     {"exit",
+                      {millimetres(outline.crest.x() + 0.25 * face),
+                       millimetres(has(all, "foundation") ? beyond : 0.0)}},
+                     {"minimum_depth", millimetres(0.1 * H)}};
+    lem["water"] = {{"line", points(outline.phreatic)}};
+    Json liquefaction = Json::array();
+    for (const Region& each : layers_of(all))
+        liquefaction.push_back(
+            {{"region", each.part.name},
+             {"residual_coefficient_kPa", rounded(all.values["residual_ratio"] * atmosphere)}});
+    if (!liquefaction.empty()) lem["liquefaction"] = liquefaction;
+    return lem;
+}
+
+Json fem_of(const Context& all) {
+    const Values& values = all.values;
+    const double bottom = -values["foundation_depth"];
+    const Outline& outline = all.outline;
+    Json fem{
+        {"notes",
+         {"assumed: rock below the model with V_s = 760 m/s; motion.csv is synthetic, no record",
+          "elements are for a first look: halve element_size before relying on the failure"}}};
+    fem["element"] = "ssp";
+    fem["supports"] = {{{"name", "base"},
+                        {"from", {millimetres(outline.left), millimetres(bottom)}},
+                        {"to", {millimetres(values["foundation_extent"]), millimetres(bottom)}},
+                        {"fixes", "xy"}}};
+    fem["water"] = {{"line", points(outline.phreatic)}};
+    fem["base"] = {{"density", 2243}, {"V_s", 760}, {"motion_at", "outcrop"}};
+    fem["motion"] = {{"file", "motion.csv"}};
+    fem["free_field"] = {{"width", values["element_size"]}, {"thickness_factor", 1000}};
+    fem["newmark_beta"] = 4.0 / 9;
+    fem["newmark_gamma"] = 5.0 / 6;
+    fem["stages"] = {{{"type", "static"}, {"name", "elastic gravity"}, {"laws", "elastic"}},
+                     {{"type", "static"}, {"name", "plastic gravity"}, {"laws", "scene"}},
+                     {{"type", "dynamic"},
+                      {"name", "shaking"},
+                      {"duration", values["shaking"]},
+                      {"time_step", 0.005}}};
+    fem["force_tolerance"] = 1e-5;
+    fem["crest"] = point(outline.crest);
+    Json names = Json::array();
+    for (const Region& each : layers_of(all)) names.push_back(each.part.name);
+    if (!names.empty())
+        fem["liquefaction"] = {{"regions", names},
+                               {"x",
+                                {millimetres(outline.crest_from - 0.5 * values["height"]),
+                                 millimetres(outline.crest.x())}},
+                               {"level", millimetres(outline.phreatic.front().y())}};
+    fem["telemetry_interval"] = 0.05;
+    return fem;
+}
+
+Json transfer_of(const Context& all) {
+    Json mapping = Json::array(), names = Json::array();
+    double largest = 0.0;
+    for (const Region& each : all.regions) {
+        mapping.push_back({{"region", each.part.name}, {"to", each.part.material + "_runout"}});
+        if (each.layer == 0) continue;
+        names.push_back(each.part.name);
+        largest = std::max(largest, each.sigma_v0_kPa);
+    }
+    Json transfer{{"points_per_cell", 9}, {"mapping", mapping}};
+    transfer["phreatic_line"] = points(all.outline.phreatic);
+    if (names.empty()) return transfer;
+    const double step =
+        digits(all.values["layer_thickness"] * (all.wet.density - water_density) * g / 1e3, 0.1);
+    Json layers = Json::array();
+    for (double from = 0.0; from < largest || layers.empty(); from += step)
+        layers.push_back({{"sigma_v0_kPa", {rounded(from), rounded(from + step)}}});
+    transfer["liquefied"] = {
+        {"regions", names},
+        {"layers", layers},
+        {"residual_strength",
+         {{"like", "liquefied"},
+          {"coefficient_kPa", rounded(all.values["residual_ratio"] * atmosphere)},
+          {"exponent", 1}}}};
+    return transfer;
+}
+
+/// Grid lines go through the model's left end and through its floor.
+Json runout_of(const Context& all) {
+    const Values& values = all.values;
+    const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
+    const double left = millimetres(all.outline.left);
+    const double columns = std::ceil((values["runout_extent"] - left) / h);
+    const double below = depth > 0.0 ? std::ceil((depth + h) / h) : 0.0;
+    const double above = std::ceil(1.15 * H / h);
+    const double right = left + columns * h, floor = -below * h;
+    Json mpm{{"notes",
+              {"cells are for a first look (2 to 3 across a layer): halve cell_size before relying "
+               "on the runout",
+               "assumed: friction of 0.5 between soil and terrain; soil sticks to the modelled "
+               "foundation"}}};
+    mpm["cell_size"] = h;
+    mpm["domain_x"] = {left, right};
+    mpm["domain_y"] = {floor, above * h};
+    const double end = millimetres(values["foundation_extent"]);
+    mpm["floor"] = {{"level", floor},
+                    {"friction", {{{"from", left}, {"to", right}, {"coefficient", 0.5}}}}};
+    if (depth > 0.0)
+        mpm["terrain"] = {{left - h, millimetres(-depth)},
+                          {end + 0.2 * h, millimetres(-depth)},
+                          {end + 0.4 * h, 0.0},
+                          {right, 0.0}};
+    mpm["fill_points"] = 3;
+    if (!all.with_fem) mpm["fill_stress"] = "overburden";
+    mpm["overlap_correction"] = {{"rate", 5}};
+    mpm["softening_length"] = rounded(H / 15.0);
+    mpm["duration"] = "until_rest";
+    mpm["longest_duration"] = rounded(150.0 * all.unit);
+    mpm["snapshot_interval"] = rounded(all.unit);
+    mpm["telemetry_interval"] = rounded(0.15 * all.unit);
+    Json mobile = Json::array();
+    for (const Region& each : all.regions)
+        if (each.part.material != "foundation") mobile.push_back(each.part.name);
+    mpm["runout"] = {{"toe", {0, 0}}, {"regions", mobile}};
+    mpm["gauges"] = {{{"name", "toe"}, {"x", 0}},
+                     {{"name", "one_height"}, {"x", H}},
+                     {{"name", "three_heights"}, {"x", 3 * H}}};
+    return mpm;
+}
+
+}  // namespace
+
+Json scene_of(const Values& values, const Outline& outline, const std::string& name) {
+    const Soil& wet = outline.wet == "tailings" ? tailings : loose_soil;
+    const Context all{values,
+                      outline,
+                      wet,
+                      regions_of(values, outline, wet),
+                      values.is_on("with_fem"),
+                      std::sqrt(values["height"] / g)};
+    Json scene{{"format", "breachline-scene/1"}, {"name", name}};
+    scene["title"] = values.of().title + ", " + metres(values["height"]) + " high" +
+                     (all.with_fem ? ", shaken" : ", liquefied at rest");
+    scene["notes"] = {
+        "made by: breach new " + values.of().name + "; the toe lies at (0, 0), x points downstream",
+        "what is marked as assumed stands for no site: put your own values there"};
+    scene["materials"] = all.with_fem ? materials_shaken(all) : materials_at_rest(all);
+    scene["section"] = section_of(all);
+    scene["lem"] = stability_of(all);
+    if (all.with_fem) {
+        scene["fem"] = fem_of(all);
+        scene["transfer"] = transfer_of(all);
+    }
+    scene["mpm"] = runout_of(all);
+    return scene;
+}
+
+Json study_of(const Values& values, const Json& scene) {
+    Json study{{"format", "breachline-study/1"},
+               {"name", scene.at("name")},
+               {"title", scene.at("title")},
+               {"scene", "scene.json"}};
+    if (values.is_on("with_fem")) {
+        study["transfer_times"] = {values["shaking"]};
+        return study;
+    }
+    Json overrides = Json::array(), undrained_regions = Json::array();
+    for (const Json& each : scene.at("section").at("regions")) {
+        const std::string material = each.at("material");
+        const Json& law = scene.at("materials").at(material).at("law");
+        if (law.value("phi_deg", 1.0) != 0.0) continue;
+        const double peak =
+            law.at("c_kPa").get<double>() * values["peak_ratio"] / values["residual_ratio"];
+        overrides.push_back("/materials/" + material +
+                            "/law/c_kPa=" + words::text_of(rounded(peak)));
+        undrained_regions.push_back(
+            {{"region", each.at("name")},
+             {"coefficient_kPa", rounded(values["peak_ratio"] * atmosphere)}});
+    }
+    if (overrides.empty()) return study;
+    overrides.push_back("/lem/undrained=" + undrained_regions.dump());
+    study["variants"] = {{{"name", "liquefied"}},
+                         {{"name", "undrained_peak"}, {"overrides", overrides}}};
+    return study;
+}
+
+}  // namespace breach::templates

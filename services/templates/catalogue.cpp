@@ -1,0 +1,274 @@
+#include "services/templates/catalogue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fault/fault.hpp"
+#include "core/words/number.hpp"
+
+namespace breach::templates {
+
+using nlohmann::json;
+
+namespace {
+
+using Options = std::vector<Option>;
+
+Option length(const std::string& name, double least, double most, double value, std::string help) {
+    return {name, Kind::number, "m", least, most, value, "", 0.0, std::move(help)};
+}
+
+/// The default is a share of the height.
+Option sized(const std::string& name, double share, double least, double most, std::string help) {
+    return {name, Kind::number, "m", least, most, 0.0, "height", share, std::move(help)};
+}
+
+Option ratio(const std::string& name, double least, double most, double value, std::string help) {
+    return {name, Kind::number, "1", least, most, value, "", 0.0, std::move(help)};
+}
+
+Option count(const std::string& name, int least, int most, int value, std::string help) {
+    return {name,
+            Kind::whole,
+            "1",
+            static_cast<double>(least),
+            static_cast<double>(most),
+            static_cast<double>(value),
+            "",
+            0.0,
+            std::move(help)};
+}
+
+Option yes_or_no(const std::string& name, bool value, std::string help) {
+    return {name, Kind::yes_or_no, "1", 0.0, 1.0, value ? 1.0 : 0.0, "", 0.0, std::move(help)};
+}
+
+Option of_type(Option option, const char* unit) {
+    option.unit = unit;
+    return option;
+}
+
+Options foundation() {
+    return {
+        sized("foundation_depth", 1.0 / 6, 0, 100,
+              "ground below y = 0; 0: the soil stands on rock"),
+        sized("foundation_extent", 2, 1, 5000,
+              "ground that is modelled beyond the toe; the soil runs on over level terrain"),
+    };
+}
+
+Options soil(double residual_ratio) {
+    return {
+        sized("layer_thickness", 1.0 / 6, 0.1, 100,
+              "layers by depth below the phreatic line, which liquefy one after the other"),
+        ratio("residual_ratio", 0.01, 0.5, residual_ratio,
+              "residual strength of liquefied soil over sigma'_v0 (Olson & Stark 2002: 0.05 to "
+              "0.12)"),
+        ratio("peak_ratio", 0.05, 1, 0.27,
+              "undrained strength before it liquefies, over sigma'_v0 (Olson & Stark 2003: 0.2 to "
+              "0.3)"),
+    };
+}
+
+Options computation() {
+    return {
+        sized("runout_extent", 10, 10, 20000, "how far beyond the toe the soil can be followed"),
+        sized("cell_size", 1.0 / 15, 0.05, 20,
+              "cells of the runout; halve it for a result to rely on"),
+        sized("element_size", 0.1, 0.05, 50, "elements, with with_fem"),
+        yes_or_no("with_fem", false,
+                  "yes: shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout); no: "
+                  "liquefied at rest (LEM and runout)"),
+        of_type(
+            ratio("pga", 0.01, 1.5, 0.3, "peak acceleration of the outcrop motion, with with_fem"),
+            "g"),
+        of_type(length("shaking", 2, 60, 8, "length of the motion, with with_fem"), "s"),
+    };
+}
+
+Options joined(std::initializer_list<Options> all) {
+    Options joined;
+    for (const Options& each : all) joined.insert(joined.end(), each.begin(), each.end());
+    return joined;
+}
+
+Options pond(double beach) {
+    return {
+        sized("freeboard", 1.0 / 20, 0.1, 50,
+              "height of the crest above the beach where they meet"),
+        sized("beach_length", beach, 0, 5000, "dry beach between the dam and the pond's edge"),
+        ratio("beach_slope", 0, 0.1, 0.01, "fall of the beach, metres per metre"),
+        sized("pond_length", 2, 1, 5000,
+              "tailings below the pond that are modelled, from its edge upstream"),
+    };
+}
+
+Template upstream() {
+    return {
+        "upstream_dam", "Tailings dam with a starter dam and upstream raises on tailings",
+        joined(
+            {{
+                 length("height", 3, 200, 30, "crest of the last raise above the foundation"),
+                 sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
+                 count("raises", 0, 20, 4,
+                       "raises of equal height; 0: the starter dam is as high as the dam"),
+                 ratio("starter_slope", 1, 10, 2,
+                       "downstream face of the starter dam, metres across per metre up"),
+                 ratio("raise_slope", 1, 10, 2.5,
+                       "downstream faces of the raises, metres across per metre up"),
+                 ratio("upstream_slope", 0.5, 10, 2, "upstream faces, metres across per metre up"),
+                 sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
+                 sized("bench_width", 1.0 / 15, 0, 50, "crest that a raise leaves free downstream"),
+             },
+             pond(1),
+             {yes_or_no("drain", false,
+                        "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
+             soil(0.08),
+             foundation(),
+             computation()})};
+}
+
+Template downstream() {
+    return {
+        "downstream_dam", "Tailings dam with a starter dam and downstream raises on the foundation",
+        joined(
+            {{
+                 length("height", 3, 200, 30, "crest of the last raise above the foundation"),
+                 sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
+                 count("raises", 0, 20, 2,
+                       "raises of equal height; 0: the starter dam is as high as the dam"),
+                 ratio("downstream_slope", 1, 10, 2,
+                       "downstream faces, metres across per metre up"),
+                 ratio("upstream_slope", 0.5, 10, 2, "upstream face, metres across per metre up"),
+                 sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
+             },
+             pond(1),
+             {yes_or_no("drain", true,
+                        "yes: the phreatic line ends at the starter dam's toe, below the raises; "
+                        "no: at the dam's toe")},
+             soil(0.08),
+             foundation(),
+             computation()})};
+}
+
+Template plain_slope() {
+    return {
+        "slope", "Slope of loose, partly saturated soil above level ground",
+        joined(
+            {{
+                 length("height", 1, 200, 10, "of the slope"),
+                 ratio("face_slope", 0.3, 10, 2, "face of the slope, metres across per metre up"),
+                 sized("crest_extent", 3, 1, 2000,
+                       "level ground behind the crest that is modelled"),
+                 sized("water_depth", 0.3, 0, 200,
+                       "phreatic line below ground at the model's upper end; it ends at the toe"),
+             },
+             soil(0.1),
+             foundation(),
+             computation()})};
+}
+
+Template leach_heap() {
+    return {
+        "heap", "Heap in lifts with benches, wet at its base, one half of it",
+        joined({{
+                    length("height", 2, 300, 30, "of the heap"),
+                    count("lifts", 1, 30, 3, "lifts of equal height"),
+                    ratio("lift_slope", 0.5, 10, 1.4,
+                          "faces of the lifts, metres across per metre up"),
+                    sized("bench_width", 1.0 / 3, 0, 100, "between two lifts"),
+                    sized("top_width", 1, 1, 2000, "level top from the heap's axis to its edge"),
+                    sized("water_height", 0.5, 0, 300,
+                          "phreatic line above the base at the heap's axis; it ends at the toe"),
+                },
+                soil(0.08),
+                foundation(),
+                computation()})};
+}
+
+/// Defaults that follow another option get their value at that one's default.
+Template with_values(Template made) {
+    for (Option& each : made.options) {
+        if (each.follows.empty()) continue;
+        const auto leader = std::ranges::find(made.options, each.follows, &Option::name);
+        each.value = each.share * leader->value;
+    }
+    return made;
+}
+
+const char* type_of(Kind kind) {
+    switch (kind) {
+        case Kind::number:
+            return "number";
+        case Kind::whole:
+            return "integer";
+        case Kind::yes_or_no:
+            return "boolean";
+    }
+    return "";
+}
+
+json as_json(const Option& option) {
+    json described{{"name", option.name},
+                   {"type", type_of(option.kind)},
+                   {"unit", option.unit},
+                   {"default", option.value},
+                   {"help", option.help}};
+    if (option.kind == Kind::yes_or_no) {
+        described["default"] = option.value > 0.5;
+        return described;
+    }
+    if (option.kind == Kind::whole) {
+        described["default"] = static_cast<int>(option.value);
+        described["minimum"] = static_cast<int>(option.least);
+        described["maximum"] = static_cast<int>(option.most);
+        return described;
+    }
+    described["minimum"] = option.least;
+    described["maximum"] = option.most;
+    if (!option.follows.empty()) {
+        described["rule"] = rule_of(option);
+        described["follows"] = option.follows;
+        described["share"] = option.share;
+    }
+    return described;
+}
+
+}  // namespace
+
+const std::vector<Template>& catalogue() {
+    static const std::vector<Template> all{with_values(upstream()), with_values(downstream()),
+                                           with_values(plain_slope()), with_values(leach_heap())};
+    return all;
+}
+
+const Template& named(const std::string& name) {
+    std::string known;
+    for (const Template& each : catalogue()) {
+        if (each.name == name) return each;
+        known += (known.empty() ? "" : ", ") + each.name;
+    }
+    throw fault::BadInput("template " + name,
+                          {{"", "there is no template \"" + name + "\"", "take one of: " + known}});
+}
+
+std::string rule_of(const Option& option) {
+    if (option.follows.empty()) return "";
+    const double part = 1.0 / option.share;
+    const bool divides = option.share < 1.0 && std::abs(part - std::round(part)) < 1e-9;
+    if (option.share == 1.0) return option.follows;
+    return divides ? option.follows + " / " + std::to_string(std::lround(part))
+                   : words::text_of(option.share) + " " + option.follows;
+}
+
+json as_json(const std::vector<Template>& templates) {
+    json all = json::array();
+    for (const Template& each : templates) {
+        json options = json::array();
+        for (const Option& option : each.options) options.push_back(as_json(option));
+        all.push_back({{"name", each.name}, {"title", each.title}, {"options", options}});
+    }
+    return {{"templates", all}};
+}
+
+}  // namespace breach::templates

@@ -1,0 +1,43 @@
+// What can be made of a template, and what may be said of it: options with unit, default, range and a
+// sentence each. Nothing here knows a scene.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace breach::templates {
+
+enum class Kind { number, whole, yes_or_no };
+
+/// A default that is a share of another option follows it, so that a dam of another height is the
+/// same dam in another size.
+struct Option {
+    std::string name;
+    Kind kind;
+    std::string unit;  ///< "1" where there is none
+    double least, most;
+    double value;              ///< default; yes_or_no: 1 or 0
+    std::string follows = {};  ///< the option that the default is a share of; empty: none
+    double share = 0.0;        ///< of that option
+    std::string help;
+};
+
+struct Template {
+    std::string name;
+    std::string title;
+    std::vector<Option> options;  ///< those that others follow come first
+};
+
+const std::vector<Template>& catalogue();
+/// Throws BadInput that lists the names.
+const Template& named(const std::string& name);
+
+/// "height / 3": how a default that follows comes about; empty: it is a number.
+std::string rule_of(const Option& option);
+
+/// {"templates": [{"name", "title", "options": [{"name", "type", "unit", "default", "rule",
+/// "follows", "share", "minimum", "maximum", "help"}]}]}; what it says and what each key is: README.md.
+nlohmann::json as_json(const std::vector<Template>& templates);
+
+}  // namespace breach::templates

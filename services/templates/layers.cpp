@@ -1,0 +1,284 @@
+#include "services/templates/layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/geometry/polyline.hpp"
+#include "core/scene/resolution.hpp"
+
+namespace breach::templates {
+
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Where two segments meet; their ends count. Parallel ones meet nowhere.
+std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    const Vec2 u = b - a, v = d - c;
+    const double det = cross(u, v);
+    if (std::abs(det) < 1e-12 * u.norm() * v.norm()) return std::nullopt;
+    const double s = cross(c - a, v) / det, t = cross(c - a, u) / det;
+    const double little = 1e-12;
+    if (s < -little || s > 1 + little || t < -little || t > 1 + little) return std::nullopt;
+    return Vec2(a + s * u);
+}
+
+/// The line over all of the polygon and beyond.
+Line across(const Line& line, const Polygon& polygon) {
+    const scene::Box box = scene::bounding_box(polygon);
+    const double margin = 1.0 + (box.high - box.low).norm();
+    Line all{{std::min(box.low.x(), line.front().x()) - margin, line.front().y()}};
+    all.insert(all.end(), line.begin(), line.end());
+    all.push_back({std::max(box.high.x(), line.back().x()) + margin, line.back().y()});
+    return all;
+}
+
+/// The polygon with its meetings with the line among its vertices; they are returned from left to
+/// right.
+Line mark_meetings(Polygon& polygon, const Line& line, double nearest) {
+    Polygon marked;
+    Line meetings;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        Line on_side;
+        for (std::size_t k = 1; k < line.size(); ++k)
+            if (const auto place = meeting(a, b, line[k - 1], line[k])) on_side.push_back(*place);
+        std::ranges::sort(on_side, {}, [&](const Vec2& place) { return (place - a).norm(); });
+        marked.push_back(a);
+        for (const Vec2& place : on_side) {
+            const bool at_start = (place - a).norm() < nearest;
+            const bool at_end = (place - b).norm() < nearest;
+            const bool again = (place - marked.back()).norm() < nearest;
+            if (at_start || at_end || again) {
+                meetings.push_back(at_end ? b : at_start ? a : marked.back());
+            } else {
+                marked.push_back(place);
+                meetings.push_back(place);
+            }
+        }
+    }
+    polygon = marked;
+    std::ranges::sort(meetings, [](const Vec2& p, const Vec2& q) {
+        return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
+    });
+    const auto repeated = std::ranges::unique(meetings);
+    meetings.erase(repeated.begin(), repeated.end());
+    return meetings;
+}
+
+/// A way through the polygon from one meeting to the next.
+Line way_between(const Vec2& from, const Vec2& to, const Line& line, double nearest) {
+    Line way{from};
+    for (const Vec2& kink : line)
+        if (kink.x() > from.x() && kink.x() < to.x() && (kink - from).norm() >= nearest &&
+            (kink - to).norm() >= nearest)
+            way.push_back(kink);
+    way.push_back(to);
+    return way;
+}
+
+double distance_to_border(const Polygon& polygon, const Vec2& place) {
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        least = std::min(least, scene::distance_to_segment(place, polygon[i],
+                                                           polygon[(i + 1) % polygon.size()]));
+    return least;
+}
+
+/// All of the way but its ends lies inside.
+bool runs_inside(const Polygon& polygon, const Line& way, double little) {
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        const Vec2 middle = 0.5 * (way[k - 1] + way[k]);
+        if (!scene::contains(polygon, middle) || distance_to_border(polygon, middle) < little)
+            return false;
+        if (k + 1 < way.size() && !scene::contains(polygon, way[k])) return false;
+    }
+    return true;
+}
+
+std::optional<std::size_t> vertex_at(const Polygon& polygon, const Vec2& place) {
+    const auto found = std::ranges::find(polygon, place);
+    if (found == polygon.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - polygon.begin());
+}
+
+/// The two parts of a polygon on either side of a way between two of its vertices.
+std::array<Polygon, 2> parted(const Polygon& polygon, std::size_t from, std::size_t to,
+                              const Line& way) {
+    const auto along = [&](std::size_t i, std::size_t end) {
+        Polygon ring;
+        for (; i != end; i = (i + 1) % polygon.size()) ring.push_back(polygon[i]);
+        return ring;
+    };
+    Polygon one = along(from, to), other = along(to, from);
+    for (std::size_t k = way.size() - 1; k > 0; --k) one.push_back(way[k]);
+    for (std::size_t k = 0; k + 1 < way.size(); ++k) other.push_back(way[k]);
+    return {one, other};
+}
+
+/// Depth below the line in the middle of the widest vertical way through the polygon.
+double depth_of(const Polygon& polygon, const Line& line) {
+    const scene::Box box = scene::bounding_box(polygon);
+    double widest = 0.0, depth = 0.0;
+    for (const double share : {0.5, 0.27, 0.73, 0.11, 0.89, 0.03, 0.97}) {
+        const double x = box.low.x() + share * (box.high.x() - box.low.x());
+        std::vector<double> levels;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+            if ((a.x() > x) == (b.x() > x)) continue;
+            levels.push_back(a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()));
+        }
+        std::ranges::sort(levels);
+        for (std::size_t i = 0; i + 1 < levels.size(); i += 2) {
+            if (levels[i + 1] - levels[i] <= widest) continue;
+            widest = levels[i + 1] - levels[i];
+            depth = geometry::level_at(line, x) - 0.5 * (levels[i] + levels[i + 1]);
+        }
+    }
+    return depth;
+}
+
+/// Side i of a ring, backwards, is a side of the other ring.
+bool is_shared(const Polygon& ring, std::size_t i, const Polygon& other) {
+    const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    for (std::size_t k = 0; k < other.size(); ++k)
+        if (other[k] == b && other[(k + 1) % other.size()] == a) return true;
+    return false;
+}
+
+/// The border that two rings share, when it is one connected line.
+struct Seam {
+    std::size_t begin, sides;  ///< of the first ring
+    double length = 0.0;
+};
+
+std::optional<Seam> seam_between(const Polygon& one, const Polygon& other) {
+    std::vector<Seam> seams;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const std::size_t before = (i + one.size() - 1) % one.size();
+        if (!is_shared(one, i, other) || is_shared(one, before, other)) continue;
+        seams.push_back({i, 0, 0.0});
+        for (std::size_t k = i; is_shared(one, k, other); k = (k + 1) % one.size()) {
+            ++seams.back().sides;
+            seams.back().length += (one[(k + 1) % one.size()] - one[k]).norm();
+        }
+    }
+    if (seams.size() != 1) return std::nullopt;
+    return seams.front();
+}
+
+/// Both as one ring, without their seam.
+Polygon united(const Polygon& one, const Polygon& other, const Seam& seam) {
+    const std::size_t end = (seam.begin + seam.sides) % one.size();
+    Polygon ring;
+    for (std::size_t i = end; i != seam.begin; i = (i + 1) % one.size()) ring.push_back(one[i]);
+    std::size_t k = *vertex_at(other, one[seam.begin]);
+    for (; other[k] != one[end]; k = (k + 1) % other.size()) ring.push_back(other[k]);
+    return ring;
+}
+
+/// The number is that of the larger piece.
+Layer joined(const Layer& one, const Layer& other, const Seam& seam) {
+    const bool first = scene::area(one.polygon) > scene::area(other.polygon);
+    return {first ? one.number : other.number, united(one.polygon, other.polygon, seam)};
+}
+
+/// One thin piece joined with the neighbour that it has most border with; false: there is none.
+bool absorb_one(std::vector<Layer>& all, double thinnest) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (scene::thickness_of(all[i].polygon) >= thinnest) continue;
+        std::optional<Seam> best;
+        std::size_t neighbour = i;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            if (k == i) continue;
+            const auto seam = seam_between(all[i].polygon, all[k].polygon);
+            if (!seam || (best && seam->length <= best->length)) continue;
+            best = seam;
+            neighbour = k;
+        }
+        if (!best) continue;
+        all[neighbour] = joined(all[i], all[neighbour], *best);
+        all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+        return true;
+    }
+    return false;
+}
+
+Line lowered(Line line, double by) {
+    for (Vec2& each : line) each.y() -= by;
+    return line;
+}
+
+}  // namespace
+
+std::vector<Polygon> divided(const Polygon& polygon, const Line& line, double nearest) {
+    Polygon ring = polygon;
+    const Line all = across(line, polygon);
+    const Line meetings = mark_meetings(ring, all, nearest);
+    const double little = 1e-3 * nearest;
+    std::vector<Polygon> pieces{ring};
+    for (std::size_t m = 1; m < meetings.size(); ++m) {
+        const Line way = way_between(meetings[m - 1], meetings[m], all, nearest);
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            const auto from = vertex_at(pieces[p], way.front()),
+                       to = vertex_at(pieces[p], way.back());
+            if (!from || !to || !runs_inside(pieces[p], way, little)) continue;
+            auto [one, other] = parted(pieces[p], *from, *to, way);
+            pieces[p] = std::move(one);
+            pieces.push_back(std::move(other));
+            break;
+        }
+    }
+    return pieces;
+}
+
+std::vector<Layer> cut_by_depth(const Polygon& polygon, const Line& phreatic, const Cut& cut) {
+    double deepest = 0.0;
+    for (const Vec2& vertex : polygon)
+        deepest = std::max(deepest, geometry::level_at(phreatic, vertex.x()) - vertex.y());
+    const int layers = static_cast<int>(std::max(1.0, std::floor(deepest / cut.thickness + 1e-9)));
+    std::vector<Polygon> pieces{polygon};
+    for (int k = 0; k < layers; ++k) {
+        const Line line = lowered(phreatic, k * cut.thickness);
+        std::vector<Polygon> next;
+        for (const Polygon& each : pieces)
+            std::ranges::move(divided(each, line, cut.nearest), std::back_inserter(next));
+        pieces = std::move(next);
+    }
+    std::vector<Layer> all;
+    for (Polygon& each : pieces) {
+        const double depth = depth_of(each, phreatic);
+        const int below = 1 + static_cast<int>(std::floor(depth / cut.thickness));
+        all.push_back({depth <= 0.0 ? 0 : std::min(below, layers), std::move(each)});
+    }
+    while (absorb_one(all, cut.thinnest)) {
+    }
+    std::ranges::stable_sort(all, {}, &Layer::number);
+    return all;
+}
+
+void share_vertices(std::vector<Part>& parts) {
+    for (Part& part : parts) {
+        Polygon shared;
+        for (std::size_t i = 0; i < part.polygon.size(); ++i) {
+            const Vec2 &a = part.polygon[i], &b = part.polygon[(i + 1) % part.polygon.size()];
+            const double little = 1e-9 * (1.0 + (b - a).norm());
+            Line on_side;
+            for (const Part& other : parts)
+                for (const Vec2& vertex : other.polygon)
+                    if (vertex != a && vertex != b &&
+                        scene::distance_to_segment(vertex, a, b) < little &&
+                        (vertex - a).norm() > little && (vertex - b).norm() > little &&
+                        std::ranges::find(on_side, vertex) == on_side.end())
+                        on_side.push_back(vertex);
+            std::ranges::sort(on_side, {}, [&](const Vec2& place) { return (place - a).norm(); });
+            shared.push_back(a);
+            shared.insert(shared.end(), on_side.begin(), on_side.end());
+        }
+        part.polygon = std::move(shared);
+    }
+}
+
+}  // namespace breach::templates

@@ -1,0 +1,53 @@
+// The options that somebody gave, completed with the template's defaults and checked one by one and
+// against each other.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "services/templates/catalogue.hpp"
+
+namespace breach::templates {
+
+/// Every option of a template with its value.
+class Values {
+  public:
+    explicit Values(const Template& of) : template_(&of) {}
+    double operator[](const std::string& name) const { return values_.at(name); }
+    bool has(const std::string& name) const { return values_.contains(name); }
+    bool is_on(const std::string& name) const { return values_.at(name) > 0.5; }
+    int whole(const std::string& name) const;
+    void set(const std::string& name, double value) { values_[name] = value; }
+    const Template& of() const { return *template_; }
+    nlohmann::json as_json() const;
+
+  private:
+    const Template* template_;
+    std::map<std::string, double> values_;
+};
+
+/// Faults point at "/height" and the like. Throws BadInput with all of them.
+Values completed(const Template& of, const nlohmann::json& given);
+
+/// Options that do not go together, gathered until all are known.
+class Refusal {
+  public:
+    explicit Refusal(const Values& values) : values_(&values) {}
+    /// The option's own value is put before the cause: "is 12 m, ...".
+    void unless(bool holds, const std::string& option, const std::string& cause,
+                const std::string& remedy);
+    /// Throws BadInput when there is anything to refuse.
+    void speak() const;
+
+  private:
+    const Values* values_;
+    std::vector<fault::Fault> faults_;
+};
+
+/// "12.5 m"
+std::string metres(double value);
+
+}  // namespace breach::templates

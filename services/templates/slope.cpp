@@ -1,0 +1,26 @@
+// A plain slope with its toe at (0, 0).
+#include "services/templates/outline.hpp"
+
+namespace breach::templates {
+
+Outline slope(const Values& values) {
+    const double H = values["height"], depth = values["water_depth"];
+    Refusal refusal(values);
+    refusal.unless(depth <= H, "water_depth", "the slope is only " + metres(H) + " high",
+                   "give at most height");
+    refusal.speak();
+    const double crest = -values["face_slope"] * H;
+    const double left = crest - values["crest_extent"];
+    Outline outline;
+    outline.parts = {{"slope", "soil", {{left, 0.0}, {0.0, 0.0}, {crest, H}, {left, H}}}};
+    outline.ground = {{left, H}, {crest, H}, {0.0, 0.0}};
+    outline.wet = "slope";
+    outline.crest = {crest, H};
+    outline.crest_from = left + 0.02 * (crest - left);
+    outline.left = left;
+    outline.phreatic =
+        drained_line({left, H - depth}, 0.0, left, values["foundation_extent"], outline.ground);
+    return outline;
+}
+
+}  // namespace breach::templates

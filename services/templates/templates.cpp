@@ -1,0 +1,155 @@
+#include "services/templates/templates.hpp"
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+#include "core/motion/read_motion.hpp"
+#include "core/motion/synthetic.hpp"
+#include "core/scene/reading.hpp"
+#include "services/templates/assembly.hpp"
+
+namespace breach::templates {
+
+using Json = nlohmann::ordered_json;
+using nlohmann::json;
+
+namespace {
+
+Outline outline_of(const Values& values) {
+    const std::string& name = values.of().name;
+    if (name == "upstream_dam") return upstream_dam(values);
+    if (name == "downstream_dam") return downstream_dam(values);
+    return name == "slope" ? slope(values) : heap(values);
+}
+
+/// Lengths that the scene repeats get so few digits that they are read with ease.
+void round_sizes(Values& values) {
+    for (const Option& each : values.of().options) {
+        if (each.kind != Kind::number || each.follows.empty()) continue;
+        values.set(each.name, std::max(1e-3, std::round(values[each.name] * 1e3) / 1e3));
+    }
+}
+
+void check_sizes(const Values& values) {
+    const double H = values["height"];
+    Refusal refusal(values);
+    refusal.unless(values["layer_thickness"] <= H, "layer_thickness",
+                   "the soil is only " + metres(H) + " high", "give at most height");
+    refusal.unless(values["layer_thickness"] >= H / 20, "layer_thickness",
+                   "there would be more than 20 layers", "give at least height / 20");
+    refusal.unless(values["residual_ratio"] <= values["peak_ratio"], "residual_ratio",
+                   "liquefied soil is weaker than before", "give less than peak_ratio");
+    refusal.unless(values["runout_extent"] >= values["foundation_extent"] + 2 * values["cell_size"],
+                   "runout_extent",
+                   "the foundation reaches to " + metres(values["foundation_extent"]),
+                   "give more than foundation_extent");
+    refusal.unless(!values.is_on("with_fem") || values["foundation_depth"] > 0.0,
+                   "foundation_depth", "the earthquake comes through the foundation",
+                   "give a depth, or leave with_fem out");
+    refusal.unless(!values.is_on("with_fem") || values["element_size"] <= 0.25 * H, "element_size",
+                   "that leaves fewer than four elements to a height of " + metres(H),
+                   "give at most height / 4");
+    refusal.speak();
+}
+
+std::string name_in(const Template& of, const json& options) {
+    if (!options.is_object() || !options.contains("name")) return of.name;
+    const json& name = options.at("name");
+    static const std::regex allowed("^[a-z0-9][a-z0-9_-]{0,63}$");
+    if (name.is_string() && std::regex_search(name.get<std::string>(), allowed)) return name;
+    throw fault::BadInput(
+        "template " + of.name,
+        {{"/name", "is " + name.dump().substr(0, 60),
+          "give lower-case letters, digits, _ and -, at most 64, a letter or digit first"}});
+}
+
+/// PGV and Arias intensity as those of a record of San Fernando 1971 for the same PGA and length.
+std::string motion_of(const Values& values) {
+    const double pga = values["pga"], strong = 0.4 * values["shaking"];
+    const motion::Target target{
+        .peak_acceleration = pga * motion::standard_gravity,
+        .peak_velocity = 0.85 * pga,
+        .strong_duration = strong,
+        .arias_intensity = 1.33 * (pga / 0.3) * (pga / 0.3) * strong / 11.16,
+        .length = values["shaking"],
+        .dt = 0.01,
+        .seed = 1978};
+    const motion::Recording recording{.quantity = motion::Quantity::acceleration,
+                                      .series = motion::synthetic_motion(target),
+                                      .title = "synthetic"};
+    std::ostringstream text;
+    motion::write_csv(text, recording,
+                      "Synthetic: no recorded earthquake. Made by breach new, seed 1978.");
+    return text.str();
+}
+
+/// What the reader of scenes refuses all the same: too coarse for the thinnest part.
+void check_made(const Values& values, const Json& scene) {
+    std::vector<fault::Fault> faults = scene::read_text(scene.dump(), "scene", ".", {}).faults;
+    if (faults.empty()) return;
+    for (fault::Fault& each : faults) {
+        const bool coarse = each.pointer == "/mpm/cell_size";
+        if (coarse)
+            each.pointer = "/cell_size";
+        else
+            each.cause = "the section comes out wrong: " + each.pointer + " " + each.cause;
+        if (!coarse) each.pointer = "";
+    }
+    throw fault::BadInput("template " + values.of().name, std::move(faults));
+}
+
+std::string on_a_line(const Json& value) {
+    if (value.is_primitive() || value.empty()) return value.dump();
+    std::string text;
+    for (const auto& [key, each] : value.items())
+        text += (text.empty() ? "" : ", ") + (value.is_object() ? Json(key).dump() + ": " : "") +
+                on_a_line(each);
+    return value.is_object() ? "{ " + text + " }" : "[" + text + "]";
+}
+
+/// Short entries stand on one line.
+void write(std::ostream& out, const Json& value, std::size_t indent) {
+    constexpr std::size_t width = 110;
+    const std::string line = on_a_line(value);
+    if (value.is_primitive() || (indent > 0 && line.size() + indent <= width)) {
+        out << line;
+        return;
+    }
+    const std::string margin(indent + 4, ' ');
+    bool first = true;
+    out << (value.is_object() ? "{" : "[");
+    for (const auto& [key, each] : value.items()) {
+        out << (first ? "\n" : ",\n") << margin;
+        if (value.is_object()) out << Json(key).dump() << ": ";
+        write(out, each, indent + 4);
+        first = false;
+    }
+    out << "\n" << std::string(indent, ' ') << (value.is_object() ? "}" : "]");
+}
+
+}  // namespace
+
+Made make(const std::string& name, const json& options) {
+    const Template& of = named(name);
+    const std::string scene_name = name_in(of, options);
+    Values values = completed(of, options);
+    round_sizes(values);
+    check_sizes(values);
+    Made made;
+    made.options = values.as_json();
+    made.scene = scene_of(values, outline_of(values), scene_name);
+    check_made(values, made.scene);
+    made.study = study_of(values, made.scene);
+    if (values.is_on("with_fem")) made.motion = motion_of(values);
+    return made;
+}
+
+std::string as_text(const Json& document) {
+    std::ostringstream text;
+    write(text, document, 0);
+    text << "\n";
+    return text.str();
+}
+
+}  // namespace breach::templates

@@ -1,0 +1,26 @@
+// A scene and the study that runs it, from the options of a template.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "services/templates/catalogue.hpp"
+
+namespace breach::templates {
+
+struct Made {
+    nlohmann::ordered_json options;  ///< all of them, with their values
+    nlohmann::ordered_json scene;    ///< commented; names its motion "motion.csv"
+    nlohmann::ordered_json study;    ///< without its scene
+    std::string motion;              ///< text of motion.csv; empty: the scene is not shaken
+};
+
+/// `options`: an object, {"height": 30}; what is left out has its default. "name" names scene and
+/// study. Throws BadInput with every fault, its pointer that of the option.
+Made make(const std::string& name, const nlohmann::json& options);
+
+/// As people read it: one entry per line where it is short. Ends with a line end.
+std::string as_text(const nlohmann::ordered_json& document);
+
+}  // namespace breach::templates

@@ -1,0 +1,117 @@
+// Starter dam on the foundation, raises on the tailings upstream of it.
+#include <algorithm>
+
+#include "services/templates/outline.hpp"
+
+namespace breach::templates {
+
+namespace {
+
+/// One dyke: a trapezoid on the level `base`.
+struct Dyke {
+    double base, top;
+    double heel, upstream_edge, downstream_edge, toe;  ///< x
+};
+
+Dyke dyke_at(double toe, double base, double top, double face, const Values& values) {
+    Dyke dyke{
+        .base = base, .top = top, .heel = 0, .upstream_edge = 0, .downstream_edge = 0, .toe = toe};
+    dyke.downstream_edge = toe - face * (top - base);
+    dyke.upstream_edge = dyke.downstream_edge - values["crest_width"];
+    dyke.heel = dyke.upstream_edge - values["upstream_slope"] * (top - base);
+    return dyke;
+}
+
+std::vector<Dyke> dykes_of(const Values& values) {
+    const int raises = values.whole("raises");
+    const double height = values["height"];
+    const double starter = raises == 0 ? height : values["starter_height"];
+    std::vector<Dyke> dykes{dyke_at(0.0, 0.0, starter, values["starter_slope"], values)};
+    for (int k = 1; k <= raises; ++k) {
+        const double base = dykes.back().top;
+        const double top = k == raises ? height : starter + k * (height - starter) / raises;
+        const double toe = dykes.back().downstream_edge - values["bench_width"];
+        dykes.push_back(dyke_at(toe, base, top, values["raise_slope"], values));
+    }
+    return dykes;
+}
+
+void check_raises(const Values& values) {
+    Refusal refusal(values);
+    if (values.whole("raises") > 0) {
+        refusal.unless(values["starter_height"] <= 0.95 * values["height"], "starter_height",
+                       "leaves nothing to raise on a dam of " + metres(values["height"]),
+                       "give at most 0.95 height, or raises 0");
+        refusal.unless(
+            values["bench_width"] <= 0.75 * values["crest_width"], "bench_width",
+            "the next raise would not stand on a crest of " + metres(values["crest_width"]),
+            "give at most three quarters of crest_width");
+    }
+    refusal.speak();
+}
+
+void check_beach(const Values& values, const Dyke& last, double at_heel, double at_end) {
+    Refusal refusal(values);
+    refusal.unless(values["freeboard"] <= 0.5 * (last.top - last.base), "freeboard",
+                   "the last dyke is only " + metres(last.top - last.base) + " high",
+                   "give at most half of that");
+    refusal.unless(at_heel > last.base + 0.2 * (last.top - last.base), "beach_slope",
+                   "the beach falls below the base of the last dyke before it has covered it",
+                   "make it flatter, lower freeboard, or make fewer raises");
+    refusal.unless(at_end >= 0.3 * values["height"], "beach_slope",
+                   "tailings at the model's end would be " + metres(at_end) + " high",
+                   "make it flatter, or shorten beach_length or pond_length");
+    refusal.speak();
+}
+
+}  // namespace
+
+Outline upstream_dam(const Values& values) {
+    check_raises(values);
+    const std::vector<Dyke> dykes = dykes_of(values);
+    const Dyke& last = dykes.back();
+    const double fall = values["beach_slope"];
+    const Vec2 contact{last.upstream_edge - values["upstream_slope"] * values["freeboard"],
+                       last.top - values["freeboard"]};
+    const auto surface = [&](double x) { return contact.y() - fall * (contact.x() - x); };
+    const double edge = contact.x() - values["beach_length"];
+    double left = edge - values["pond_length"];
+    for (const Dyke& each : dykes) left = std::min(left, each.heel - 0.1 * values["height"]);
+    check_beach(values, last, surface(last.heel), surface(left));
+
+    Outline outline;
+    Polygon tailings{{left, 0.0}};
+    outline.ground = {{left, surface(left)}, contact, {last.upstream_edge, last.top}};
+    for (std::size_t k = 0; k < dykes.size(); ++k) {
+        const Dyke& each = dykes[k];
+        Polygon ring{{each.heel, each.base}};
+        if (k > 0) ring.push_back({dykes[k - 1].upstream_edge, each.base});
+        ring.push_back({each.toe, each.base});
+        ring.push_back({each.downstream_edge, each.top});
+        if (k + 1 < dykes.size() && dykes[k + 1].toe < each.downstream_edge)
+            ring.push_back({dykes[k + 1].toe, each.top});
+        ring.push_back({each.upstream_edge, each.top});
+        if (k + 1 == dykes.size()) ring.push_back(contact);
+        outline.parts.push_back(
+            {k == 0 ? "starter_dam" : "raise_" + std::to_string(k), "embankment", ring});
+        tailings.push_back({each.heel, each.base});
+        tailings.push_back(k + 1 == dykes.size() ? contact : Vec2{each.upstream_edge, each.top});
+    }
+    tailings.push_back({left, surface(left)});
+    for (auto each = dykes.rbegin(); each != dykes.rend(); ++each) {
+        outline.ground.push_back({each->downstream_edge, each->top});
+        const bool bench = each + 1 != dykes.rend() && each->toe < (each + 1)->downstream_edge;
+        if (bench || each + 1 == dykes.rend()) outline.ground.push_back({each->toe, each->base});
+    }
+    outline.parts.push_back({"tailings", "tailings", tailings});
+    outline.wet = "tailings";
+    outline.crest = {last.downstream_edge, last.top};
+    outline.crest_from = last.upstream_edge;
+    outline.left = left;
+    outline.phreatic =
+        drained_line({edge, surface(edge)}, values.is_on("drain") ? dykes.front().heel : 0.0, left,
+                     values["foundation_extent"], outline.ground);
+    return outline;
+}
+
+}  // namespace breach::templates
