@@ -288,7 +288,8 @@ test("a faulty study is refused with every fault in its place", async () => {
 test("an example is loaded, planned, submitted, and fills in live", async () => {
     await page.goto(url);
     await page.click("nav [data-opens=submit]");
-    await page.click("#examples button");
+    await until("the examples", () => page.isVisible("#examples"));
+    await page.selectOption("#examples", { index: 1 });
     await until("the example's text", async () => (await page.inputValue("#study")).includes("breachline-study/1"));
     await page.click("#show-plan");
     await until("a plan", async () => /softening/.test(await text_of("#plan")));

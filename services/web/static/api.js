@@ -94,6 +94,17 @@ export const send_file = (file) => get_json(`/v1/files?${new URLSearchParams({ n
     { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file });
 /// What was sent to the server before, newest first.
 export const list_files = async () => (await get_json("/v1/files")).files;
+/// What scenes can be made from: [{name, title, options}]; none of an earlier service.
+export async function list_templates() {
+    try {
+        return (await get_json("/v1/templates")).templates;
+    } catch (fault) {
+        if (fault instanceof Problem && fault.status === 404) return [];
+        throw fault;
+    }
+}
+/// {options, study} of the options that are given; the others have their defaults.
+export const make_from_template = (name, options, signal) => get_json(path_of("templates", name), { ...json_body(JSON.stringify(options)), signal });
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
 /// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the

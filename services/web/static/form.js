@@ -16,6 +16,21 @@ const makers = { scalar: Scalar, tuple: Tuple, numbers: List, words: List, point
 const names_materials = new Set(["material", "to", "saturated", "like"]);
 const names_regions = new Set(["region", "regions"]);
 
+/// At a part of the form.
+export function say_fault(part, { cause, remedy }) {
+    part.slot?.append(element("p", {}, element("strong", {}, cause), remedy ? ` ${remedy}` : ""));
+    if (!part.control?.matches("input, select")) return;
+    part.control.setAttribute("aria-invalid", "true");
+    part.control.dataset.fault = "";
+}
+export function forget_faults(root) {
+    for (const slot of root.querySelectorAll(".field-faults")) slot.replaceChildren();
+    for (const control of root.querySelectorAll("[data-fault]")) {
+        control.removeAttribute("aria-invalid");
+        delete control.dataset.fault;
+    }
+}
+
 export class Form {
     /// edit(change, kind): has the text changed by change(text); edits of one kind in a row are one step back. looked_at(pointer): where
     /// the reader is.
@@ -147,11 +162,7 @@ export class Form {
     }
 
     mark() {
-        for (const slot of this.element.querySelectorAll(".field-faults")) slot.replaceChildren();
-        for (const control of this.element.querySelectorAll("[data-fault]")) {
-            control.removeAttribute("aria-invalid");
-            delete control.dataset.fault;
-        }
+        forget_faults(this.element);
         const counts = new Map(this.counted);
         for (const [part] of counts) counts.set(part, 0);
         const said = new Set();
@@ -160,11 +171,7 @@ export class Form {
             said.add(pointer + cause);
             const way = this.way_to(pointer);
             const part = way.at(-1)?.[0];
-            part?.slot?.append(element("p", {}, element("strong", {}, cause), remedy ? ` ${remedy}` : ""));
-            if (part?.control?.matches("input, select")) {
-                part.control.setAttribute("aria-invalid", "true");
-                part.control.dataset.fault = "";
-            }
+            if (part) say_fault(part, { cause, remedy });
             for (const [each] of way) if (each.add_faults) counts.set(each, (counts.get(each) ?? 0) + 1);
         }
         for (const [part, count] of counts) part.add_faults(count);

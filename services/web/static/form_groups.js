@@ -21,7 +21,7 @@ export class Members {
             if (shape_of(each) === "constant") continue;
             const part = this.form.make(each, [...this.parts, name], { name, required: required.has(name) });
             this.inside.set(name, part);
-            const is_shown = required.has(name) || value?.[name] !== undefined || (this.parts.length < 2 && always.has(name));
+            const is_shown = required.has(name) || value?.[name] !== undefined || this.form.shows_all || (this.parts.length < 2 && always.has(name));
             if (is_shown) this.element.append(part.element);
             else late.push(part);
         }

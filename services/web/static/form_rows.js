@@ -14,10 +14,10 @@ function title_of(value, place) {
     return `${typeof named === "string" ? named : place}${kind}`;
 }
 
-/// One row: its head with the tools, and its fields when it is opened. `tools`: buttons; `head`: an input beside them, or null.
+/// One row: its head with the tools, and its fields when it is opened. tools: buttons; head: a field before the others; one: what a row is.
 class Row {
-    constructor(form, entry, parts, tools, head = null) {
-        Object.assign(this, { form, entry, parts });
+    constructor(form, entry, parts, { tools, head = null, one = "" }) {
+        Object.assign(this, { form, entry, parts, one });
         this.fold = new Fold("", { id: new_id(), level: "item" });
         this.fold.fill = () => this.fill();
         this.slot = element("div", { class: "field-faults" });
@@ -32,7 +32,7 @@ class Row {
             this.inner = new Members(this.form, this.entry, this.parts);
             this.inner.make(this.value);
         } else {
-            this.inner = this.form.make(this.entry, this.parts, { name: "kind", required: true });
+            this.inner = this.form.make(this.entry, this.parts, { name: shape_of(this.entry) === "choice" ? "kind" : this.one, required: true });
             this.inner.update(this.value);
         }
         this.fold.body.append(this.inner.element);
@@ -113,8 +113,8 @@ export class Rows extends Container {
             return made;
         };
         return new Row(this.form, this.entry.items, [...this.parts, String(i)],
-            [tool("↑", "move up", () => this.move(i, -1), -1), tool("↓", "move down", () => this.move(i, 1), 1),
-             tool("copy", "copy", () => this.form.insert(this.parts, i + 1, this.rows[i].value)), tool("✕", "remove", () => this.remove(i))]);
+            { one: this.one, tools: [tool("↑", "move up", () => this.move(i, -1), -1), tool("↓", "move down", () => this.move(i, 1), 1),
+                tool("copy", "copy", () => this.form.insert(this.parts, i + 1, this.rows[i].value)), tool("✕", "remove", () => this.remove(i))] });
     }
 
     update(value) {
@@ -168,8 +168,8 @@ export class NamedRows extends Container {
         const input = element("input", { id, type: "text", class: "word", autocomplete: "off", spellcheck: "false", value: name,
                                          onchange: () => this.rename(name, input) });
         return new Row(this.form, this.entry.additionalProperties, [...this.parts, name],
-            [button("copy", `copy ${name}`, () => this.copy(name)), button("✕", `remove ${name}`, () => this.form.remove([...this.parts, name]))],
-            element("div", { class: "field" }, element("div", { class: "field-name" }, element("label", { for: id }, "name")), element("div", { class: "field-value" }, input)));
+            { tools: [button("copy", `copy ${name}`, () => this.copy(name)), button("✕", `remove ${name}`, () => this.form.remove([...this.parts, name]))],
+              head: element("div", { class: "field" }, element("div", { class: "field-name" }, element("label", { for: id }, "name")), element("div", { class: "field-value" }, input)) });
     }
 
     update(value) {

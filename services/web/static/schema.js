@@ -22,6 +22,9 @@ const is_number = (entry) => entry?.type === "number" || entry?.type === "intege
 const is_scalar = (entry) => is_number(entry) || ["string", "boolean"].includes(entry.type) || "enum" in entry;
 const is_point = (entry) => entry?.type === "array" && is_number(entry.items) && entry.minItems === 2 && entry.maxItems === 2;
 
+/// A word without a comma in it, not a sentence.
+const is_name = (entry) => entry?.type === "string" && ("enum" in entry || !entry.description || /name/.test(entry.description));
+
 /// How an entry is edited: constant, scalar, choice, group, map, tuple, points, numbers, words, rows or text (plain JSON).
 export function shape_of(entry) {
     if ("const" in entry) return "constant";
@@ -32,7 +35,7 @@ export function shape_of(entry) {
         if (is_number(entry.items) && entry.minItems === entry.maxItems && entry.maxItems <= 4) return "tuple";
         if (is_point(entry.items)) return "points";
         if (is_number(entry.items)) return "numbers";
-        if (entry.items?.type === "string" && !/=value/.test(entry.description)) return "words";
+        if (is_name(entry.items) && !/=value/.test(entry.description)) return "words";
         if (entry.items) return "rows";
     }
     return is_scalar(entry) ? "scalar" : "text";

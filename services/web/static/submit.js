@@ -6,6 +6,7 @@ import { Form } from "./form.js";
 import { JsonPane } from "./json_pane.js";
 import { print } from "./json_text.js";
 import { LiveDrawing } from "./live_drawing.js";
+import { Templates } from "./templates.js";
 
 export class SubmitDialog {
     /// submitted(run): the server took it.
@@ -16,9 +17,11 @@ export class SubmitDialog {
         this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer));
         this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer),
                                        (faults) => this.mark("drawing", faults));
+        this.templates = new Templates(this.pane, (fault) => this.refuse(fault));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {
             button.addEventListener("click", () => this.open());
         }
+        by_id("examples").addEventListener("change", (event) => this.take_example(this.examples.find(({ name }) => name === event.target.value)));
         by_id("study-file").addEventListener("change", (event) => this.take_file(event.target));
         by_id("submit").addEventListener("click", () => this.submit());
         by_id("show-plan").addEventListener("click", () => this.show_plan());
@@ -35,9 +38,9 @@ export class SubmitDialog {
             await this.form.start();
             this.form.show(this.pane.text);
             if (this.has_examples) return;
-            const examples = await api.list_examples();
-            by_id("examples").replaceChildren(...examples.map((example) => element("button", { type: "button",
-                title: example.title || null, onclick: () => this.take_example(example) }, `Load ${example.name}`)));
+            await this.templates.offer();
+            const examples = this.examples = await api.list_examples();
+            by_id("examples").append(...examples.map(({ name, title }) => element("option", { value: name, title: title || null }, name)));
             by_id("examples-row").hidden = examples.length === 0;
             this.has_examples = true;
         } catch (fault) {
@@ -47,6 +50,7 @@ export class SubmitDialog {
 
     take_text(text) {
         this.clear();
+        this.templates.close();
         this.pane.take(text);
     }
 
@@ -70,6 +74,8 @@ export class SubmitDialog {
     }
 
     async take_example(example) {
+        if (!example) return;
+        by_id("examples").value = ""; // to be chosen again
         try {
             const study = example.study ?? await api.read_example(example.name);
             this.take_text(print(study));
@@ -142,7 +148,10 @@ export class SubmitDialog {
         by_id("faults").hidden = false;
         by_id("study").setAttribute("aria-invalid", "true");
         this.mark("submission", faults);
-        if (faults.length) this.pane.scroll_to(faults[0].pointer);
+        if (faults.length) {
+            this.templates.close();
+            this.pane.scroll_to(faults[0].pointer);
+        }
         if (!faults.length || !this.form.reveal(faults[0].pointer, { focus: true })) by_id("fault-title").focus();
     }
 
@@ -154,6 +163,7 @@ export class SubmitDialog {
 
     /// Selects the text that the pointer names, and opens its field.
     point_to(pointer) {
+        this.templates.close();
         this.form.reveal(pointer);
         this.pane.select(pointer);
     }
