@@ -4,6 +4,7 @@ import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { open_browser, until } from "./browser.mjs";
 import { FakeApi } from "./fake_api.mjs";
+import { field_of } from "./form_page.mjs";
 
 const study_text = readFileSync(new URL("small_study.json", import.meta.url), "utf8");
 const api = new FakeApi({ pace: 1 });
@@ -25,25 +26,8 @@ after(async () => {
 
 const text_of = () => page.inputValue("#study");
 const value = async () => JSON.parse(await text_of());
+const field = (pointer) => field_of(page, pointer);
 const load = (text) => page.fill("#study", typeof text === "string" ? text : JSON.stringify(text, null, 4));
-/// The control of a place, its groups opened by a reader's clicks.
-async function field(pointer) {
-    const way = pointer.split("/").slice(1, -1);
-    let root = page.locator("#form");
-    for (const [i, name] of way.entries()) {
-        const row = /^\d+$/.test(name) ? root.locator(".rows > li").nth(Number(name)).locator("> details") : root.locator(`details[data-group="${name}"]`).first();
-        const fold = (await row.count()) ? row : root.locator(`.rows > li > details:has(> summary .fold-title:text-matches("^${name}( |$)"))`).first();
-        if (!(await fold.count())) continue; // a choice has no line of its own
-        const hidden = root.locator("details.more-members:not([open])").filter({ has: fold });
-        if (await hidden.count()) await hidden.first().locator("> summary").click();
-        if (!(await fold.evaluate((each) => each.open))) await fold.locator("> summary").click();
-        root = fold;
-    }
-    const label = page.locator(`#form label[title="${pointer}"]`).first();
-    const more = page.locator("#form details.more-members").filter({ has: page.locator(`label[title="${pointer}"]`) });
-    for (let i = 0; i < (await more.count()); i += 1) if (!(await more.nth(i).evaluate((each) => each.open))) await more.nth(i).locator("> summary").click();
-    return page.locator(`#${await label.getAttribute("for")}`);
-}
 /// What differs between two texts: [lines of the first, lines of the second].
 function difference(one, other) {
     const [a, b] = [one.split("\n"), other.split("\n")];
