@@ -46,6 +46,8 @@ test("what the service finds wrong stands at its fields, in its variants too", a
         assert.equal(await control.getAttribute("aria-invalid"), "true");
     }
     assert.ok((await page.locator("#form .field-faults p").count()) >= places.length, "each fault has a place in the form");
+    const duration = await field("/scene/fem/stages/1/duration");
+    assert.match(await row_of(duration).locator(".field-faults").textContent(), /lacks "duration"/);
     assert.ok((await page.locator("#study-lines mark").count()) >= 3);
     await screenshot_at("form_faults");
 
@@ -113,6 +115,32 @@ test("a scene from a template, changed in the form, runs to its result", async (
     console.log(`heap of 10 m at friction 0.3: runout ${rows[0].runout.toFixed(2)} m, factor of safety ${rows[0].factor_of_safety?.toFixed(2)}`);
     const { study } = await answer(`/v1/runs/${run.id}`);
     assert.equal((study.scene ?? {}).mpm?.floor.friction[0].coefficient, 0.3);
+});
+
+test("a section drawn elsewhere becomes the scene's; what is wrong with the file is drawn and leaves the text alone", async (context) => {
+    const routes = await (await fetch(`${live.service.url}/openapi.json`)).json();
+    if (!routes.paths["/v1/import"]) return context.skip("this service reads no drawings");
+    await page.goto(live.service.url);
+    await page.click("nav [data-opens=submit]");
+    await page.fill("#study", study_text);
+    const csv = (y) => `region,x,y\nsand,0,0\nsand,40,0\nsand,20,${y}\nsand,0,${y}\n`;
+    const send = (text) => page.setInputFiles("#section-file", { name: "slope.csv", mimeType: "text/csv", buffer: Buffer.from(text) });
+    await send(csv(10));
+    await until("the slope in the scene", async () => (await value()).scene.section.regions[0].polygon.length === 5);
+    assert.equal((await value()).scene.materials.sand.density, 1800, "the soils are those that stood there");
+    assert.match(await page.textContent("#options-note"), /healed.*guessed: \/section\/element_size/);
+    const before = await page.inputValue("#study");
+    await send(csv(10).replaceAll("sand", "clay"));
+    await until("what is wrong", async () => /clay/.test(await page.textContent("#drawing-faults")));
+    assert.equal(await page.inputValue("#study"), before);
+    assert.ok(await page.locator("#drawing-picture svg").count());
+    await screenshot_at("form_import");
+    await page.getByLabel("map", { exact: true }).fill("clay=sand");
+    await until("mapped", async () => (await value()).scene.section.regions[0].name === "clay");
+    assert.equal((await value()).scene.section.regions[0].material, "sand");
+    await page.click("#form-undo");
+    assert.equal(await page.inputValue("#study"), before);
+    await page.keyboard.press("Escape");
 });
 
 test("nothing failed inside the page", () => {

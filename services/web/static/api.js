@@ -105,6 +105,10 @@ export async function list_templates() {
 }
 /// {options, study} of the options that are given; the others have their defaults.
 export const make_from_template = (name, options, signal) => get_json(path_of("templates", name), { ...json_body(JSON.stringify(options)), signal });
+/// {scene, report} of a section drawn as DXF or CSV.
+export const import_section = (body, signal) => get_json("/v1/import", { ...json_body(JSON.stringify(body)), signal });
+/// The same as SVG text, faults in red.
+export const picture_of_import = async (body) => body_of(await request("/v1/import?picture=1", json_body(JSON.stringify(body))), "text");
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
 /// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the

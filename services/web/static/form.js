@@ -16,6 +16,12 @@ const makers = { scalar: Scalar, tuple: Tuple, numbers: List, words: List, point
 const names_materials = new Set(["material", "to", "saturated", "like"]);
 const names_regions = new Set(["region", "regions"]);
 
+/// Of an entry that is missing the service names the object that lacks it; the form has a field for it.
+function place_of(pointer, cause) {
+    const missing = cause.match(/^lacks "([^"]+)"/)?.[1];
+    return missing ? pointer + pointer_of([missing]) : pointer;
+}
+
 /// At a part of the form.
 export function say_fault(part, { cause, remedy }) {
     part.slot?.append(element("p", {}, element("strong", {}, cause), remedy ? ` ${remedy}` : ""));
@@ -169,7 +175,7 @@ export class Form {
         for (const { pointer, cause, remedy } of this.faults) {
             if (!this.root || said.has(pointer + cause)) continue;
             said.add(pointer + cause);
-            const way = this.way_to(pointer);
+            const way = this.way_to(place_of(pointer, cause));
             const part = way.at(-1)?.[0];
             if (part) say_fault(part, { cause, remedy });
             for (const [each] of way) if (each.add_faults) counts.set(each, (counts.get(each) ?? 0) + 1);
@@ -180,7 +186,8 @@ export class Form {
 
     /// Opens the way to a place and scrolls there; true when the form has it.
     reveal(pointer, { focus = false } = {}) {
-        const way = this.way_to(pointer);
+        const fault = this.faults.find((each) => each.pointer === pointer);
+        const way = this.way_to(fault ? place_of(pointer, fault.cause) : pointer);
         if (way.length === 0) return false;
         way.forEach(([part], i) => part.open?.(way[i + 1]?.[1]));
         this.root.open_for(way[0][1]);

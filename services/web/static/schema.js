@@ -66,9 +66,10 @@ export function unit_of(entry) {
     return unit === "1" ? "" : unit;
 }
 
-/// "> 0, ≤ 1000"; empty without limits.
+/// "0 to 1", "> 0, ≤ 1000"; empty without limits.
 export function range_of(entry) {
     const { minimum, exclusiveMinimum, maximum, exclusiveMaximum } = of_number(entry);
+    if (minimum !== undefined && maximum !== undefined) return `${shown(minimum)} to ${shown(maximum)}`;
     return [[minimum, "≥ "], [exclusiveMinimum, "> "], [maximum, "≤ "], [exclusiveMaximum, "< "]]
         .filter(([limit]) => limit !== undefined).map(([limit, sign]) => sign + shown(limit)).join(", ");
 }

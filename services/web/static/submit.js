@@ -6,6 +6,8 @@ import { Form } from "./form.js";
 import { JsonPane } from "./json_pane.js";
 import { print } from "./json_text.js";
 import { LiveDrawing } from "./live_drawing.js";
+import { OptionsPanel } from "./options_panel.js";
+import { SectionImport } from "./section_import.js";
 import { Templates } from "./templates.js";
 
 export class SubmitDialog {
@@ -17,7 +19,13 @@ export class SubmitDialog {
         this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer));
         this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer),
                                        (faults) => this.mark("drawing", faults));
-        this.templates = new Templates(this.pane, (fault) => this.refuse(fault));
+        this.options = new OptionsPanel(this.pane, (fault) => this.refuse(fault), () => {
+            by_id("template-choice").value = "";
+        });
+        this.templates = new Templates(this.options);
+        this.sections = new SectionImport(this.options, this.pane, this.drawing);
+        this.dialog.addEventListener("dragover", (event) => event.preventDefault());
+        this.dialog.addEventListener("drop", (event) => this.drop(event));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {
             button.addEventListener("click", () => this.open());
         }
@@ -50,7 +58,7 @@ export class SubmitDialog {
 
     take_text(text) {
         this.clear();
-        this.templates.close();
+        this.options.close();
         this.pane.take(text);
     }
 
@@ -58,6 +66,8 @@ export class SubmitDialog {
     changed(text) {
         this.form.show(text);
         this.pane.mark(this.form.faults);
+        const left = new Set(this.form.faults.map(({ pointer, cause }) => pointer + cause));
+        for (const item of by_id("fault-list").children) item.classList.toggle("mended", !left.has(item.dataset.fault));
         this.drawing.changed(text);
         by_id("study").removeAttribute("aria-invalid");
     }
@@ -71,6 +81,15 @@ export class SubmitDialog {
         const file = input.files[0];
         if (file) this.take_text(await file.text());
         input.value = "";
+    }
+
+    /// A study, or a section drawn elsewhere; a motion is dropped on its field.
+    async drop(event) {
+        event.preventDefault();
+        const file = event.dataTransfer.files[0];
+        if (!file) return;
+        if (/\.(dxf|csv)$/i.test(file.name)) this.sections.begin(file.name, await file.text());
+        else this.take_text(await file.text());
     }
 
     async take_example(example) {
@@ -149,21 +168,23 @@ export class SubmitDialog {
         by_id("study").setAttribute("aria-invalid", "true");
         this.mark("submission", faults);
         if (faults.length) {
-            this.templates.close();
+            this.options.close();
             this.pane.scroll_to(faults[0].pointer);
         }
         if (!faults.length || !this.form.reveal(faults[0].pointer, { focus: true })) by_id("fault-title").focus();
     }
 
-    fault_item(one) {
-        return element("li", {}, this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause} `,
-                       element("span", { class: "muted" }, `line ${this.pane.line_of(one.pointer)}`),
+    fault_item(one, is_in_text = true) {
+        const is_place = is_in_text && (one.pointer === "" || one.pointer.startsWith("/"));
+        return element("li", { "data-fault": one.pointer + one.cause },
+                       is_place ? this.link_to(one.pointer, one.pointer || "/") : element("code", {}, one.pointer), ` ${one.cause} `,
+                       is_place ? element("span", { class: "muted" }, `line ${this.pane.line_of(one.pointer)}`) : null,
                        one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
     /// Selects the text that the pointer names, and opens its field.
     point_to(pointer) {
-        this.templates.close();
+        this.options.close();
         this.form.reveal(pointer);
         this.pane.select(pointer);
     }
