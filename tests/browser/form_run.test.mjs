@@ -76,7 +76,7 @@ test("a scene is made from a template, its options are fields, and a bad one is 
 test("a shaken dam's motion is told, and another one sent in its place", async () => {
     await page.getByLabel("with fem", { exact: true }).selectOption({ label: "yes" });
     await until("a motion", async () => /^file:sha256/.test((await value()).scene.fem?.motion?.file ?? ""));
-    await page.click("#template-done");
+    await page.click("#options-done");
     const file = await field("/scene/fem/motion/file");
     await until("what it is", async () => /motion.csv: PGA 0.3 g/.test(await row_of(file).locator(".file-state").textContent()));
     const synthetic = (await value()).scene.fem.motion.file;
@@ -95,7 +95,7 @@ test("a scene from a template, changed in the form, runs to its result", async (
     await page.getByLabel("height", { exact: true }).fill("10");
     await page.getByLabel("cell size", { exact: true }).fill("1.25");
     await until("its cells", async () => (await value()).scene.mpm.cell_size === 1.25);
-    await page.click("#template-done");
+    await page.click("#options-done");
     const title = await field("/title");
     await title.fill("A heap of mine");
     await field("/variants/any");

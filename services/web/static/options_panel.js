@@ -34,7 +34,7 @@ class Options {
 export class OptionsPanel {
     /// pane: where the made text goes; refuse(fault): what is not about an option; closed(): the form is back.
     constructor(pane, refuse, closed) {
-        Object.assign(this, { pane, refuse, closed, made: null });
+        Object.assign(this, { pane, refuse, closed, made: null, opened: 0 });
         by_id("options-make").addEventListener("click", () => this.make());
         by_id("options-done").addEventListener("click", () => {
             this.close();
@@ -47,6 +47,7 @@ export class OptionsPanel {
     open(source) {
         this.close();
         this.source = source;
+        this.opened += 1;
         this.options = new Options(source.properties, () => this.changed());
         set_text(by_id("options-title"), source.title);
         by_id("options-fields").replaceChildren(this.options.members.element);
@@ -86,7 +87,7 @@ export class OptionsPanel {
             forget_faults(members.element);
             by_id("options-make").hidden = true;
             this.made = text;
-            this.pane.edit(() => text, `made: ${this.source.title}`);
+            this.pane.edit(() => text, `made ${this.opened}`);
             set_text(by_id("options-note"), note);
         } catch (fault) {
             if (fault.name === "AbortError") return;

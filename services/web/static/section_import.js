@@ -42,8 +42,10 @@ export class SectionImport {
         this.panel.open({
             title: `Section of ${file}: it takes the place of the scene's, with the soils that stand there.`, properties,
             make: async (values, signal) => {
-                const { scene, report } = await api.import_section(asked(values), signal);
-                return { text: print({ ...study, scene: { ...scene, ...(study.scene?.title ? { title: study.scene.title } : {}) } }), note: note_of(report) };
+                const { scene: { format, name, section, ...others }, report } = await api.import_section(asked(values), signal);
+                const { title, materials } = study.scene ?? {};
+                const scene = { format, name, ...(title === undefined ? {} : { title }), materials, section, ...others, ...(materials ? { materials } : {}) };
+                return { text: print({ ...study, scene }), note: note_of(report) };
             },
             failed: (fault) => this.show_faults(asked(this.panel.options.values), fault),
         });
