@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { open_browser, until } from "./browser.mjs";
 import { FakeApi } from "./fake_api.mjs";
-import { field_of } from "./form_page.mjs";
+import { field_of, open_groups } from "./form_page.mjs";
 
 const study_text = readFileSync(new URL("small_study.json", import.meta.url), "utf8");
 const api = new FakeApi({ pace: 1 });
@@ -198,7 +198,7 @@ test("a motion is sent, named in the scene by its content, and told; what is non
 
 test("variants are rows, what they change are columns; a sweep makes one for each value; times are a list or a range", async () => {
     await load(study_text);
-    await page.click("#form details[data-group=variants] > summary");
+    await open_groups(page, ["variants"]);
     const table = page.locator("#form details[data-group=variants]");
     await table.getByLabel("parameter").fill("/materials/sand/law/phi_deg");
     await table.getByLabel("values of a sweep").fill("25, 30 35");

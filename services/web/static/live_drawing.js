@@ -16,8 +16,14 @@ export class LiveDrawing {
         by_id("drawing-mesh").addEventListener("change", () => this.changed(by_id("study").value));
     }
 
+    /// From what show_foreign drew.
+    return_to(text) {
+        if (this.is_foreign) this.changed(text);
+    }
+
     /// The text is another one.
     changed(text) {
+        this.is_foreign = false;
         clearTimeout(this.timer);
         this.asked?.abort();
         if (text.trim() === "") return this.forget();
@@ -53,6 +59,9 @@ export class LiveDrawing {
 
     /// What is wrong with a file that is not in the text: its picture (SVG, or null), and the faults that were answered.
     show_foreign(text, fault) {
+        clearTimeout(this.timer);
+        this.asked?.abort();
+        this.is_foreign = true;
         if (text) this.place(text);
         this.tell(fault.message, fault.faults ?? [], "elsewhere");
     }

@@ -21,6 +21,7 @@ export class SubmitDialog {
                                        (faults) => this.mark("drawing", faults));
         this.options = new OptionsPanel(this.pane, (fault) => this.refuse(fault), () => {
             by_id("template-choice").value = "";
+            this.drawing.return_to(this.pane.text);
         });
         this.templates = new Templates(this.options);
         this.sections = new SectionImport(this.options, this.pane, this.drawing);
@@ -66,10 +67,17 @@ export class SubmitDialog {
     changed(text) {
         this.form.show(text);
         this.pane.mark(this.form.faults);
-        const left = new Set(this.form.faults.map(({ pointer, cause }) => pointer + cause));
-        for (const item of by_id("fault-list").children) item.classList.toggle("mended", !left.has(item.dataset.fault));
+        this.show_mended();
         this.drawing.changed(text);
         by_id("study").removeAttribute("aria-invalid");
+    }
+
+    /// Of what was refused.
+    show_mended() {
+        const left = new Set(this.form.faults.map(({ pointer, cause }) => pointer + cause));
+        const items = [...by_id("fault-list").children];
+        for (const item of items) item.classList.toggle("mended", !left.has(item.dataset.fault));
+        if (items.length > 0 && items.every((item) => item.matches(".mended"))) by_id("faults").hidden = true;
     }
 
     mark(source, faults) {
