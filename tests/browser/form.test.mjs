@@ -184,14 +184,14 @@ test("a motion is sent, named in the scene by its content, and told; what is non
     assert.equal(await row.locator(".file-state").textContent(), "quake.csv: PGA 0.31 g, Arias 1.2 m/s");
     const { file: reference } = (await value()).scene.fem.motion;
     await row.locator("input[type=file]").setInputFiles({ name: "empty.csv", mimeType: "text/csv", buffer: Buffer.from("") });
-    await until("the refusal", async () => /empty.csv: line 1: no numbers send two columns/.test(await row.locator(".field-faults").textContent()));
+    await until("the refusal", async () => /empty.csv: line 1: no numbers send two columns/.test(await row.locator(".file-faults").textContent()));
     assert.equal((await value()).scene.fem.motion.file, reference, "the scene keeps its motion");
     await row.locator(".drop").evaluate((place) => {
         const data = new DataTransfer();
         data.items.add(new File(["mesh"], "dam.msh"));
         place.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
     });
-    await until("another refusal", async () => /dam.msh is a mesh, a motion belongs here/.test(await row.locator(".field-faults").textContent()));
+    await until("another refusal", async () => /dam.msh is a mesh, a motion belongs here/.test(await row.locator(".file-faults").textContent()));
     await load(JSON.stringify({ ...shaken, name: "again" }).replace('"file":""', `"file":"${reference}"`));
     await until("what it is", async () => /quake.csv: PGA/.test(await row.locator(".file-state").textContent()));
 });

@@ -81,7 +81,7 @@ test("a shaken dam's motion is told, and another one sent in its place", async (
     await until("what it is", async () => /motion.csv: PGA 0.3 g/.test(await row_of(file).locator(".file-state").textContent()));
     const synthetic = (await value()).scene.fem.motion.file;
     await row_of(file).locator("input[type=file]").setInputFiles({ name: "letter.txt", mimeType: "text/plain", buffer: Buffer.from("dear dam,\n") });
-    await until("the refusal", async () => /letter.txt/.test(await row_of(file).locator(".field-faults").textContent()));
+    await until("the refusal", async () => /letter.txt/.test(await row_of(file).locator(".file-faults").textContent()));
     assert.equal((await value()).scene.fem.motion.file, synthetic);
     await row_of(file).locator("input[type=file]").setInputFiles(motion);
     await until("another motion", async () => (await value()).scene.fem.motion.file !== synthetic);

@@ -16,10 +16,11 @@ export class FileField {
         this.sent = element("datalist", { id: `${id}-sent` });
         this.chooser = element("input", { type: "file", id: `${id}-file`, class: "unseen", onchange: () => this.send(this.chooser.files[0]) });
         this.state = element("p", { class: "file-state", role: "status" });
+        this.refused = element("div", { class: "file-faults", role: "alert" }); // not among the document's faults, which come and go with the text
         const drop = element("div", { class: "drop", ondragover: (event) => this.over(event), ondragleave: () => drop.classList.remove("over"), ondrop: (event) => this.drop(event) },
             element("label", { for: this.chooser.id, class: "button" }, "Send a file…"), this.chooser, element("span", { class: "muted" }, "or drop it here"));
         this.drop_place = drop;
-        this.element = field_of(this, id, [this.control, this.sent, drop, this.state]);
+        this.element = field_of(this, id, [this.control, this.sent, drop, this.state, this.refused]);
     }
     child() { return null; }
 
@@ -64,9 +65,8 @@ export class FileField {
     }
     /// Of the file alone: the scene has not changed.
     refuse(fault, name) {
-        this.control.toggleAttribute("aria-invalid", fault !== null);
         const faults = fault?.faults?.length ? fault.faults : fault ? [{ cause: fault.message }] : [];
-        this.slot.replaceChildren(...faults.map(({ cause, remedy, pointer }) => element("p", {}, element("strong", {}, `${name}: ${pointer ? `${pointer}: ` : ""}${cause}`), remedy ? ` ${remedy}` : "")));
+        this.refused.replaceChildren(...faults.map(({ cause, remedy, pointer }) => element("p", {}, element("strong", {}, `${name}: ${pointer ? `${pointer}: ` : ""}${cause}`), remedy ? ` ${remedy}` : "")));
     }
 
     async offer() {
