@@ -91,7 +91,6 @@ export class Form {
     // ---- what the text says
 
     scene() { return this.is_study ? this.value?.scene : this.value; }
-    scene_parts() { return this.is_study ? ["scene"] : []; }
     names_for(parts) {
         const name = parts.at(-1);
         return names_materials.has(name) ? this.names.materials.id : names_regions.has(name) ? this.names.regions.id : null;
@@ -111,7 +110,6 @@ export class Form {
         this.say("");
         const is_study = !String(value.format).startsWith("breachline-scene");
         if (!this.root || is_study !== this.is_study) this.begin(is_study);
-        this.is_shown = true;
         this.root.update(value);
         this.fill_names();
         this.faults = this.faults.filter((fault) => JSON.stringify(this.value_at(fault.pointer)) === fault.was);
