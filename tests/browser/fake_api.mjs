@@ -7,6 +7,7 @@ import { fileURLToPath } from "node:url";
 import path from "node:path";
 
 const static_folder = fileURLToPath(new URL("../../services/web/static", import.meta.url));
+const schema_folder = fileURLToPath(new URL("../../workflows/schema", import.meta.url));
 const content_types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml" };
 
 const scene = {
@@ -295,7 +296,7 @@ class FakeRun {
 export class FakeApi {
     /// pace: seconds per submitted run; points: particles per snapshot.
     constructor({ pace = 6, points = 5000 } = {}) {
-        Object.assign(this, { pace, points, runs: [], events: [], requests: [], most_per_page: 500 });
+        Object.assign(this, { pace, points, runs: [], events: [], requests: [], files: [], most_per_page: 500 });
     }
 
     add_run(submitted, settings = {}) {
@@ -337,6 +338,9 @@ export class FakeApi {
         if (kind === "examples") {
             return json(response, id ? study : { examples: [{ name: study.name, title: study.title }] });
         }
+        if (kind === "schema") return json(response, JSON.parse(await readFile(path.join(schema_folder, `${id}.schema.json`))));
+        if (kind === "files") return this.answer_files(request, url, response);
+        if (kind === "draw") return this.draw(request, response);
         if (kind === "scenes") return json(response, { plans: { fem_solver: "on        softening  the law of sand has it  (/materials/sand)\nleft out  gmsh       regions are blocks  (/section)\n" } });
         if (kind === "tasks") return this.serve_task(id, rest, url, response);
         if (kind === "runs" && !id) {
@@ -403,9 +407,29 @@ export class FakeApi {
         return problem(response, 404, "there is no such artifact");
     }
 
+    /// A file is what its name says; an empty one is nothing.
+    async answer_files(request, url, response) {
+        if (request.method === "GET") return json(response, { files: this.files });
+        const text = await text_of(request);
+        const name = url.searchParams.get("name");
+        if (text === "") return problem(response, 422, "file: 1 fault", [{ pointer: "line 1", cause: "no numbers", remedy: "send two columns" }]);
+        const file = { sha256: digest(text), reference: `file:sha256/${digest(text)}.csv`, name, kind: name.endsWith(".msh") ? "mesh" : "motion",
+                       about: "PGA 0.31 g, Arias 1.2 m/s", bytes: text.length };
+        this.files.unshift(file);
+        return json(response, file, 201);
+    }
+
+    /// A picture without a section, with the faults of the materials' densities.
+    async draw(request, response) {
+        const scene = JSON.parse(await text_of(request)).scene ?? {};
+        const faults = density_faults(scene).map(({ pointer, cause, remedy }) => `<g data-pointer="${pointer}" data-cause="${cause}" data-remedy="${remedy}"/>`);
+        response.writeHead(200, { "Content-Type": "image/svg+xml" });
+        response.end(`<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80 20"><title>${scene.name}</title><rect width="80" height="20"/>${faults.join("")}</svg>`);
+    }
+
     async submit(request, response) {
-        let text = "";
-        for await (const chunk of request) text += chunk;
+        const text = await text_of(request);
+        this.last_submitted = text;
         let body;
         try {
             body = JSON.parse(text);
@@ -416,11 +440,7 @@ export class FakeApi {
         if (!Array.isArray(body.transfer_times)) {
             faults.push({ pointer: "/transfer_times", cause: "is missing", remedy: "give a list of times in seconds" });
         }
-        for (const [name, material] of Object.entries(body.scene?.materials ?? {})) {
-            if (!(material.density < 0)) continue;
-            faults.push({ pointer: `/scene/materials/${name}/density`, cause: `${material.density} kg/m3 is below 0`,
-                          remedy: "a soil weighs 1,200 to 2,400 kg/m3" });
-        }
+        faults.push(...density_faults(body.scene));
         if (faults.length) return problem(response, 422, "the study has faults", faults);
         return json(response, this.add_run(body).summary(), 202);
     }
@@ -461,6 +481,15 @@ export class FakeApi {
         return response.end(body);
     }
 }
+
+async function text_of(request) {
+    let text = "";
+    for await (const chunk of request) text += chunk;
+    return text;
+}
+
+const density_faults = (scene) => Object.entries(scene?.materials ?? {}).filter(([, material]) => material.density < 0).map(([name, { density }]) =>
+    ({ pointer: `/scene/materials/${name}/density`, cause: `${density} kg/m3 is below 0`, remedy: "a soil weighs 1,200 to 2,400 kg/m3" }));
 
 function json(response, body, status = 200) {
     response.writeHead(status, { "Content-Type": "application/json" });

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "core/scene/file_paths.hpp"
-#include "core/scene/schema.hpp"
+#include "core/scene/schema_text.hpp"
 #include "core/telemetry/columns.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
@@ -106,8 +106,12 @@ void add_page_routes(Router& router, Service& service) {
         call.allow_parameters({});
         call.response.set_content(api_description(), "application/json");
     });
-    router.get("/v1/schema/scene", [](Call& call) { reply(call.response, scene::scene_schema()); });
-    router.get("/v1/schema/study", [](Call& call) { reply(call.response, scene::study_schema()); });
+    router.get("/v1/schema/scene", [](Call& call) {
+        call.response.set_content(scene::scene_schema_text(), "application/json");
+    });
+    router.get("/v1/schema/study", [](Call& call) {
+        call.response.set_content(scene::study_schema_text(), "application/json");
+    });
     router.get("/v1/telemetry/fields", [](Call& call) {
         call.allow_parameters({});
         reply(call.response, {{"fields", telemetry_table()}});

@@ -92,6 +92,28 @@ export const artifact_path = (sha256) => path_of("artifacts", sha256);
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
 }
+/// of: "scene" or "study"
+export const read_schema = (of) => get_json(path_of("schema", of), { cache: "default" });
+/// Sends a file; {reference, kind, about, name, ...}.
+export const send_file = (file) => get_json(`/v1/files?${new URLSearchParams({ name: file.name })}`,
+    { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file });
+/// What was sent to the server before, newest first.
+export const list_files = async () => (await get_json("/v1/files")).files;
+/// What scenes can be made from: [{name, title, options}]; none of an earlier service.
+export async function list_templates() {
+    try {
+        return (await get_json("/v1/templates")).templates;
+    } catch (fault) {
+        if (fault instanceof Problem && fault.status === 404) return [];
+        throw fault;
+    }
+}
+/// {options, study} of the options that are given; the others have their defaults.
+export const make_from_template = (name, options, signal) => get_json(path_of("templates", name), { ...json_body(JSON.stringify(options)), signal });
+/// {scene, report} of a section drawn as DXF or CSV.
+export const import_section = (body, signal) => get_json("/v1/import", { ...json_body(JSON.stringify(body)), signal });
+/// The same as SVG text, faults in red.
+export const picture_of_import = async (body) => body_of(await request("/v1/import?picture=1", json_body(JSON.stringify(body))), "text");
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
 /// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the

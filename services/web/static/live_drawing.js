@@ -6,9 +6,9 @@ import { by_id, set_text } from "./dom.js";
 const pause = 300; // ms without a key before the server is asked
 
 export class LiveDrawing {
-    /// fault_item(fault): a list item that leads to the fault's place; point_to(pointer): goes there.
-    constructor(fault_item, point_to) {
-        this.fault_item = fault_item;
+    /// fault_item(fault, is_in_text): a list item, which leads to the fault's place; point_to(pointer): goes there; found(faults): of what is drawn.
+    constructor(fault_item, point_to, found) {
+        Object.assign(this, { fault_item, found });
         by_id("drawing-picture").addEventListener("click", (event) => {
             const mark = event.target.closest("[data-pointer]");
             if (mark) point_to(mark.dataset.pointer);
@@ -16,8 +16,14 @@ export class LiveDrawing {
         by_id("drawing-mesh").addEventListener("change", () => this.changed(by_id("study").value));
     }
 
+    /// From what show_foreign drew.
+    return_to(text) {
+        if (this.is_foreign) this.changed(text);
+    }
+
     /// The text is another one.
     changed(text) {
+        this.is_foreign = false;
         clearTimeout(this.timer);
         this.asked?.abort();
         if (text.trim() === "") return this.forget();
@@ -45,8 +51,25 @@ export class LiveDrawing {
     }
 
     show(text) {
+        const faults = this.place(text);
+        if (!faults) return;
+        const count = faults.length === 1 ? "1 fault, marked" : `${faults.length} faults, marked`;
+        this.tell(faults.length === 0 ? "" : `${count} in red where it has a place`, faults);
+    }
+
+    /// What is wrong with a file that is not in the text: its picture (SVG, or null), and the faults that were answered.
+    show_foreign(text, fault) {
+        clearTimeout(this.timer);
+        this.asked?.abort();
+        this.is_foreign = true;
+        if (text) this.place(text);
+        this.tell(fault.message, fault.faults ?? [], "elsewhere");
+    }
+
+    /// The faults that it marks; null when there is no picture.
+    place(text) {
         const drawn = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-        if (drawn.localName !== "svg") return this.keep("The server's drawing cannot be read", []);
+        if (drawn.localName !== "svg") return this.keep("The server's drawing cannot be read", []), null;
         const title = drawn.querySelector("title")?.textContent ?? "";
         drawn.setAttribute("role", "img");
         drawn.setAttribute("aria-label", `Section: ${title}`);
@@ -54,9 +77,8 @@ export class LiveDrawing {
         by_id("drawing-picture").replaceChildren(document.importNode(drawn, true));
         const faults = [...drawn.querySelectorAll("[data-cause]")].map(({ dataset }) => (
             { pointer: dataset.pointer, cause: dataset.cause, remedy: dataset.remedy }));
-        const count = faults.length === 1 ? "1 fault, marked" : `${faults.length} faults, marked`;
-        this.tell(faults.length === 0 ? "" : `${count} in red where it has a place`, faults);
         by_id("drawing-picture").classList.remove("stale");
+        return faults;
     }
 
     keep(why, faults) {
@@ -65,9 +87,11 @@ export class LiveDrawing {
         this.tell(something ? `${why}. This is the last drawing that was possible.` : why, faults);
     }
 
-    tell(note, faults) {
+    /// about: the faults are of the "document" or "elsewhere".
+    tell(note, faults, about = "document") {
         set_text(by_id("drawing-note"), note);
-        by_id("drawing-faults").replaceChildren(...faults.map((one) => this.fault_item(one)));
+        this.found(about === "document" ? faults : []);
+        by_id("drawing-faults").replaceChildren(...faults.map((one) => this.fault_item(one, about === "document")));
         by_id("drawing").hidden = false;
     }
 }

@@ -1,25 +1,41 @@
-// The dialog that submits a study: pasted, chosen as a file, or one of the shipped examples. Every fault that the
-// server finds is listed with the place it concerns.
+// The dialog that submits a study: filled in the form or as JSON beside it, chosen as a file, or one of the shipped
+// examples. Every fault that the server finds is shown at its field and its line, and listed.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
-import { find_pointer } from "./json_pointer.js";
+import { Form } from "./form.js";
+import { JsonPane } from "./json_pane.js";
+import { print } from "./json_text.js";
 import { LiveDrawing } from "./live_drawing.js";
+import { OptionsPanel } from "./options_panel.js";
+import { SectionImport } from "./section_import.js";
+import { Templates } from "./templates.js";
 
 export class SubmitDialog {
     /// submitted(run): the server took it.
     constructor(submitted) {
         this.submitted = submitted;
         this.dialog = by_id("submit-dialog");
-        this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer));
+        this.pane = new JsonPane((text) => this.changed(text));
+        this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer));
+        this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer),
+                                       (faults) => this.mark("drawing", faults));
+        this.options = new OptionsPanel(this.pane, (fault) => this.refuse(fault), () => {
+            by_id("template-choice").value = "";
+            this.drawing.return_to(this.pane.text);
+        });
+        this.templates = new Templates(this.options);
+        this.sections = new SectionImport(this.options, this.pane, this.drawing);
+        this.dialog.addEventListener("dragover", (event) => event.preventDefault());
+        this.dialog.addEventListener("drop", (event) => this.drop(event));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {
             button.addEventListener("click", () => this.open());
         }
+        by_id("examples").addEventListener("change", (event) => this.take_example(this.examples.find(({ name }) => name === event.target.value)));
         by_id("study-file").addEventListener("change", (event) => this.take_file(event.target));
         by_id("submit").addEventListener("click", () => this.submit());
         by_id("show-plan").addEventListener("click", () => this.show_plan());
         by_id("submit-close").addEventListener("click", () => this.dialog.close());
-        by_id("study").addEventListener("input", (event) => this.drawing.changed(event.target.value));
-        by_id("study").addEventListener("keydown", (event) => {
+        this.dialog.addEventListener("keydown", (event) => {
             if (event.key === "Enter" && event.ctrlKey) this.submit();
         });
     }
@@ -27,11 +43,13 @@ export class SubmitDialog {
     async open() {
         this.dialog.showModal();
         this.clear();
-        if (this.has_examples) return;
         try {
-            const examples = await api.list_examples();
-            by_id("examples").replaceChildren(...examples.map((example) => element("button", { type: "button",
-                title: example.title || null, onclick: () => this.take_example(example) }, `Load ${example.name}`)));
+            await this.form.start();
+            this.form.show(this.pane.text);
+            if (this.has_examples) return;
+            await this.templates.offer();
+            const examples = this.examples = await api.list_examples();
+            by_id("examples").append(...examples.map(({ name, title }) => element("option", { value: name, title: title || null }, name)));
             by_id("examples-row").hidden = examples.length === 0;
             this.has_examples = true;
         } catch (fault) {
@@ -40,9 +58,31 @@ export class SubmitDialog {
     }
 
     take_text(text) {
-        by_id("study").value = text;
         this.clear();
+        this.options.close();
+        this.pane.take(text);
+    }
+
+    /// By whom and whatever.
+    changed(text) {
+        this.form.show(text);
+        this.pane.mark(this.form.faults);
+        this.show_mended();
         this.drawing.changed(text);
+        by_id("study").removeAttribute("aria-invalid");
+    }
+
+    /// Of what was refused.
+    show_mended() {
+        const left = new Set(this.form.faults.map(({ pointer, cause }) => pointer + cause));
+        const items = [...by_id("fault-list").children];
+        for (const item of items) item.classList.toggle("mended", !left.has(item.dataset.fault));
+        if (items.length > 0 && items.every((item) => item.matches(".mended"))) by_id("faults").hidden = true;
+    }
+
+    mark(source, faults) {
+        this.form.take_faults(source, faults);
+        this.pane.mark(this.form.faults);
     }
 
     async take_file(input) {
@@ -51,10 +91,21 @@ export class SubmitDialog {
         input.value = "";
     }
 
+    /// A study, or a section drawn elsewhere; a motion is dropped on its field.
+    async drop(event) {
+        event.preventDefault();
+        const file = event.dataTransfer.files[0];
+        if (!file) return;
+        if (/\.(dxf|csv)$/i.test(file.name)) this.sections.begin(file.name, await file.text());
+        else this.take_text(await file.text());
+    }
+
     async take_example(example) {
+        if (!example) return;
+        by_id("examples").value = ""; // to be chosen again
         try {
             const study = example.study ?? await api.read_example(example.name);
-            this.take_text(JSON.stringify(study, null, 4));
+            this.take_text(print(study));
         } catch (fault) {
             this.refuse(fault);
         }
@@ -113,6 +164,7 @@ export class SubmitDialog {
         by_id("plan").hidden = true;
         by_id("fault-list").replaceChildren();
         by_id("study").removeAttribute("aria-invalid");
+        this.mark("submission", []);
     }
 
     refuse(fault) {
@@ -122,22 +174,26 @@ export class SubmitDialog {
         by_id("fault-list").replaceChildren(...faults.map((one) => this.fault_item(one)));
         by_id("faults").hidden = false;
         by_id("study").setAttribute("aria-invalid", "true");
-        by_id("fault-title").focus();
+        this.mark("submission", faults);
+        if (faults.length) {
+            this.options.close();
+            this.pane.scroll_to(faults[0].pointer);
+        }
+        if (!faults.length || !this.form.reveal(faults[0].pointer, { focus: true })) by_id("fault-title").focus();
     }
 
-    fault_item(one) {
-        return element("li", {}, this.link_to(one.pointer, one.pointer || "/"), ` ${one.cause}`,
+    fault_item(one, is_in_text = true) {
+        const is_place = is_in_text && (one.pointer === "" || one.pointer.startsWith("/"));
+        return element("li", { "data-fault": one.pointer + one.cause },
+                       is_place ? this.link_to(one.pointer, one.pointer || "/") : element("code", {}, one.pointer), ` ${one.cause} `,
+                       is_place ? element("span", { class: "muted" }, `line ${this.pane.line_of(one.pointer)}`) : null,
                        one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
-    /// Selects the text that the pointer names.
+    /// Selects the text that the pointer names, and opens its field.
     point_to(pointer) {
-        const box = by_id("study");
-        const place = find_pointer(box.value, pointer);
-        box.focus();
-        if (!place) return;
-        box.setSelectionRange(place.start, place.end);
-        const line = box.value.slice(0, place.start).split("\n").length;
-        box.scrollTop = (line - 4) * parseFloat(getComputedStyle(box).lineHeight);
+        this.options.close();
+        this.form.reveal(pointer);
+        this.pane.select(pointer);
     }
 }

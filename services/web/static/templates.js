@@ -1,0 +1,43 @@
+// A new scene from one of the service's templates.
+import * as api from "./api.js";
+import { by_id, element } from "./dom.js";
+import { print } from "./json_text.js";
+import { default_of } from "./schema.js";
+
+const entry_of = ({ type, unit, default: usual, minimum, maximum, help, rule }) => ({ type, unit, default: usual, minimum, maximum, description: rule ? `${help} (default: ${rule})` : help });
+
+/// Defaults that are a share of another option.
+function follow(options, values, control_of) {
+    for (const { name, follows, share, minimum, maximum, unit } of options.filter((each) => each.follows)) {
+        const other = values[follows] ?? options.find((each) => each.name === follows)?.default;
+        control_of(name).placeholder = default_of({ default: Number(Math.min(maximum, Math.max(minimum, share * other)).toPrecision(4)), unit });
+    }
+}
+
+export class Templates {
+    /// panel: an OptionsPanel.
+    constructor(panel) {
+        this.panel = panel;
+        by_id("template-choice").addEventListener("change", (event) => this.choose(event.target.value));
+    }
+
+    async offer() {
+        if (this.templates) return;
+        this.templates = await api.list_templates();
+        by_id("template-choice").append(...this.templates.map(({ name, title }) => element("option", { value: name, title }, name.replaceAll("_", " "))));
+        by_id("templates-row").hidden = this.templates.length === 0;
+    }
+
+    choose(name) {
+        const template = this.templates.find((each) => each.name === name);
+        if (!template) return this.panel.close();
+        const named = { type: "string", description: "of scene and study: small letters, digits, - and _", default: name };
+        this.panel.open({
+            title: `${template.title}.`,
+            properties: { name: named, ...Object.fromEntries(template.options.map((each) => [each.name, entry_of(each)])) },
+            follow: (values, control_of) => follow(template.options, values, control_of),
+            make: async (values, signal) => ({ text: print((await api.make_from_template(name, values, signal)).study) }),
+        });
+        by_id("template-choice").value = name;
+    }
+}

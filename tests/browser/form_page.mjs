@@ -1,0 +1,26 @@
+// The form of a new run as a reader of the page finds his way in it.
+
+/// Opens groups and rows by their lines, where they are closed: ["scene", "fem", "stages", "0"].
+export async function open_groups(page, way) {
+    let root = page.locator("#form");
+    for (const name of way) {
+        const row = /^\d+$/.test(name) ? root.locator(".rows > li").nth(Number(name)).locator("> details") : root.locator(`details[data-group="${name}"]`).first();
+        const fold = (await row.count()) ? row : root.locator(`.rows > li > details:has(> summary .fold-title:text-matches("^${name}( |$)"))`).first();
+        if (!(await fold.count())) continue; // a choice has no line of its own
+        const hidden = root.locator("details.more-members:not([open])").filter({ has: fold });
+        if (await hidden.count()) await hidden.first().locator("> summary").click();
+        if (!(await fold.evaluate((each) => each.open))) await fold.locator("> summary").click();
+        await page.evaluate(() => new Promise((filled) => requestAnimationFrame(() => setTimeout(filled)))); // when it has opened
+        root = fold;
+    }
+}
+
+/// The control of a place, its groups opened.
+export async function field_of(page, pointer) {
+    await open_groups(page, pointer.split("/").slice(1, -1));
+    const label = page.locator(`#form label[title="${pointer}"]`).first();
+    await label.waitFor({ state: "attached" }); // a group is filled when it has opened
+    const more = page.locator("#form details.more-members").filter({ has: page.locator(`label[title="${pointer}"]`) });
+    for (let i = 0; i < (await more.count()); i += 1) if (!(await more.nth(i).evaluate((each) => each.open))) await more.nth(i).locator("> summary").click();
+    return page.locator(`#${await label.getAttribute("for")}`);
+}
