@@ -3,6 +3,7 @@
 #pragma once
 
 #include <httplib.h>
+#undef _res  // of <resolv.h>: Eigen has parameters of that name
 
 #include <array>
 #include <atomic>
