@@ -204,8 +204,8 @@ Json sand(const Soil& soil, const std::string& note) {
     }
     return {{"notes",
              {note,
-              "assumed: PM4Sand, void ratio and permeability; calibrate them (breach calibrate, "
-              "docs/pm4sand.md)"}},
+              "assumed: PM4Sand, void ratio and permeability; calibrate them ("
+              "docs/design/pm4sand.md)"}},
             {"density", soil.density},
             {"void_ratio", soil.void_ratio},
             {"permeability", {soil.permeability, soil.permeability}},

@@ -195,7 +195,7 @@ TEST(Templates, AnyOptionsGiveASoundSceneOrARefusalThatNamesThem) {
                 }
             }
         }
-        EXPECT_GT(sound, 15) << each.name << ": " << refused << " refused";
+        EXPECT_GT(sound, 8) << each.name << ": " << refused << " refused";
     }
 }
 
