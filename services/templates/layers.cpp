@@ -185,17 +185,23 @@ Layer joined(const Layer& one, const Layer& other, const Seam& seam) {
     return {first ? one.number : other.number, united(one.polygon, other.polygon, seam)};
 }
 
-/// One thin piece joined with the neighbour that it has most border with; false: there is none.
+/// One thin piece joined with the neighbour that it has most border with; false: there is none. Wet soil
+/// goes to wet soil and dry to dry where it can: a layer that became dry would keep its strength.
 bool absorb_one(std::vector<Layer>& all, double thinnest) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (scene::thickness_of(all[i].polygon) >= thinnest) continue;
         std::optional<Seam> best;
         std::size_t neighbour = i;
+        bool best_is_alike = false;
         for (std::size_t k = 0; k < all.size(); ++k) {
             if (k == i) continue;
             const auto seam = seam_between(all[i].polygon, all[k].polygon);
-            if (!seam || (best && seam->length <= best->length)) continue;
+            if (!seam) continue;
+            const bool alike = (all[i].number > 0) == (all[k].number > 0);
+            if (best && std::pair(alike, seam->length) <= std::pair(best_is_alike, best->length))
+                continue;
             best = seam;
+            best_is_alike = alike;
             neighbour = k;
         }
         if (!best) continue;

@@ -14,7 +14,9 @@ struct Cut {
     double thickness;  ///< of a layer, measured downwards from the line; the lowest takes the rest,
                        ///< less than another one [m]
     double nearest;    ///< places of the cut that are nearer than this to a vertex go there [m]
-    double thinnest;   ///< a thinner piece is joined with the one that it has most border with [m]
+    double
+        thinnest;  ///< a thinner piece is joined with the one on its side of the line that it has
+                   ///< most border with, else with one across the line [m]
 };
 
 /// From the top down. A layer may be in several pieces: each is one entry.

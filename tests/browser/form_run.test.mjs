@@ -93,8 +93,8 @@ test("a scene from a template, changed in the form, runs to its result", async (
     await page.selectOption("#template-choice", "heap");
     await until("the heap", async () => (await value()).name === "heap");
     await page.getByLabel("height", { exact: true }).fill("10");
-    await page.getByLabel("cell size", { exact: true }).fill("1.25");
-    await until("its cells", async () => (await value()).scene.mpm.cell_size === 1.25);
+    await page.getByLabel("cell size", { exact: true }).fill("0.8");
+    await until("its cells", async () => (await value()).scene.mpm.cell_size === 0.8);
     await page.click("#options-done");
     const title = await field("/title");
     await title.fill("A heap of mine");
@@ -128,7 +128,7 @@ test("a section drawn elsewhere becomes the scene's; what is wrong with the file
     await send(csv(10));
     await until("the slope in the scene", async () => (await value()).scene.section.regions[0].polygon.length === 5);
     assert.equal((await value()).scene.materials.sand.density, 1800, "the soils are those that stood there");
-    assert.match(await page.textContent("#options-note"), /healed.*guessed: \/section\/element_size/);
+    await until("what was guessed", async () => /healed.*guessed: \/section\/element_size/.test(await page.textContent("#options-note")));
     const before = await page.inputValue("#study");
     await send(csv(10).replaceAll("sand", "clay"));
     await until("what is wrong", async () => /clay/.test(await page.textContent("#drawing-faults")));

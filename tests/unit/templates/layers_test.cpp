@@ -57,6 +57,14 @@ TEST(CutByDepth, AThinPieceIsJoinedWithItsNeighbour) {
     EXPECT_NEAR(scene::area(layers[0].polygon), 43.0, 1e-9);
 }
 
+TEST(CutByDepth, AThinWetLayerStaysWet) {
+    const auto layers = cut_by_depth(square, {{0, 4}, {10, 4}}, {1.5, 0.01, 2.0});
+    ASSERT_EQ(layers.size(), 2u);
+    EXPECT_EQ(layers[0].number, 0);
+    EXPECT_NEAR(scene::area(layers[0].polygon), 60.0, 1e-9);
+    EXPECT_GT(layers[1].number, 0);
+}
+
 TEST(ShareVertices, PutsANeighboursVertexIntoASide) {
     std::vector<Part> parts{{"a", "", square}, {"b", "", {{10, 3}, {12, 3}, {12, 6}, {10, 6}}}};
     share_vertices(parts);
