@@ -37,6 +37,7 @@ constexpr auto words_of(Relation) {
     using enum Relation;
     return words::in_order<Relation>(
         {{weber_2015, "weber_2015"},
+         {kramer_wang_2015, "kramer_wang_2015"},
          {olson_stark_2002_spt, "olson_stark_2002_spt"},
          {olson_stark_2002_cpt, "olson_stark_2002_cpt"},
          {idriss_boulanger_2008_spt, "idriss_boulanger_2008_spt"},

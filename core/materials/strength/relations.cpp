@@ -20,6 +20,11 @@ double weber(double N, double sigma_v0) {
                   0.43991 * (std::pow(N, 1.45) + 0.2 * N * std::pow(s, 2.48) + 41.13));
 }
 
+/// Kramer & Wang (2015): in atmospheres.
+double kramer_wang(double N, double sigma_v0) {
+    return p_a * std::exp(-8.444 + 0.109 * N + 5.379 * std::pow(sigma_v0 / p_a, 0.1));
+}
+
 /// Idriss & Boulanger (2008), ratios to sigma'_v0 with significant void redistribution, and the
 /// factor where it is negligible.
 double ratio_by_spt(double N) { return std::exp(N / 16.0 + std::pow((N - 16.0) / 21.2, 3) - 3.0); }
@@ -43,6 +48,11 @@ const RelationFacts& facts_of(Relation relation) {
          atmospheres_4,
          "Weber, Seed, Pestana, Moss et al. (2015), Engineering evaluation of post-liquefaction "
          "strength, UC Berkeley"},
+        {"Kramer & Wang 2015 (coefficients recalled, not read)",
+         "(N1)60",
+         {0.0, 14.0},
+         atmospheres_4,
+         "Kramer & Wang (2015), J. Geotech. Geoenviron. Eng. 141(9), 04015038"},
         {"Olson & Stark 2002, SPT", "(N1)60", {0.0, 12.0}, atmospheres_4, olson_stark},
         {"Olson & Stark 2002, CPT", "q_c1 [MPa]", {0.0, 6.5}, atmospheres_4, olson_stark},
         {"Idriss & Boulanger 2008, SPT",
@@ -76,6 +86,8 @@ double residual_strength(Relation relation, double sounding, double sigma_v0) {
     switch (relation) {
         case Relation::weber_2015:
             return std::max(weber(n, stress), 0.0);
+        case Relation::kramer_wang_2015:
+            return kramer_wang(n, stress);
         case Relation::olson_stark_2002_spt:
             return (0.03 + 0.0075 * n) * stress;
         case Relation::olson_stark_2002_cpt:

@@ -9,6 +9,7 @@ namespace breach::materials {
 
 enum class Relation {
     weber_2015,                                ///< SPT (N1)60cs
+    kramer_wang_2015,                          ///< SPT (N1)60
     olson_stark_2002_spt,                      ///< SPT (N1)60
     olson_stark_2002_cpt,                      ///< CPT q_c1 [MPa]
     idriss_boulanger_2008_spt,                 ///< SPT (N1)60cs-Sr, void redistribution negligible

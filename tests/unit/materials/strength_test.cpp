@@ -69,11 +69,21 @@ TEST(ResidualStrength, OfIdrissAndBoulangerIsOneCurveForBothSoundings) {
     }
 }
 
+// The coefficients are from memory: this holds the equation, and that it lies where Weber's does.
+TEST(ResidualStrength, OfKramerAndWangLiesNearWebers) {
+    EXPECT_NEAR(residual_strength(kramer_wang_2015, 6.0, p_a) / p_a, 0.089726, 1e-6);
+    EXPECT_NEAR(residual_strength(kramer_wang_2015, 10.0, 2.0 * p_a) / p_a, 0.204144, 1e-6);
+    for (const double N : {4.0, 6.0, 8.0, 10.0}) {
+        const double weber = residual_strength(weber_2015, N, p_a);
+        EXPECT_NEAR(residual_strength(kramer_wang_2015, N, p_a), weber, 0.35 * weber) << N;
+    }
+}
+
 TEST(ResidualStrength, OfEveryRelationGrowsWithSoundingAndStress) {
     for (const Relation relation :
-         {weber_2015, olson_stark_2002_spt, olson_stark_2002_cpt, idriss_boulanger_2008_spt,
-          idriss_boulanger_2008_spt_redistribution, idriss_boulanger_2008_cpt,
-          idriss_boulanger_2008_cpt_redistribution}) {
+         {weber_2015, kramer_wang_2015, olson_stark_2002_spt, olson_stark_2002_cpt,
+          idriss_boulanger_2008_spt, idriss_boulanger_2008_spt_redistribution,
+          idriss_boulanger_2008_cpt, idriss_boulanger_2008_cpt_redistribution}) {
         const auto [low, high] = facts_of(relation).range;
         double before = 0.0;
         for (int k = 0; k <= 20; ++k) {
