@@ -283,9 +283,9 @@ TEST(Profiles, AreRefusedWhereTheyCannotBeMeant) {
     EXPECT_EQ(with({{"like", "soil"}, {"peak", peak}}), "/materials/soil/strength");
     EXPECT_EQ(with({{"peak", {{"type", "relation"}, {"relation", "weber_2015"}, {"value", 6}}}}),
               "/materials/soil/strength/peak/type");
-    EXPECT_EQ(with({{"peak", peak},
-                    {"residual", {{"type", "relation"}, {"relation", "somebody_2099"}}}}),
-              "/materials/soil/strength/residual/relation");
+    EXPECT_EQ(
+        with({{"peak", peak}, {"residual", {{"type", "relation"}, {"relation", "somebody_2099"}}}}),
+        "/materials/soil/strength/residual/relation");
     EXPECT_EQ(
         with({{"peak", peak}, {"residual", {{"type", "relation"}, {"relation", "weber_2015"}}}}),
         "/materials/soil/strength/residual");
