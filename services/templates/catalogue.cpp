@@ -75,6 +75,13 @@ Options computation() {
         sized("runout_extent", 10, 10, 20000, "how far beyond the toe the soil can be followed"),
         sized("cell_size", 1.0 / 15, 0.05, 20,
               "cells of the runout; halve it for a result to rely on"),
+    };
+}
+
+/// Of the dams: the finite elements of a slope or a heap of loose sand fold within seconds, and what
+/// is left of their energy is not enough for a runout.
+Options earthquake() {
+    return {
         sized("element_size", 0.1, 0.05, 50, "elements, with with_fem"),
         yes_or_no("with_fem", false,
                   "yes: shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout); no: "
@@ -125,7 +132,8 @@ Template upstream() {
                         "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
              soil(0.08),
              foundation_options(),
-             computation()})};
+             computation(),
+             earthquake()})};
 }
 
 Template downstream() {
@@ -148,7 +156,8 @@ Template downstream() {
                         "at the toe")},
              soil(0.08),
              foundation_options(),
-             computation()})};
+             computation(),
+             earthquake()})};
 }
 
 Template plain_slope() {

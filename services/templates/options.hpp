@@ -18,7 +18,8 @@ class Values {
     explicit Values(const Template& of) : template_(&of) {}
     double operator[](const std::string& name) const { return values_.at(name); }
     bool has(const std::string& name) const { return values_.contains(name); }
-    bool is_on(const std::string& name) const { return values_.at(name) > 0.5; }
+    /// What the template does not offer is off.
+    bool is_on(const std::string& name) const { return has(name) && values_.at(name) > 0.5; }
     int whole(const std::string& name) const;
     void set(const std::string& name, double value) { values_[name] = value; }
     const Template& of() const { return *template_; }

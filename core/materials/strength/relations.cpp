@@ -48,9 +48,9 @@ const RelationFacts& facts_of(Relation relation) {
          atmospheres_4,
          "Weber, Seed, Pestana, Moss et al. (2015), Engineering evaluation of post-liquefaction "
          "strength, UC Berkeley"},
-        {"Kramer & Wang 2015 (coefficients recalled, not read)",
+        {"Kramer & Wang 2015",
          "(N1)60",
-         {0.0, 14.0},
+         {0.0, 15.0},
          atmospheres_4,
          "Kramer & Wang (2015), J. Geotech. Geoenviron. Eng. 141(9), 04015038"},
         {"Olson & Stark 2002, SPT", "(N1)60", {0.0, 12.0}, atmospheres_4, olson_stark},

@@ -158,7 +158,7 @@ class Breach(unittest.TestCase):
         self.assertEqual(again.returncode, 65)
         self.assertIn("--force", again.stderr)
         self.assertEqual((folder / "scene.json").read_bytes(), before)
-        shaken = new("slope", "--height", 15, "--with-fem", "--output", folder, "--force", "--name", "shaken", "--json")
+        shaken = new("upstream_dam", "--height", 15, "--with-fem", "--output", folder, "--force", "--name", "shaken", "--json")
         self.assertEqual(json.loads(shaken.stdout)["options"]["with_fem"], True, shaken.stderr)
         self.assertTrue((folder / "motion.csv").read_text().startswith("# Synthetic"))
         self.assertEqual(json.loads((folder / "study.json").read_text())["name"], "shaken")
