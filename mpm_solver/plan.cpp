@@ -100,7 +100,8 @@ void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
     plan.push_back({"gaps held to the room between neighbours", held ? Use::on : Use::left_out,
                     !closes ? "no gap is kept"
                     : held  ? "every " + std::to_string(steps_between_marks) + " steps"
-                            : "not asked for: debris among other soil stays open until compressed",
+                            : "no steep ground, or not wanted: debris that falls among other "
+                              "soil stays open until compressed",
                     "/mpm/gap_room"});
 }
 

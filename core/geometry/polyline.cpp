@@ -1,5 +1,7 @@
 #include "core/geometry/polyline.hpp"
 
+#include <cmath>
+
 namespace breach::geometry {
 
 using mechanics::Vec2;
@@ -24,6 +26,16 @@ double straight_level_at(const std::vector<Vec2>& line, double x) {
     std::size_t i = 1;
     while (i + 1 < line.size() && x > line[i].x()) ++i;
     return on_straight(line[i - 1], line[i], x);
+}
+
+double share_steeper_than(double slope, const std::vector<Vec2>& line) {
+    if (line.size() < 2) return 0.0;
+    double steep = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const Vec2 part = line[i] - line[i - 1];
+        if (std::abs(part.y()) > slope * part.x()) steep += part.x();
+    }
+    return steep / (line.back().x() - line.front().x());
 }
 
 }  // namespace breach::geometry

@@ -14,4 +14,8 @@ double level_at(const std::vector<mechanics::Vec2>& line, double x);
 /// The same, but the first and the last part go on straight beyond the ends.
 double straight_level_at(const std::vector<mechanics::Vec2>& line, double x);
 
+/// The share of the line's length in x that is steeper than `slope`, up or down [-]; 0 for fewer
+/// than two points.
+double share_steeper_than(double slope, const std::vector<mechanics::Vec2>& line);
+
 }  // namespace breach::geometry

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/polyline.hpp"
 #include "core/scene/checks.hpp"
 #include "core/scene/resolution.hpp"
 
@@ -10,6 +11,13 @@ namespace breach::scene {
 using nlohmann::json;
 
 namespace {
+
+/// Ground where debris falls on other soil: more than a tenth of it above 30 degrees. Less of it is
+/// a step, as between the ground and the base of a dam's foundation.
+bool is_steep(const std::vector<mechanics::Vec2>& terrain) {
+    constexpr double tan_30 = 0.5774;
+    return geometry::share_steeper_than(tan_30, terrain) > 0.1;
+}
 
 void check_grid(Reader& reader, const Mpm& mpm) {
     const auto whole = [&](double from, double to) {
@@ -169,7 +177,8 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.blending_rate = mpm.at("blending_rate");
     result.anti_locking = word_at<AntiLocking>(mpm, "anti_locking");
     result.gap_closure = mpm.at("gap_closure");
-    result.gap_room = mpm.at("gap_room");
+    result.gap_room = mpm.contains("gap_room") ? mpm.at("gap_room").get<bool>()
+                                               : is_steep(result.terrain);
     result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
                                  mpm.at("overlap_correction").at("tolerance")};
     if (mpm.contains("softening_length")) {

@@ -511,7 +511,9 @@ struct Mpm {
     double blending_rate;  ///< affine PIC rate beta [1/s]
     AntiLocking anti_locking;
     bool gap_closure;
-    bool gap_room = false;  ///< open volume is held to the room between the neighbours
+    /// Open volume is held to the room between the neighbours; unless the scene says, where more
+    /// than a tenth of the terrain is steeper than 30 degrees and debris falls on other soil
+    bool gap_room = false;
     OverlapCorrection overlap_correction{};
     /// Softening strains are those of cells this long [m]
     std::optional<double> softening_length{};

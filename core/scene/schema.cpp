@@ -18,7 +18,7 @@ namespace {
 
 constexpr int deepest_nesting = 64;
 
-std::string escaped(std::string token) {
+std::string escaped(const std::string& token) {
     std::string out;
     for (const char c : token) {
         if (c == '~') {

@@ -120,7 +120,7 @@ class MshReader {
     }
 
     Vec2 read_point() {
-        const double x = next<double>(), y = next<double>();
+        const auto x = next<double>(), y = next<double>();
         next<double>();
         return {x, y};
     }

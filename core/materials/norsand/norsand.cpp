@@ -44,7 +44,7 @@ Matrix4 elastic_tangent(const Ready& law, const State& state) {
 Matrix4 plastic_tangent(const Ready& law, const State& state, const Voigt& d_epsilon) {
     const Strain d = inward(d_epsilon);
     const auto [place, surface, flow] = look(law, state, d);
-    const Matrix4 elastic_part = elastic_matrix(flow.G, flow.K);
+    Matrix4 elastic_part = elastic_matrix(flow.G, flow.K);
     const bool inside = surface.F < -1e-7 * surface.p;
     if (inside || !(flow.A > 0.0) || loading(flow, state.e, d) <= 0.0) return elastic_part;
     // Signs of stress and strain cancel.

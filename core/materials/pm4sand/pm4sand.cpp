@@ -36,7 +36,7 @@ Matrix4 elastic_tangent(const Ready& law, const State& state) {
 }
 
 Matrix4 plastic_tangent(const Ready& law, const State& state, const Voigt& d_epsilon) {
-    const Matrix4 elastic = elastic_tangent(law, state);
+    Matrix4 elastic = elastic_tangent(law, state);
     const Strain<double> d = inward(d_epsilon);
     const Stress sigma{state.p, state.s};
     const Stress change = elastic_change(law, state.G, d);

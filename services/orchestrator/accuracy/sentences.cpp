@@ -78,18 +78,21 @@ std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     return words.empty() ? "" : words + ".";
 }
 
+/// What the mean of as many draws as are ever averaged is off.
+double error_of_means(const AccuracyTable& table, const AccuracyRow& row) {
+    return promised_error(*row.bias, *row.value, *table.ladders[row.setting.ladder].reference,
+                          most_draws_of_a_mean);
+}
+
 /// The row whose means come nearest to what is asked; nothing: no row has an error.
 const AccuracyRow* nearest(const AccuracyTable& table) {
-    const auto of_means = [&](const AccuracyRow& row) {
-        return promised_error(*row.bias, *row.value, *table.ladders[row.setting.ladder].reference,
-                              most_draws_of_a_mean);
-    };
     const AccuracyRow* best = nullptr;
     for (const AccuracyRow& each : table.rows) {
         if (!each.bias || each.questionable ||
             table.ladders[each.setting.ladder].reference_is_questionable)
             continue;
-        if (best == nullptr || of_means(each) < of_means(*best)) best = &each;
+        if (best == nullptr || error_of_means(table, each) < error_of_means(table, *best))
+            best = &each;
     }
     return best;
 }
@@ -174,6 +177,10 @@ std::string recommendation_in_words(const AccuracyTable& table) {
     words += "; the nearest is " + setting_in_words(table, *best) + " (";
     if (best->value->deviation && *best->bias > table.plan.asked_error)
         words += "its own error is " + percent(*best->bias) + ", whatever is averaged; ";
+    else if (best->value->deviation)
+        words += "nine of ten such means are within " + percent(error_of_means(table, *best)) +
+                 ", the scatter being known from " + std::to_string(best->value->count) +
+                 " draws; ";
     return words + run_in_words(table, *best) + ")." + shares_of(table, *best);
 }
 

@@ -29,5 +29,13 @@ TEST(Polyline, OfOnePointIsLevel) {
     }
 }
 
+TEST(Polyline, SaysHowMuchOfItIsSteep) {
+    EXPECT_DOUBLE_EQ(share_steeper_than(1.0, line), 0.5);
+    EXPECT_EQ(share_steeper_than(0.4, line), 1.0);
+    EXPECT_EQ(share_steeper_than(3.0, line), 0.0);
+    EXPECT_EQ(share_steeper_than(1.0, {{1.0, 5.0}}), 0.0);
+    EXPECT_EQ(share_steeper_than(1.0, {}), 0.0);
+}
+
 }  // namespace
 }  // namespace breach::geometry

@@ -60,6 +60,21 @@ TEST(MpmScene, WithoutThemThereIsNoneOfThem) {
     EXPECT_EQ(mpm.runout.front_depth, 1.0);
 }
 
+TEST(MpmScene, GapsAreHeldToTheirRoomOnSteepGroundOrWhereAsked) {
+    const auto holds = [](const char* terrain, const json& asked) {
+        json document = column();
+        document["mpm"]["terrain"] = json::parse(terrain);
+        if (!asked.is_null()) document["mpm"]["gap_room"] = asked;
+        return scene::parse_scene(document.dump(), "test").mpm->gap_room;
+    };
+    EXPECT_FALSE(scene::parse_scene(column().dump(), "test").mpm->gap_room);
+    EXPECT_FALSE(holds("[[0, 0], [20, 11]]", nullptr));
+    EXPECT_TRUE(holds("[[0, 12], [20, 0]]", nullptr));
+    EXPECT_FALSE(holds("[[0, 0], [20, 0], [21, 4]]", nullptr)) << "a step is no valley";
+    EXPECT_FALSE(holds("[[0, 12], [20, 0]]", false));
+    EXPECT_TRUE(holds("[[0, 0], [20, 11]]", true));
+}
+
 TEST(MpmScene, RefusesTerrainAndGaugesThatCannotBe) {
     using Set = std::set<std::string>;
     EXPECT_EQ(faults_of_mpm("terrain", "[[0, 0], [0, -1]]"), Set{"/mpm/terrain/1"});
