@@ -177,8 +177,8 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.blending_rate = mpm.at("blending_rate");
     result.anti_locking = word_at<AntiLocking>(mpm, "anti_locking");
     result.gap_closure = mpm.at("gap_closure");
-    result.gap_room = mpm.contains("gap_room") ? mpm.at("gap_room").get<bool>()
-                                               : is_steep(result.terrain);
+    result.gap_room =
+        mpm.contains("gap_room") ? mpm.at("gap_room").get<bool>() : is_steep(result.terrain);
     result.overlap_correction = {mpm.at("overlap_correction").at("rate"),
                                  mpm.at("overlap_correction").at("tolerance")};
     if (mpm.contains("softening_length")) {
