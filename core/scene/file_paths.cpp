@@ -22,18 +22,6 @@ std::string absolute_in(const std::filesystem::path& folder, const std::string& 
     return std::filesystem::absolute(folder / file).lexically_normal().string();
 }
 
-void make_absolute(json& overrides, const std::filesystem::path& folder) {
-    if (!overrides.is_array()) return;
-    for (json& each : overrides) {
-        if (!each.is_string()) continue;
-        const std::string text = each;
-        for (const std::string& entry : file_entries) {
-            const std::string key = entry + "=";
-            if (text.starts_with(key)) each = key + absolute_in(folder, text.substr(key.size()));
-        }
-    }
-}
-
 void collect_references(const json& value, std::vector<FileReference>& found) {
     if (value.is_structured())
         for (const json& each : value) collect_references(each, found);
@@ -44,15 +32,6 @@ void collect_references(const json& value, std::vector<FileReference>& found) {
     const auto reference = file_reference(text.substr(at));
     if (reference && std::ranges::find(found, reference->name, &FileReference::name) == found.end())
         found.push_back(*reference);
-}
-
-/// Of an accuracy study: what all rungs share, and each rung.
-void make_rungs_absolute(json& accuracy, const std::filesystem::path& folder) {
-    if (accuracy.contains("base")) make_absolute(accuracy["base"], folder);
-    if (!accuracy.contains("ladders") || !accuracy["ladders"].is_array()) return;
-    for (json& ladder : accuracy["ladders"])
-        if (ladder.is_object() && ladder.contains("steps") && ladder["steps"].is_array())
-            for (json& step : ladder["steps"]) make_absolute(step, folder);
 }
 
 }  // namespace
@@ -103,15 +82,24 @@ void make_files_absolute(json& scene, const std::filesystem::path& folder) {
     }
 }
 
+void change_override_files(json& study, const ChangeOfPath& changed) {
+    if (study.is_object()) {
+        for (const auto& [key, value] : study.items())
+            if (key != "scene") change_override_files(value, changed);
+    } else if (study.is_array()) {
+        for (json& each : study) change_override_files(each, changed);
+    } else if (study.is_string()) {
+        const std::string text = study;
+        for (const std::string& entry : file_entries) {
+            const std::string key = entry + "=";
+            if (text.starts_with(key)) study = key + changed(text.substr(key.size()));
+        }
+    }
+}
+
 void make_override_files_absolute(json& study, const std::filesystem::path& folder) {
-    if (!study.is_object()) return;
-    if (study.contains("overrides")) make_absolute(study["overrides"], folder);
-    if (study.contains("accuracy") && study["accuracy"].is_object())
-        make_rungs_absolute(study["accuracy"], folder);
-    if (!study.contains("variants") || !study["variants"].is_array()) return;
-    for (json& each : study["variants"])
-        if (each.is_object() && each.contains("overrides"))
-            make_absolute(each["overrides"], folder);
+    change_override_files(study,
+                          [&](const std::string& file) { return absolute_in(folder, file); });
 }
 
 }  // namespace breach::scene

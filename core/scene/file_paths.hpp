@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -37,8 +38,10 @@ void resolve_references(nlohmann::json& scene, const std::filesystem::path& fold
 
 /// Of the scene itself, references as above. What is not there, or is no text, is left for the scene's reader to judge.
 void make_files_absolute(nlohmann::json& scene, const std::filesystem::path& folder);
-/// Of a study's overrides ("/pointer=value"), of those of its variants and of its ladders; its scene
-/// is left alone.
+using ChangeOfPath = std::function<std::string(const std::string& path)>;
+/// The path in each override that names a file ("/pointer=path"), wherever a study has overrides:
+/// its own, of variants, ladders and parameters. Its scene is left alone.
+void change_override_files(nlohmann::json& study, const ChangeOfPath& changed);
 void make_override_files_absolute(nlohmann::json& study, const std::filesystem::path& folder);
 
 }  // namespace breach::scene

@@ -17,42 +17,16 @@ namespace {
 
 constexpr int most_tries = 3;
 
-/// Visits the text of every entry that names a file: in the scene, and behind "/pointer=".
-class FileEntries {
-  public:
-    explicit FileEntries(json& study) {
-        if (!study.is_object()) return;
-        for (const std::string& entry : scene::file_entries) {
-            const json::json_pointer key("/scene" + entry);
-            if (study.contains(key) && study[key].is_string()) places_.push_back({&study[key], ""});
-        }
-        for (const auto& [key, value] : study.items())
-            if (key != "scene") look_for_overrides(value);
+/// Visits the path of every entry that names a file: in the scene, and behind "/pointer=".
+void change_files(json& study, const scene::ChangeOfPath& changed) {
+    if (!study.is_object()) return;
+    for (const std::string& entry : scene::file_entries) {
+        const json::json_pointer key("/scene" + entry);
+        if (study.contains(key) && study[key].is_string())
+            study[key] = changed(study[key].get<std::string>());
     }
-    template <class Visit>
-    void each(Visit visit) {
-        for (Place& place : places_) {
-            const std::string text = *place.text;
-            const std::string path = text.substr(place.before.size());
-            *place.text = place.before + visit(path);
-        }
-    }
-
-  private:
-    struct Place {
-        json* text;
-        std::string before;
-    };
-    void look_for_overrides(json& value) {
-        if (value.is_structured())
-            for (json& each : value) look_for_overrides(each);
-        if (!value.is_string()) return;
-        for (const std::string& entry : scene::file_entries)
-            if (value.get_ref<const std::string&>().starts_with(entry + "="))
-                places_.push_back({&value, entry + "="});
-    }
-    std::vector<Place> places_;
-};
+    scene::change_override_files(study, changed);
+}
 
 bool is_about_a_file(const fault::Fault& fault) {
     return std::ranges::any_of(scene::file_entries, [&](const std::string& entry) {
@@ -70,7 +44,7 @@ bool is_this_machine(const std::string& origin) {
 std::size_t send_files_of(Server& server, json& study, const Console& console) {
     std::map<std::string, std::string> references;
     std::size_t replaced = 0;
-    FileEntries(study).each([&](const std::string& path) {
+    change_files(study, [&](const std::string& path) {
         std::error_code error;
         if (scene::file_reference(path) || !fs::is_regular_file(path, error)) return path;
         auto known = references.find(path);
