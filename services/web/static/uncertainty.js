@@ -1,0 +1,261 @@
+// A study over distributions: how far with which probability, what decides it, what stands along x, every sample; and beside each number
+// what it rests on.
+import * as api from "./api.js";
+import { by_id, element, mirror, set_text } from "./dom.js";
+import { flag_note, look_of } from "./flags.js";
+import { is_active, number, show_state } from "./format.js";
+import { Plot } from "./plot.js";
+import { DataTable } from "./table.js";
+import { Tornado } from "./tornado.js";
+
+const along_x = { max_depth: "largest depth", max_velocity: "largest velocity", max_momentum_flux: "largest h v²", arrival_time: "first arrival",
+                  peak_time: "time of the largest depth", deposit: "final deposit" };
+const long_span = 5; // times from the least to the largest value, from which on a parameter is drawn on a logarithmic axis
+const golden = 0.618033988749895;
+
+const labelled = ({ label, unit }) => `${label}${unit && unit !== "1" ? ` [${unit}]` : ""}`;
+const plural = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
+
+/// Soil that moves on only adds to these.
+const grows = (quantity) => /^(runout|area|deposit|volume_beyond|gauge.*(depth|velocity)|max_)/.test(quantity) && quantity !== "volume_ratio";
+
+export class Uncertainty {
+    /// open_task(id), ask(sample): the task behind a sample; where its numbers come from.
+    constructor({ open_task, ask }) {
+        Object.assign(this, { open_task, ask });
+        this.exceedance = new Plot(by_id("uncertainty-exceedance"), { title: "Probability of more", x: "", y: "probability of more [–]", x_name: "more than", x_unit: "" }, { y_from_zero: true });
+        this.tornado = new Tornado(by_id("uncertainty-tornado"));
+        this.envelope = new Plot(by_id("uncertainty-envelope"), { title: "Along x", x: "x [m]", y: "", x_name: "x", x_unit: "m" });
+        this.scatter = new Plot(by_id("uncertainty-scatter"), { title: "Samples", x: "", y: "", x_name: "", x_unit: "",
+            hint: "One marker per sample; a click or Enter opens the task behind it." }, { choose: (_, sample) => sample && this.open(sample) });
+        for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).addEventListener("change", () => this.draw());
+    }
+
+    /// rows: the results of the run, which say how each sample ended.
+    async show(run, rows) {
+        const is_one = Boolean(run.study?.uncertainty);
+        by_id("uncertainty").hidden = !is_one;
+        if (!is_one) {
+            this.seen = null;
+            return;
+        }
+        const ended = run.tasks.filter(({ phase, state }) => phase === "mpm_solver" && !is_active(state)).length;
+        const seen = `${run.id} ${ended} ${run.state}`;
+        if (seen === this.seen) return; // nothing has ended since: the same answer
+        const [answer, envelopes] = await Promise.all([api.read_uncertainty(run.id), api.read_envelopes(run.id)]);
+        if (this.run?.id !== run.id) this.forget();
+        Object.assign(this, { run, answer, envelopes, seen, results: new Map(rows.map((row) => [row.variant, row])) });
+        this.draw();
+    }
+
+    forget() {
+        for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).replaceChildren();
+    }
+
+    open(sample) {
+        const task = this.answer.rows.find((row) => row.sample === sample)?.task;
+        if (task) this.open_task(task);
+    }
+
+    /// What a sample's number is worth; "" is sound.
+    look(row) {
+        const result = this.results.get(row.sample);
+        return result && row.results ? look_of(result) : "";
+    }
+
+    draw() {
+        const { answer } = this;
+        offer(by_id("uncertainty-quantity"), Object.entries(answer.quantities).map(([value, { label }]) => ({ value, text: label || value })), answer.quantity);
+        offer(by_id("uncertainty-parameter"), answer.parameters.map(({ name }) => ({ value: name, text: name })), answer.parameters[0]?.name);
+        this.quantity = by_id("uncertainty-quantity").value;
+        this.moving = answer.rows.filter((row) => this.look(row).includes("bound")).map((row) => row.results[this.quantity]).filter(Number.isFinite);
+        by_id("uncertainty-csv").href = api.uncertainty_file(this.run.id, "csv");
+        this.draw_counts();
+        const quantity = answer.quantities[this.quantity];
+        by_id("uncertainty-figures").hidden = !quantity;
+        if (quantity) {
+            this.draw_percentiles(quantity);
+            this.draw_exceedance(quantity);
+            this.draw_tornado(quantity);
+            draw_importance(quantity);
+            this.draw_scatter(quantity);
+        }
+        this.draw_envelope();
+        this.draw_samples(quantity);
+    }
+
+    /// How many there are, and what the numbers below do not say by themselves.
+    draw_counts() {
+        const { samples, rows, sentences, until, inverse } = this.answer;
+        set_text(by_id("uncertainty-counts"), `${samples.done} of ${plural(samples.planned, "sample")} ended with a result`);
+        const looks = rows.map((row) => this.look(row));
+        const doubtful = looks.filter((look) => look === "doubtful").length;
+        const unknown = looks.filter((look) => look === "unknown").length;
+        const doubts = [
+            samples.failed && `${samples.failed} of ${samples.planned} failed and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
+            samples.open && `${samples.open} have not ended: the numbers will change.`,
+            this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound, ` +
+                "and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve.",
+            doubtful && `${doubtful} are questionable for other reasons (hollow and dashed among the samples).`,
+            unknown && `${unknown} carry no flags: what may be wrong with them is not known.`,
+            until && !until.reached && `Asked was p${until.percentile} to ± ${number(until.half_width)}; it is known to ± ${number(until.now)}.`,
+        ].filter(Boolean);
+        const said = [...(sentences ?? []).filter((each) => !doubts.includes(each)), ...(inverse ? [inverse_text(inverse)] : []),
+                      ...(until?.reached ? [`p${until.percentile} is known to ± ${number(until.now)}; ± ${number(until.half_width)} was asked.`] : [])];
+        by_id("uncertainty-doubts").hidden = doubts.length === 0;
+        for (const [id, lines] of [["uncertainty-doubts", doubts], ["uncertainty-said", said]]) {
+            mirror(by_id(id), lines, (line) => line, () => element("li"), set_text);
+        }
+        by_id("uncertainty-left-out").hidden = samples.left_out.length === 0;
+        set_text(by_id("uncertainty-left-out-title"), `Left out: ${plural(samples.left_out.length, "sample")}`);
+        mirror(by_id("uncertainty-left-out-list"), samples.left_out, ({ sample }) => sample, ({ sample }) => element("li", {},
+            element("button", { type: "button", class: "link", onclick: () => this.open(sample) }, sample), element("span")), (item, { state, reason }) =>
+            set_text(item.lastElementChild, ` ${state}${reason ? `: ${reason}` : ""}`));
+    }
+
+    /// A percentile is a lower bound as soon as one sample below it was stopped while it moved.
+    is_bound(value) {
+        return grows(this.quantity) && this.moving.some((each) => each <= value);
+    }
+
+    draw_percentiles({ percentiles, unit, count, of, mean, sd }) {
+        const refused = percentiles.refused ?? "";
+        by_id("uncertainty-refused").hidden = !refused;
+        set_text(by_id("uncertainty-refused"), refused);
+        by_id("uncertainty-percentiles").hidden = Boolean(refused);
+        if (refused) return;
+        set_text(by_id("uncertainty-percentiles-caption"), `${count} of ${of} samples; mean ${this.at_least(mean, true)} ${unit}, standard deviation ${number(sd, 3)} ${unit}`);
+        mirror(by_id("uncertainty-percentile-rows"), percentiles, ({ p }) => p, () => element("tr", {}, element("th", { scope: "row" }),
+               element("td", { class: "number" }), element("td", { class: "number" })), (row, { p, value, low, high, refused: without }) => {
+            set_text(row.children[0], `p${p}`);
+            set_text(row.children[1], Number.isFinite(value) ? `${this.at_least(value)} ${unit}` : "–");
+            set_text(row.children[2], Number.isFinite(low) ? `${number(low)} to ${number(high)}` : without ?? "");
+            row.classList.toggle("waiting", !Number.isFinite(value));
+            row.children[1].title = this.is_bound(value) ? "A lower bound: samples below it were stopped while their soil still moved" : "";
+        });
+    }
+
+    at_least(value, of_all = false) {
+        return `${(of_all ? grows(this.quantity) && this.moving.length > 0 : this.is_bound(value)) ? "≥ " : ""}${number(value)}`;
+    }
+
+    draw_exceedance({ exceedance, count, of, ...quantity }) {
+        const steps = in_steps(exceedance);
+        const bound = grows(this.quantity) && this.moving.length ? [{ from: Math.min(...this.moving), to: Math.max(...steps.x), label: "at least", kind: "lower-bound" }] : [];
+        this.exceedance.labels.x_unit = quantity.unit;
+        this.exceedance.show({
+            series: [{ name: `${count} of ${of} samples`, ...steps }],
+            x_label: labelled(quantity), errors_name: "90 % interval of so many samples", bands: bound,
+        });
+    }
+
+    draw_tornado({ tornado, ...quantity }) {
+        by_id("uncertainty-tornado").hidden = Boolean(tornado.refused);
+        set_text(by_id("uncertainty-tornado-note"), tornado.refused ? `No tornado: ${tornado.refused}. A surrogate that does not predict the samples left out of it says nothing of one parameter alone.`
+            : `From a fitted surrogate (Q² = ${number(tornado.q2, 2)} by cross-validation), the other parameters at their medians: ${number(tornado.at_median)} ${quantity.unit}.`);
+        if (!tornado.refused) this.tornado.show(tornado, labelled(quantity));
+    }
+
+    /// Values of choices and lattices stand beside each other, spread so that each can be pointed at.
+    draw_scatter(quantity) {
+        const parameter = this.answer.parameters.find(({ name }) => name === by_id("uncertainty-parameter").value);
+        if (!parameter) return;
+        const rows = this.answer.rows.filter((row) => Number.isFinite(row.results?.[this.quantity]));
+        const values = rows.map((row) => row.values[parameter.name]);
+        const is_choice = ["choice", "numerical"].includes(parameter.kind);
+        const options = is_choice ? [...new Set(values)].sort((a, b) => String(a).localeCompare(String(b), undefined, { numeric: true })) : [];
+        const x = is_choice ? values.map((value, i) => options.indexOf(value) + 0.6 * (((i + 1) * golden) % 1) - 0.3) : values;
+        const log = !is_choice && Math.min(...x) > 0 && Math.max(...x) > long_span * Math.min(...x);
+        Object.assign(this.scatter.labels, { title: `${quantity.label} against ${parameter.name}`, y: labelled(quantity), x_name: parameter.name });
+        this.scatter.show({
+            series: [{ name: `${rows.length} samples`, unit: quantity.unit, points: true, scatter: true, x, y: rows.map((row) => row.results[this.quantity]),
+                       keys: rows.map(({ sample }) => sample), names: rows.map(({ sample }) => sample), looks: rows.map((row) => this.look(row)),
+                       notes: rows.map((row) => this.note(row)) }],
+            x_label: parameter.kind === "factor" ? `${parameter.name} (factor)` : parameter.name, x_log: log, ...(is_choice ? { names: options.map((label, at) => ({ x: at, label: String(label) })) } : {}),
+        });
+    }
+
+    note(row) {
+        const result = this.results.get(row.sample);
+        return [row.sample, ...Object.entries(row.values).map(([name, value]) => `${name} = ${typeof value === "number" ? number(value) : value}`),
+                result?.flags?.length ? flag_note(result) : ""].filter(Boolean).join("\n");
+    }
+
+    draw_envelope() {
+        const { envelopes } = this;
+        const columns = Object.keys(envelopes?.quantities ?? {});
+        by_id("uncertainty-along").hidden = columns.length === 0;
+        if (columns.length === 0) return;
+        offer(by_id("uncertainty-column"), columns.map((value) => ({ value, text: along_x[value] ?? value.replaceAll("_", " ") })), columns[0]);
+        const chosen = by_id("uncertainty-column").value;
+        const { p10, p50, p90, count } = envelopes.quantities[chosen];
+        const unit = envelopes.unit[chosen] ?? "";
+        const most = Math.max(...count);
+        // Fewer samples are another curve, which begins where the first one ends.
+        const part = (name, is_in) => ({ name, unit, x: envelopes.x, y: p50.map((y, i) => (is_in(i) ? y : null)), low: p10, high: p90,
+                                         names: count.map((each) => `${each} of ${envelopes.of} samples`) });
+        const is_whole = (i) => count[i] === most;
+        const fewer = part(`p50 of fewer than ${most} samples`, (i) => !is_whole(i) || (count[i + 1] ?? most) < most || (count[i - 1] ?? most) < most);
+        this.envelope.labels.y = `${along_x[chosen] ?? chosen} [${unit || "–"}]`;
+        this.envelope.show({ series: [part("p50", is_whole), ...(count.every((_, i) => is_whole(i)) ? [] : [fewer])], errors_name: "p10 to p90" });
+        const ends = envelopes.x.filter((_, i) => count[i] > 0 && count[i] < most);
+        set_text(by_id("uncertainty-along-note"), `${most} of ${envelopes.of} samples` + (ends.length === 0 ? "."
+            : `, fewer from x = ${number(Math.min(...ends))} m to ${number(Math.max(...ends))} m: there the percentiles are of those samples alone that have a value; the readout tells how many.`) +
+            (this.moving.length ? ` ${this.moving.length} of them still moved: beyond where they lay, depths and velocities are lower bounds, and who was not reached may yet be.` : ""));
+    }
+
+    draw_samples(quantity) {
+        const { parameters, rows } = this.answer;
+        const open = ({ sample, task }) => element("span", { class: "row" }, element("button", { type: "button", class: "link", disabled: !task, onclick: () => this.open(sample) }, sample));
+        const trace = ({ sample, has_result }) => (has_result ? element("button", { type: "button", class: "link", onclick: () => this.ask(sample) }, "trace") : "");
+        const state = (record) => {
+            const badge = element("span");
+            show_state(badge, record.state);
+            return badge;
+        };
+        const value = (record) => (record.value === null ? "–" : `${record.look.includes("bound") ? "≥ " : ""}${number(record.value)}`);
+        this.table ??= new DataTable(by_id("uncertainty-samples"));
+        this.table.open(`samples_${this.run.name}`, [
+            { name: "sample", title: "sample", cell: open }, { name: "state", title: "state", cell: state },
+            { name: "value", title: quantity?.label ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
+            ...parameters.map(({ name, kind }) => ({ name: `values ${name}`, title: name, number: kind !== "choice",
+                                              cell: kind === "choice" ? null : (record) => number(record[`values ${name}`]) })),
+            { name: "trace", title: "", cell: trace },
+        ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look(row), has_result: Boolean(row.results),
+                                ...Object.fromEntries(Object.entries(row.values).map(([name, each]) => [`values ${name}`, each])) })), false);
+    }
+}
+
+/// The share of samples above each value stays until the next one.
+function in_steps(exceedance) {
+    const points = exceedance.flatMap((each, i) => (i === 0 ? [each] : [{ ...exceedance[i - 1], value: each.value }, each]));
+    return { x: points.map(({ value }) => value), y: points.map(({ probability }) => probability), low: points.map(({ low }) => low), high: points.map(({ high }) => high) };
+}
+
+/// The options of a select, with what was chosen still chosen.
+function offer(select, options, first) {
+    const before = select.value;
+    mirror(select, options, ({ value }) => value, ({ value }) => element("option", { value }), (option, { text }) => set_text(option, text));
+    select.value = options.some(({ value }) => value === before) ? before : first;
+}
+
+function inverse_text({ target, vary, value, low, high }) {
+    return `Back-analysis: ${vary} = ${number(value)} (${number(low)} to ${number(high)}) gives ${number(target)}.`;
+}
+
+/// Options of a choice have no order and so no rank correlation.
+const weight_of = ({ rank_correlation: rank, first_order: share }) => (Number.isFinite(rank) ? Math.abs(rank) : Math.sqrt(Math.max(share ?? 0, 0)));
+
+/// What decides: by rank, with what the others explain taken away, and the share of the variance; pale where it is not told from none.
+function draw_importance({ importance, count, of }) {
+    const refused = importance.refused ?? "";
+    by_id("uncertainty-importance").hidden = Boolean(refused);
+    set_text(by_id("uncertainty-importance-note"), refused ? `No importance: ${refused}.` : `${count} of ${of} samples. Pale: its interval has 0 in it, so the parameter is not told from one that does nothing.`);
+    if (refused) return;
+    const ordered = [...importance].sort((a, b) => weight_of(b) - weight_of(a));
+    mirror(by_id("uncertainty-importance-rows"), ordered, ({ parameter }) => parameter, () => element("tr", {}, element("th", { scope: "row" }),
+           ...Array.from({ length: 4 }, () => element("td", { class: "number" }))), (row, { parameter, rank_correlation: rank, low, high, partial_rank_correlation: partial, first_order: share }) => {
+        [parameter, number(rank, 2), Number.isFinite(low) ? `${number(low, 2)} to ${number(high, 2)}` : "–", number(partial, 2), number(share, 2)].forEach((text, i) => set_text(row.children[i], text));
+        row.classList.toggle("waiting", Number.isFinite(low) && low <= 0 && high >= 0);
+    });
+}
