@@ -6,7 +6,8 @@
 import { fileURLToPath } from "node:url";
 
 const end_of_time = 85; // [m] where runs were cut off
-const quantity_names = { runout_beyond_toe: ["99 % of what passed the toe", "m"], deposit_volume: ["deposit beyond the toe, per metre of width", "m2"] };
+const quantity_names = { runout_beyond_toe: ["the same of the soil beyond the toe; 0: there is none", "m"],
+                         runout: ["99 % of the mobile soil lies at most so far beyond the toe; negative: before it", "m"] };
 
 /// The same numbers every time: a linear congruential generator (Numerical Recipes, "quick and dirty").
 function numbers_from(seed) {
@@ -27,7 +28,8 @@ function draw(next, number) {
 
 function model({ "residual strength": strength, viscosity, motion, lattice }) {
     const runout = 40 * strength ** -1.2 * (viscosity / 550) ** -0.15 * (motion === "option 2" ? 1.1 : 1) + 0.25 * (lattice - 3);
-    return { runout_beyond_toe: Math.min(runout, end_of_time), deposit_volume: 2.1 * Math.min(runout, end_of_time) ** 0.8, moves: runout > end_of_time };
+    const reached = Math.min(runout, end_of_time);
+    return { runout_beyond_toe: reached, runout: reached - 0.4, moves: runout > end_of_time };
 }
 
 const name_of = (number) => `s${String(number).padStart(4, "0")}`;
@@ -52,6 +54,7 @@ const quantile = (sorted, p) => {
     const below = Math.floor(at);
     return sorted[below] + (at - below) * ((sorted[below + 1] ?? sorted[below]) - sorted[below]);
 };
+const percentiles = [5, 10, 50, 90, 95];
 const needed = { 5: 59, 10: 29, 50: 5, 90: 29, 95: 59 };
 const ascending = (values) => [...values].sort((a, b) => a - b);
 
@@ -78,7 +81,7 @@ function correlation(a, b) {
 const level = (value) => (typeof value === "number" ? value : Number(/\d+$/.exec(value)[0]));
 
 function quantity(rows, name, next, parameters) {
-    const done = rows.filter((row) => row.results);
+    const done = rows.filter((row) => row.results[name] !== null);
     const values = done.map((row) => row.results[name]);
     const [label, unit] = quantity_names[name];
     const sorted = ascending(values);
@@ -88,24 +91,27 @@ function quantity(rows, name, next, parameters) {
         const pairs = x.map((each, i) => [each, values[i]]);
         const rank = (list) => correlation(ranks(list.map(([a]) => a)), ranks(list.map(([, b]) => b)));
         const own = rank(pairs);
-        return { parameter, rank_correlation: own, ...resampled(pairs, next, rank), partial_rank_correlation: own, first_order: own ** 2 };
+        const share = { first_order: own ** 2, first_order_low: 0.8 * own ** 2, first_order_high: Math.min(1, 1.2 * own ** 2) };
+        return ["motion", "lattice"].includes(parameter) // no order
+            ? { parameter, measure: "correlation_ratio", rank_correlation: null, low: null, high: null, partial_rank_correlation: null, ...share }
+            : { parameter, measure: "rank_correlation", rank_correlation: own, ...resampled(pairs, next, rank), partial_rank_correlation: own, ...share };
     });
-    const few = values.length < 10;
+    const told = percentiles.filter((p) => values.length >= needed[p]);
     const middle = { "residual strength": 1, viscosity: 550, motion: "option 1", lattice: 3 };
     const at = (change) => model({ ...middle, ...change })[name];
-    const bars = [["residual strength", 0.69, 1.45], ["viscosity", 140, 2130], ["motion", "option 1", "option 2"], ["lattice", 1, 5]]
+    const bars = [["residual strength", 0.69, 1.45], ["viscosity", 140, 2130], ["motion", "option 1", "option 2"]]
         .map(([parameter, low, high]) => ({ parameter, p10: at({ [parameter]: low }), p90: at({ [parameter]: high }) }));
     return { label, unit, count: values.length, of: rows.length, mean, sd: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1)),
-             percentiles: few ? { refused: `${values.length} samples are not enough for percentiles: 10 are the least` }
-                 : [5, 10, 50, 90, 95].map((p) => (values.length < needed[p] ? { p, refused: `${values.length} samples are not enough for it: ${needed[p]} are needed` }
-                     : { p, value: quantile(sorted, p / 100), ...resampled(values, next, (list) => quantile(ascending(list), p / 100)) })),
+             percentiles: values.length < needed[50] ? { refused: `${values.length} samples are not enough for the 50th percentile: ${needed[50]} are needed` }
+                 : told.map((p) => ({ p, value: quantile(sorted, p / 100), ...resampled(values, next, (list) => quantile(ascending(list), p / 100)) })),
+             percentiles_lacking: percentiles.filter((p) => !told.includes(p)).map((p) => ({ p, needs: needed[p] })),
              exceedance: sorted.filter((_, i) => sorted.length <= 101 || i % Math.ceil(sorted.length / 101) === 0 || i === sorted.length - 1).map((value) => {
                  const probability = sorted.filter((each) => each > value).length / sorted.length;
                  const half = 1.64 * Math.sqrt((probability * (1 - probability) + 0.25 / sorted.length) / sorted.length);
                  return { value, probability, low: Math.max(0, probability - half), high: Math.min(1, probability + half) };
              }),
-             importance: few ? { refused: `${values.length} samples are not enough for an importance` } : importance,
-             tornado: name === "deposit_volume" || few ? { refused: "Q2 is 0.4; 0.7 is needed", q2: 0.4 }
+             importance,
+             tornado: name === "runout" || values.length < 10 ? { refused: "Q2 is 0.4; 0.7 is needed", q2: 0.4 }
                  : { q2: 0.93, at_median: at({}), bars } };
 }
 
@@ -116,19 +122,19 @@ export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of
     const rows = study.variants.map(({ name: sample, sample: { values } }) => {
         const { moves, ...results } = model(values);
         const own = odd[sample] ?? (moves ? "questionable" : "succeeded");
-        return { sample, task: task_of(sample), state: own, values, results: odd[sample] ? null : results };
+        return { sample, task: task_of(sample), state: own, values, results: odd[sample] ? { runout_beyond_toe: null, runout: null } : results };
     });
-    const done = rows.filter((row) => row.results).length;
+    const done = rows.filter((row) => row.results.runout !== null).length;
     const failed = rows.filter((row) => row.state === "failed");
     const parameters = [
         { name: "residual strength", kind: "factor", distribution: { type: "lognormal", median: 1, cov: 0.3 }, between: [0.4, 2.5],
           entries: ["/materials/sand/law/softening/c_residual_kPa"], asked_correlation: { viscosity: 0.3 } },
         { name: "viscosity", kind: "value", distribution: { type: "log_uniform", from: 100, to: 3000 }, between: null, entries: ["/materials/sand/viscosity"], asked_correlation: {} },
-        { name: "motion", kind: "choice", distribution: { type: "one_of", options: ["option 1", "option 2"], weights: [2, 1] }, between: null, entries: ["/fem/motion/file"], asked_correlation: {} },
-        { name: "lattice", kind: "numerical", distribution: { type: "numerical" }, between: null, entries: [], asked_correlation: {} },
+        { name: "motion", kind: "choice", distribution: null, between: null, entries: [], asked_correlation: {} },
+        { name: "lattice", kind: "numerical", distribution: null, between: null, entries: [], asked_correlation: {} },
     ];
-    return { run: id, name, state, quantity: "runout_beyond_toe", sampling: "latin_hypercube", seed: 7,
-             samples: { planned: rows.length, done, failed: failed.length, open: rows.length - done - failed.length,
+    return { run: id, name, state, quantity: "runout_beyond_toe", sampling: "latin_hypercube", seed: 7, confidence: 0.9,
+             samples: { planned: rows.length, done, failed: failed.length, questionable: rows.filter((row) => row.state === "questionable").length, open: rows.length - done - failed.length,
                         left_out: failed.map(({ sample }) => ({ sample, state: "failed", reason: "exit 70: a point left the grid at 3.2 s" })) },
              parameters, rows,
              quantities: Object.fromEntries(Object.keys(quantity_names).map((each) => [each, quantity(rows, each, next, parameters.map((one) => one.name))])),
@@ -136,20 +142,21 @@ export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of
              sentences: [`${done} of ${rows.length} samples ended; ${failed.length} failed and are in no percentile.`] };
 }
 
-/// Depth, velocity and arrival along x: each sample a wedge as long as its runout.
+/// Depth, velocity and arrival along x: each sample a wedge as long as its runout; who never came is 0 there and arrives after all others.
 export function envelopes_of({ study }) {
     const odd = open_or_failed(study.variants.length);
     const lengths = study.variants.filter(({ name }) => !odd[name]).map(({ sample }) => model(sample.values).runout_beyond_toe);
     const x = Array.from({ length: 101 }, (_, i) => i - 5);
-    const along = (value, everywhere) => {
-        const columns = x.map((at) => lengths.filter((length) => everywhere || at < length).map((length) => value(at, length)).sort((a, b) => a - b));
-        const of = (p) => columns.map((column) => (column.length ? quantile(column, p) : null));
-        return { p10: of(0.1), p50: of(0.5), p90: of(0.9), count: columns.map((column) => column.length) };
+    const finite = (value) => (Number.isFinite(value) ? value : null);
+    const along = (unit, value, absent) => {
+        const columns = x.map((at) => ascending(lengths.map((length) => (at < length ? value(at, length) : absent))));
+        const of = (p) => columns.map((column) => finite(quantile(column, p)));
+        return { unit, p10: of(0.1), p50: of(0.5), p90: of(0.9), rests_on: columns.map((column) => column.filter(Number.isFinite).length) };
     };
-    return { x, unit: { max_depth: "m", max_velocity: "m/s", arrival_time: "s" }, of: study.variants.length,
-             quantities: { max_depth: along((at, length) => Math.max(0, 6 * (1 - Math.max(at, 0) / length)) ** 0.7, true),
-                           max_velocity: along((at, length) => 0.9 * Math.sqrt(Math.max(length - at, 0)), true),
-                           arrival_time: along((at, length) => Math.max(at, 0) / (0.9 * Math.sqrt(length)), false) } };
+    return { x, samples: lengths.length, of: study.variants.length, reached: x.map((at) => lengths.filter((length) => at < length).length),
+             bands: { largest_depth: along("m", (at, length) => (6 * (1 - Math.max(at, 0) / length)) ** 0.7, 0),
+                      largest_velocity: along("m/s", (at, length) => 0.9 * Math.sqrt(length - at), 0),
+                      arrival: along("s", (at, length) => Math.max(at, 0) / (0.9 * Math.sqrt(length)), Infinity) } };
 }
 
 /// The model's results of a sample, as a row of the run's results has them.

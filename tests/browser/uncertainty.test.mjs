@@ -35,10 +35,10 @@ test("how many samples there are, and what that leaves unsaid, stands above the 
     const run = await open_samples(64);
     assert.match(await text_of("#uncertainty-counts"), /^60 of 64 samples ended with a result/);
     const doubts = await text_of("#uncertainty-doubts");
-    assert.match(doubts, /2 of 64 failed and are in no number here/);
+    assert.match(doubts, /2 of 64 left no result and are in no number here/);
     assert.match(doubts, /2 have not ended/);
     assert.match(doubts, /1 of 60 were stopped while their soil still moved/);
-    assert.match(doubts, /Asked was p90 to ± 0\.1; it is known to ± 0\.13/);
+    assert.match(doubts, /Asked was p90 to ± 10 % of its value; it is known to ± 13 %/);
     assert.match(await text_of("#uncertainty-percentiles-caption"), /^60 of 64 samples; mean ≥ /, "one of them is a lower bound");
     assert.equal(await text_of("#uncertainty-left-out-title"), "Left out: 2 samples");
     await page.click("#uncertainty-left-out-title");
@@ -80,10 +80,10 @@ test("the curve falls in steps from the share above the least sample, with its b
 test("a tornado is shown or says why not; what decides is in order", async () => {
     await open_samples(64);
     const labels = await page.locator("#uncertainty-tornado svg.plot > text.label").evaluateAll((all) => all.map((each) => each.firstChild.data));
-    assert.deepEqual(labels, ["residual strength", "viscosity", "motion", "lattice", "99 % of what passed the toe [m]"]);
+    assert.deepEqual(labels, ["residual strength", "viscosity", "motion", "99 % of what passed the toe [m]"]);
     assert.match(await text_of("#uncertainty-tornado-note"), /Q² = 0\.93 by cross-validation/);
     assert.match(await text_of("#uncertainty-importance-rows tr"), /^residual strength-0\.9/);
-    await page.selectOption("#uncertainty-quantity", "deposit_volume");
+    await page.selectOption("#uncertainty-quantity", "runout");
     assert.ok(await page.isHidden("#uncertainty-tornado"));
     assert.match(await text_of("#uncertainty-tornado-note"), /^No tornado: Q2 is 0\.4; 0\.7 is needed/);
 });
@@ -111,20 +111,22 @@ test("a click on a sample leads to its task, also where many have one value", as
 
 test("what stands along x says on how many samples it rests", async () => {
     await open_samples(64);
-    assert.match(await text_of("#uncertainty-along-note"), /^60 of 64 samples\. 1 of them still moved/);
-    await page.selectOption("#uncertainty-column", "arrival_time");
-    assert.match(await text_of("#uncertainty-along-note"), /fewer from x = \d+ m to \d+ m: there the percentiles are of those samples alone/);
+    assert.match(await text_of("#uncertainty-along-note"), /^60 of 64 samples\. Where the flow of a sample never came it is 0 there\. 1 still moved/);
+    await page.selectOption("#uncertainty-column", "arrival");
+    assert.match(await text_of("#uncertainty-along-note"), /a percentile ends where too few came/);
+    assert.deepEqual(await page.locator("#uncertainty-envelope .legend li").allTextContents(), [" p50", " p50, some never came", " p10 to p90"]);
     await (await page.$("#uncertainty")).scrollIntoViewIfNeeded();
     await screenshot(page, "uncertainty");
 });
 
 test("too few samples have no percentiles, and it is said", async () => {
     await open_samples(5);
-    assert.match(await text_of("#uncertainty-refused"), /3 samples are not enough for percentiles/);
+    assert.match(await text_of("#uncertainty-refused"), /3 samples are not enough for the 50th percentile/);
     assert.ok(await page.isHidden("#uncertainty-percentiles"));
-    assert.match(await text_of("#uncertainty-importance-note"), /^No importance: 3 samples/);
+    assert.match(await text_of("#uncertainty-importance-note"), /^3 of 5 samples\. Pale/);
+    assert.match(await text_of("#uncertainty-tornado-note"), /^No tornado/);
     await open_samples(40);
-    assert.match(await page.innerText("#uncertainty-percentile-rows tr"), /p5\s+–\s+36 samples are not enough for it: 59 are needed/);
+    assert.match(await page.innerText("#uncertainty-percentile-rows tr"), /p5\s+–\s+36 samples are not enough: 59 are needed/);
 });
 
 test("a run over nothing but transfer times has no such view", async () => {

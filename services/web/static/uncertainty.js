@@ -5,19 +5,22 @@ import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_note, look_of } from "./flags.js";
 import { is_active, number, show_state } from "./format.js";
 import { Plot } from "./plot.js";
+import { measures } from "./results.js";
 import { DataTable } from "./table.js";
 import { Tornado } from "./tornado.js";
 
-const along_x = { max_depth: "largest depth", max_velocity: "largest velocity", max_momentum_flux: "largest h v²", arrival_time: "first arrival",
-                  peak_time: "time of the largest depth", deposit: "final deposit" };
+const along_x = { largest_depth: "largest depth", largest_velocity: "largest velocity", largest_momentum_flux: "largest h v²", arrival: "first arrival",
+                  time_of_peak: "time of the largest depth", final_depth: "final deposit" };
 const long_span = 5; // times from the least to the largest value, from which on a parameter is drawn on a logarithmic axis
 const golden = 0.618033988749895;
 
-const labelled = ({ label, unit }) => `${label}${unit && unit !== "1" ? ` [${unit}]` : ""}`;
+const labelled = ({ name, unit }) => `${name}${unit ? ` [${unit}]` : ""}`;
+const share = (value) => `${number(100 * value, 2)} %`;
+const has_result = (row) => Object.values(row.results ?? {}).some(Number.isFinite);
 const plural = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 /// Soil that moves on only adds to these.
-const grows = (quantity) => /^(runout|area|deposit|volume_beyond|gauge.*(depth|velocity)|max_)/.test(quantity) && quantity !== "volume_ratio";
+const grows = (quantity) => /^(runout|area|deposit)/.test(quantity);
 
 export class Uncertainty {
     /// open_task(id), ask(sample): the task behind a sample; where its numbers come from.
@@ -60,18 +63,19 @@ export class Uncertainty {
     /// What a sample's number is worth; "" is sound.
     look(row) {
         const result = this.results.get(row.sample);
-        return result && row.results ? look_of(result) : "";
+        return result && has_result(row) ? look_of(result) : "";
     }
 
     draw() {
         const { answer } = this;
-        offer(by_id("uncertainty-quantity"), Object.entries(answer.quantities).map(([value, { label }]) => ({ value, text: label || value })), answer.quantity);
+        const named = Object.entries(answer.quantities).map(([value, each]) => ({ ...each, value, name: measures[value] ?? value, unit: each.unit === "1" ? "" : each.unit }));
+        offer(by_id("uncertainty-quantity"), named.map(({ value, name, label }) => ({ value, text: name, title: label })), answer.quantity);
         offer(by_id("uncertainty-parameter"), answer.parameters.map(({ name }) => ({ value: name, text: name })), answer.parameters[0]?.name);
         this.quantity = by_id("uncertainty-quantity").value;
         this.moving = answer.rows.filter((row) => this.look(row).includes("bound")).map((row) => row.results[this.quantity]).filter(Number.isFinite);
         by_id("uncertainty-csv").href = api.uncertainty_file(this.run.id, "csv");
         this.draw_counts();
-        const quantity = answer.quantities[this.quantity];
+        const quantity = named.find(({ value }) => value === this.quantity);
         by_id("uncertainty-figures").hidden = !quantity;
         if (quantity) {
             this.draw_percentiles(quantity);
@@ -92,16 +96,17 @@ export class Uncertainty {
         const doubtful = looks.filter((look) => look === "doubtful").length;
         const unknown = looks.filter((look) => look === "unknown").length;
         const doubts = [
-            samples.failed && `${samples.failed} of ${samples.planned} failed and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
+            samples.failed && `${samples.failed} of ${samples.planned} left no result and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
             samples.open && `${samples.open} have not ended: the numbers will change.`,
             this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound, ` +
                 "and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve.",
             doubtful && `${doubtful} are questionable for other reasons (hollow and dashed among the samples).`,
             unknown && `${unknown} carry no flags: what may be wrong with them is not known.`,
-            until && !until.reached && `Asked was p${until.percentile} to ± ${number(until.half_width)}; it is known to ± ${number(until.now)}.`,
+            until && !until.reached && `Asked was p${until.percentile} to ± ${share(until.half_width)} of its value; ` +
+                (Number.isFinite(until.now) ? `it is known to ± ${share(until.now)}.` : "so few samples do not tell it at all."),
         ].filter(Boolean);
-        const said = [...(sentences ?? []).filter((each) => !doubts.includes(each)), ...(inverse ? [inverse_text(inverse)] : []),
-                      ...(until?.reached ? [`p${until.percentile} is known to ± ${number(until.now)}; ± ${number(until.half_width)} was asked.`] : [])];
+        const said = [...sentences, ...(inverse ? [inverse_text(inverse)] : []),
+                      ...(until?.reached ? [`p${until.percentile} is known to ± ${share(until.now)} of its value; ± ${share(until.half_width)} was asked.`] : [])];
         by_id("uncertainty-doubts").hidden = doubts.length === 0;
         for (const [id, lines] of [["uncertainty-doubts", doubts], ["uncertainty-said", said]]) {
             mirror(by_id(id), lines, (line) => line, () => element("li"), set_text);
@@ -118,18 +123,19 @@ export class Uncertainty {
         return grows(this.quantity) && this.moving.some((each) => each <= value);
     }
 
-    draw_percentiles({ percentiles, unit, count, of, mean, sd }) {
+    draw_percentiles({ percentiles, percentiles_lacking, unit, count, of, mean, sd }) {
         const refused = percentiles.refused ?? "";
         by_id("uncertainty-refused").hidden = !refused;
         set_text(by_id("uncertainty-refused"), refused);
         by_id("uncertainty-percentiles").hidden = Boolean(refused);
         if (refused) return;
         set_text(by_id("uncertainty-percentiles-caption"), `${count} of ${of} samples; mean ${this.at_least(mean, true)} ${unit}, standard deviation ${number(sd, 3)} ${unit}`);
-        mirror(by_id("uncertainty-percentile-rows"), percentiles, ({ p }) => p, () => element("tr", {}, element("th", { scope: "row" }),
-               element("td", { class: "number" }), element("td", { class: "number" })), (row, { p, value, low, high, refused: without }) => {
+        const all = [...percentiles, ...percentiles_lacking].sort((a, b) => a.p - b.p);
+        mirror(by_id("uncertainty-percentile-rows"), all, ({ p }) => p, () => element("tr", {}, element("th", { scope: "row" }),
+               element("td", { class: "number" }), element("td", { class: "number" })), (row, { p, value, low, high, needs }) => {
             set_text(row.children[0], `p${p}`);
             set_text(row.children[1], Number.isFinite(value) ? `${this.at_least(value)} ${unit}` : "–");
-            set_text(row.children[2], Number.isFinite(low) ? `${number(low)} to ${number(high)}` : without ?? "");
+            set_text(row.children[2], Number.isFinite(low) ? `${number(low)} to ${number(high)}` : `${count} samples are not enough: ${needs} are needed`);
             row.classList.toggle("waiting", !Number.isFinite(value));
             row.children[1].title = this.is_bound(value) ? "A lower bound: samples below it were stopped while their soil still moved" : "";
         });
@@ -166,7 +172,7 @@ export class Uncertainty {
         const options = is_choice ? [...new Set(values)].sort((a, b) => String(a).localeCompare(String(b), undefined, { numeric: true })) : [];
         const x = is_choice ? values.map((value, i) => options.indexOf(value) + 0.6 * (((i + 1) * golden) % 1) - 0.3) : values;
         const log = !is_choice && Math.min(...x) > 0 && Math.max(...x) > long_span * Math.min(...x);
-        Object.assign(this.scatter.labels, { title: `${quantity.label} against ${parameter.name}`, y: labelled(quantity), x_name: parameter.name });
+        Object.assign(this.scatter.labels, { title: `${quantity.name} against ${parameter.name}`, y: labelled(quantity), x_name: parameter.name });
         this.scatter.show({
             series: [{ name: `${rows.length} samples`, unit: quantity.unit, points: true, scatter: true, x, y: rows.map((row) => row.results[this.quantity]),
                        keys: rows.map(({ sample }) => sample), names: rows.map(({ sample }) => sample), looks: rows.map((row) => this.look(row)),
@@ -183,31 +189,29 @@ export class Uncertainty {
 
     draw_envelope() {
         const { envelopes } = this;
-        const columns = Object.keys(envelopes?.quantities ?? {});
+        const columns = Object.keys(envelopes?.bands ?? {});
         by_id("uncertainty-along").hidden = columns.length === 0;
         if (columns.length === 0) return;
         offer(by_id("uncertainty-column"), columns.map((value) => ({ value, text: along_x[value] ?? value.replaceAll("_", " ") })), columns[0]);
         const chosen = by_id("uncertainty-column").value;
-        const { p10, p50, p90, count } = envelopes.quantities[chosen];
-        const unit = envelopes.unit[chosen] ?? "";
-        const most = Math.max(...count);
+        const { unit, p10, p50, p90, rests_on: count } = envelopes.bands[chosen];
+        const most = envelopes.samples;
         // Fewer samples are another curve, which begins where the first one ends.
         const part = (name, is_in) => ({ name, unit, x: envelopes.x, y: p50.map((y, i) => (is_in(i) ? y : null)), low: p10, high: p90,
-                                         names: count.map((each) => `${each} of ${envelopes.of} samples`) });
+                                         names: count.map((each) => `${each} of ${most} samples came`) });
         const is_whole = (i) => count[i] === most;
-        const fewer = part(`p50 of fewer than ${most} samples`, (i) => !is_whole(i) || (count[i + 1] ?? most) < most || (count[i - 1] ?? most) < most);
+        const fewer = part("p50, some never came", (i) => !is_whole(i) || (count[i + 1] ?? most) < most || (count[i - 1] ?? most) < most);
         this.envelope.labels.y = `${along_x[chosen] ?? chosen} [${unit || "–"}]`;
         this.envelope.show({ series: [part("p50", is_whole), ...(count.every((_, i) => is_whole(i)) ? [] : [fewer])], errors_name: "p10 to p90" });
-        const ends = envelopes.x.filter((_, i) => count[i] > 0 && count[i] < most);
-        set_text(by_id("uncertainty-along-note"), `${most} of ${envelopes.of} samples` + (ends.length === 0 ? "."
-            : `, fewer from x = ${number(Math.min(...ends))} m to ${number(Math.max(...ends))} m: there the percentiles are of those samples alone that have a value; the readout tells how many.`) +
-            (this.moving.length ? ` ${this.moving.length} of them still moved: beyond where they lay, depths and velocities are lower bounds, and who was not reached may yet be.` : ""));
+        set_text(by_id("uncertainty-along-note"), `${most} of ${this.answer.samples.planned} samples. ` + (unit === "s"
+            ? "A sample whose flow never came arrives after all others: a percentile ends where too few came." : "Where the flow of a sample never came it is 0 there.") +
+            (this.moving.length ? ` ${this.moving.length} still moved when stopped: beyond where they lay depths and velocities are lower bounds, and what was not reached may yet be.` : ""));
     }
 
     draw_samples(quantity) {
         const { parameters, rows } = this.answer;
         const open = ({ sample, task }) => element("span", { class: "row" }, element("button", { type: "button", class: "link", disabled: !task, onclick: () => this.open(sample) }, sample));
-        const trace = ({ sample, has_result }) => (has_result ? element("button", { type: "button", class: "link", onclick: () => this.ask(sample) }, "trace") : "");
+        const trace = ({ sample, has_result: traceable }) => (traceable ? element("button", { type: "button", class: "link", onclick: () => this.ask(sample) }, "trace") : "");
         const state = (record) => {
             const badge = element("span");
             show_state(badge, record.state);
@@ -217,11 +221,11 @@ export class Uncertainty {
         this.table ??= new DataTable(by_id("uncertainty-samples"));
         this.table.open(`samples_${this.run.name}`, [
             { name: "sample", title: "sample", cell: open }, { name: "state", title: "state", cell: state },
-            { name: "value", title: quantity?.label ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
+            { name: "value", title: quantity?.name ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
             ...parameters.map(({ name, kind }) => ({ name: `values ${name}`, title: name, number: kind !== "choice",
                                               cell: kind === "choice" ? null : (record) => number(record[`values ${name}`]) })),
             { name: "trace", title: "", cell: trace },
-        ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look(row), has_result: Boolean(row.results),
+        ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look(row), has_result: has_result(row),
                                 ...Object.fromEntries(Object.entries(row.values).map(([name, each]) => [`values ${name}`, each])) })), false);
     }
 }
@@ -235,7 +239,10 @@ function in_steps(exceedance) {
 /// The options of a select, with what was chosen still chosen.
 function offer(select, options, first) {
     const before = select.value;
-    mirror(select, options, ({ value }) => value, ({ value }) => element("option", { value }), (option, { text }) => set_text(option, text));
+    mirror(select, options, ({ value }) => value, ({ value }) => element("option", { value }), (option, { text, title }) => {
+        set_text(option, text);
+        option.title = title ?? "";
+    });
     select.value = options.some(({ value }) => value === before) ? before : first;
 }
 
@@ -244,18 +251,22 @@ function inverse_text({ target, vary, value, low, high }) {
 }
 
 /// Options of a choice have no order and so no rank correlation.
-const weight_of = ({ rank_correlation: rank, first_order: share }) => (Number.isFinite(rank) ? Math.abs(rank) : Math.sqrt(Math.max(share ?? 0, 0)));
+const weight_of = ({ rank_correlation: rank, first_order: explained }) => (Number.isFinite(rank) ? Math.abs(rank) : Math.sqrt(Math.max(explained ?? 0, 0)));
 
 /// What decides: by rank, with what the others explain taken away, and the share of the variance; pale where it is not told from none.
 function draw_importance({ importance, count, of }) {
-    const refused = importance.refused ?? "";
-    by_id("uncertainty-importance").hidden = Boolean(refused);
-    set_text(by_id("uncertainty-importance-note"), refused ? `No importance: ${refused}.` : `${count} of ${of} samples. Pale: its interval has 0 in it, so the parameter is not told from one that does nothing.`);
-    if (refused) return;
+    const told = importance.some(({ rank_correlation: rank, first_order: explained }) => Number.isFinite(rank) || Number.isFinite(explained));
+    by_id("uncertainty-importance").hidden = !told;
+    set_text(by_id("uncertainty-importance-note"), told ? `${count} of ${of} samples. Pale: an interval has 0 in it, so the parameter is not told from one that does nothing.`
+        : `${count} samples do not tell which parameter decides.`);
+    if (!told) return;
     const ordered = [...importance].sort((a, b) => weight_of(b) - weight_of(a));
     mirror(by_id("uncertainty-importance-rows"), ordered, ({ parameter }) => parameter, () => element("tr", {}, element("th", { scope: "row" }),
-           ...Array.from({ length: 4 }, () => element("td", { class: "number" }))), (row, { parameter, rank_correlation: rank, low, high, partial_rank_correlation: partial, first_order: share }) => {
-        [parameter, number(rank, 2), Number.isFinite(low) ? `${number(low, 2)} to ${number(high, 2)}` : "–", number(partial, 2), number(share, 2)].forEach((text, i) => set_text(row.children[i], text));
-        row.classList.toggle("waiting", Number.isFinite(low) && low <= 0 && high >= 0);
+           ...Array.from({ length: 4 }, () => element("td", { class: "number" }))), (row, { parameter, rank_correlation: rank, low, high, partial_rank_correlation: partial,
+        first_order: explained, first_order_low: least, first_order_high: most }) => {
+        const ends = (a, b) => (Number.isFinite(a) ? `${number(a, 2)} to ${number(b, 2)}` : "–");
+        [parameter, number(rank, 2), ends(low, high), number(partial, 2), Number.isFinite(explained) ? `${number(explained, 2)} (${ends(least, most)})` : "–"]
+            .forEach((text, i) => set_text(row.children[i], text));
+        row.classList.toggle("waiting", Number.isFinite(low) ? low <= 0 && high >= 0 : !(least > 0));
     });
 }
