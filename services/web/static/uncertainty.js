@@ -265,8 +265,8 @@ function draw_importance({ importance, count, of }) {
            ...Array.from({ length: 4 }, () => element("td", { class: "number" }))), (row, { parameter, rank_correlation: rank, low, high, partial_rank_correlation: partial,
         first_order: explained, first_order_low: least, first_order_high: most }) => {
         const ends = (a, b) => (Number.isFinite(a) ? `${number(a, 2)} to ${number(b, 2)}` : "–");
-        [parameter, number(rank, 2), ends(low, high), number(partial, 2), Number.isFinite(explained) ? `${number(explained, 2)} (${ends(least, most)})` : "–"]
-            .forEach((text, i) => set_text(row.children[i], text));
+        [parameter, number(rank, 2), ends(low, high), number(partial, 2), number(explained, 2)].forEach((text, i) => set_text(row.children[i], text));
+        row.lastElementChild.title = `90 % interval: ${ends(least, most)}`;
         row.classList.toggle("waiting", Number.isFinite(low) ? low <= 0 && high >= 0 : !(least > 0));
     });
 }
