@@ -136,7 +136,7 @@ std::vector<std::string> cautions_of(const Run& run, const json& quantity) {
     std::erase(said, "");
     said.emplace_back(
         "Percentiles are over the parameters named below, as they are distributed there, and over "
-        "nothing else. What the model leaves out (end of this page) is in none of them.");
+        "nothing else. What the model leaves out (table of CDA's cases below) is in none of them.");
     return said;
 }
 
@@ -154,6 +154,10 @@ std::string what_fails(const Run& run) {
     }
     for (const PhaseFolder* each : phases_named(run, phases::fem.program))
         if (const std::string end = entanglement_of(*each); !end.empty()) return text + ". " + end;
+    for (const PhaseFolder* each : phases_named(run, phases::lem.program))
+        if (each->result.is_object() && each->result.contains("factor_of_safety"))
+            return text + "; factor of safety " + fact(each->result, "/factor_of_safety") +
+                   (each->variant.empty() ? "." : " (" + each->variant + ").");
     return text + ".";
 }
 
@@ -192,15 +196,24 @@ std::string spread_text(const std::optional<double>& value, bool bound) {
     return (bound ? at_least : "") + rounded(*value, 3);
 }
 
-/// One fact of the samples' results. What grows while soil moves is a lower bound in its upper
-/// percentiles as soon as any sample still moved.
+/// One fact of the samples' results; absent: what it counts as where it is not there. What grows while
+/// soil moves is a lower bound where a sample at or below it was stopped in motion.
 std::vector<std::string> fact_row(const Run& run, const std::string& what, const std::string& fact,
                                   double absent, const std::string& came) {
-    const Spread spread = spread_of(run, json::json_pointer(fact), absent);
-    const bool bound = absent == 0.0 && !moving_samples(run).empty();
+    const json::json_pointer at(fact);
+    const Spread spread = spread_of(run, at, absent);
+    std::optional<double> least;
+    if (absent == 0.0)
+        for (const PhaseFolder* each : moving_samples(run)) {
+            const json value = each->result.contains(at) ? each->result.at(at) : json();
+            least =
+                std::min(least.value_or(never), value.is_number() ? value.get<double>() : absent);
+        }
     std::vector<std::string> row{what};
-    for (const double p : {50.0, 10.0, 90.0})
-        row.push_back(spread_text(spread.percentile(p), bound));
+    for (const double p : {50.0, 10.0, 90.0}) {
+        const auto value = spread.percentile(p);
+        row.push_back(spread_text(value, value && least && *least <= *value));
+    }
     row.push_back(std::to_string(spread.count) + " of " +
                   run.uncertainty.at("samples").at("planned").dump() + " samples" + came);
     return row;
@@ -247,7 +260,7 @@ Table answers_of(const Run& run) {
         "How far, when, how deep, how fast",
         {"what", "p50", "p10", "p90", "rests on"},
         {},
-        "In brackets: where the percentile lies in nine of ten studies of so many samples. "
+        "In brackets: the percentile's 90 % interval for so many samples. "
         "\u2265: a lower bound, soil still moved. At a gauge a sample whose flow never came "
         "is 0 deep and arrives after all others."};
     for (const std::string& name : quantities_of(run.uncertainty))
@@ -381,8 +394,10 @@ Table origin_of(const Run& run) {
         table.rows.push_back({phase, text});
     }
     const json& answer = run.uncertainty;
-    table.rows.push_back({"samples", answer.value("sampling", json("not told")).dump() + ", seed " +
-                                         answer.value("seed", json("not told")).dump()});
+    const json sampling = answer.value("sampling", json());
+    table.rows.push_back(
+        {"samples", (sampling.is_string() ? sampling.get<std::string>() : "not told") + ", seed " +
+                        answer.value("seed", json("not told")).dump()});
     for (const char* file : {"study.json", "uncertainty.json", "envelopes.json", "results.json"})
         if (const auto path = run.folder / file; std::filesystem::is_regular_file(path))
             table.rows.push_back({std::string(file) + ", SHA-256", exchange::sha256_of_file(path)});
@@ -465,7 +480,7 @@ Table percentile_table(const Run& run) {
         "Percentiles",
         {"quantity", "samples", "mean", "standard deviation", "p5", "p10", "p50", "p90", "p95"},
         {},
-        "With where each lies in nine of ten studies of so many samples. Mean and standard "
+        "In brackets: 90 % intervals for so many samples. Mean and standard "
         "deviation of distances that are lower bounds in part are too small."};
     for (const std::string& name : quantities_of(run.uncertainty)) {
         const json& quantity = run.uncertainty.at("quantities").at(name);

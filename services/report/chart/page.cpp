@@ -41,8 +41,9 @@ constexpr const char* style =
     ".sign{margin-top:2.2em}nav>ol{columns:2}nav li{break-inside:avoid}"
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
     "th,td{padding:.15em "
-    ".4em}td.long{overflow-wrap:anywhere;min-width:6em}td.long:first-child{min-width:11em}.opens{"
-    "break-before:page}"
+    ".4em}td.long{overflow-wrap:anywhere;min-width:6em}td.long:first-child{min-width:11em}"
+    ".opens{break-before:page}.opens>h2{margin-top:0}.opens>p,.cautions,.opens .wide p{"
+    "font-size:8.5pt;line-height:1.35;margin:.3em 0}"
     "tbody tr:first-child{break-before:avoid}.many,.sheet{page:wide}.sheet "
     "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}.many "
     "td.long:first-child{min-width:6em}}";

@@ -77,13 +77,16 @@ Figure exceedance_figure(const json& quantity, const std::string& label,
         add(each.at("value"), each);
         before = &each;
     }
+    // Of n samples none lies beyond the largest: with 90 % confidence at most so many of all do.
+    const double count = quantity.at("count");
+    const double beyond = 100.0 * (1.0 - std::pow(0.1, 1.0 / count));
     Figure figure{
         "exceedance",
         {"Probability of more", {label}, {"probability of more [-]"}, {curve}},
-        "Share of the samples that exceed a value; the band has the probability in nine of "
-        "ten studies of so many samples. Beyond the largest sample nothing is known but "
-        "that it is rare: seldom more than one in " +
-            quantity.at("count").dump() + "."};
+        "Share of the samples that exceed a value, with its 90 % interval for so many samples. How "
+        "far more can be is not told: up to " +
+            rounded(beyond, 2) +
+            " % of all that is possible may lie beyond the largest sample (90 % confidence)."};
     if (bound_from) {
         figure.chart.marks.push_back({Mark::At::x, *bound_from, "from here a lower bound"});
         figure.caption +=
