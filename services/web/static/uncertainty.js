@@ -42,7 +42,7 @@ export class Uncertainty {
             this.seen = null;
             return;
         }
-        const ended = run.tasks.filter(({ phase, state }) => phase === "mpm_solver" && !is_active(state)).length;
+        const ended = run.tasks.filter(({ state }) => !is_active(state)).length;
         const seen = `${run.id} ${ended} ${run.state}`;
         if (seen === this.seen) return; // nothing has ended since: the same answer
         const [answer, envelopes] = await Promise.all([api.read_uncertainty(run.id), api.read_envelopes(run.id)]);
