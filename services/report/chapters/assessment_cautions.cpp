@@ -23,7 +23,8 @@ std::string moving_caution(const Run& run) {
     return std::to_string(moving.size()) + " of " + std::to_string(sampled_runouts(run).size()) +
            " samples were stopped while their soil still moved (flag \"still moving\"): their "
            "distances are lower bounds, and so is every percentile at or above the least of them "
-           "(marked \u2265). How far they would have gone is not known; let them run longer "
+           "(marked \u2265). How far they would have gone is not known, and what ranks or fits the "
+           "samples (importance, tornado) takes them as they are; let them run longer "
            "(/mpm/duration).";
 }
 

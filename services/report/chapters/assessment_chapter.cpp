@@ -43,10 +43,11 @@ std::string percentile_text(const Run& run, const std::string& name, double p) {
     const json& quantity = run.uncertainty.at("quantities").at(name);
     const json* found = percentile_in(quantity, p);
     if (!found) return why_no_percentile(quantity, p);
-    const double value = found->at("value");
-    return (is_lower_bound(run, name, value) ? at_least : "") + rounded(value, 4) + " (" +
-           rounded(found->at("low").get<double>(), 4) + " to " +
-           rounded(found->at("high").get<double>(), 4) + ")";
+    const auto text = [&](const char* key) {
+        const double value = found->at(key);
+        return (is_lower_bound(run, name, value) ? at_least : "") + rounded(value, 4);
+    };
+    return text("value") + " (" + text("low") + " to " + text("high") + ")";
 }
 
 std::string known_of(const Run& run, const std::string& name) {

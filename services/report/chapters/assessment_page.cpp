@@ -180,6 +180,7 @@ Table assumptions_of(const Run& run) {
 
 Table cases_of(const Run& run) {
     const bool liquefies = asked_scene(run).contains("/transfer/liquefied"_json_pointer);
+    const bool keeps = !liquefies && !is_static(run);
     return {
         "assessment_cases",
         "Which cases of CDA (2021) this can answer",
@@ -189,12 +190,16 @@ Table cases_of(const Run& run) {
          {"1B", "yes", "no", "no", "the same: erosion by water is the process, and it is absent"},
          {"2A", "no", "yes", liquefies ? "yes: this run" : "yes",
           "soil that lost its strength flows as far as that and its viscosity let it"},
-         {"2B", "no", "no", liquefies ? "yes" : "yes: this run",
+         {"2B", "no", "no", keeps ? "yes: this run" : "yes",
           "a slope that fails and slumps with the strength that it keeps"}},
-        "Canadian Dam Association (2021), Technical Bulletin: Tailings Dam Breach Analysis. A "
-        "dam with a pond needs an analysis of its release beside this one. Nor is there a "
-        "channel or a valley that narrows: plane strain, so that no flow spreads or is "
-        "confined sideways, and volumes are per metre of width."};
+        std::string(liquefies || keeps
+                        ? ""
+                        : "Whether this static scene is 2A or 2B hangs on whether its strengths "
+                          "are those of liquefied soil, which it does not say. ") +
+            "Canadian Dam Association (2021), Technical Bulletin: Tailings Dam Breach Analysis. "
+            "A dam with a pond needs an analysis of its release beside this one. Nor is there a "
+            "channel or a valley that narrows: plane strain, so that no flow spreads or is "
+            "confined sideways, and volumes are per metre of width."};
 }
 
 // ---------------------------------------------------------------- error, cost, origin

@@ -37,7 +37,7 @@ export class Tornado {
         const reach = ({ p10, p90 }) => Math.max(p10, p90, middle) - Math.min(p10, p90, middle);
         const bars = [...this.data.bars].sort((a, b) => reach(b) - reach(a));
         const longest = Math.max(...bars.map(({ parameter }) => parameter.length));
-        const left = Math.min(0.4 * width, 24 + 7 * longest) + 30;
+        const left = Math.min(0.4 * width, 24 + 7 * longest) + 44;
         const [low, high] = range_of([bars.flatMap(({ p10, p90 }) => [p10, p90])], [middle]);
         const px = (value) => left + ((value - low) / (high - low)) * (width - left - right);
         const height = top + row_height * bars.length + bottom;
@@ -65,7 +65,7 @@ export class Tornado {
                                                                     width: Math.max(1, Math.abs(px(value) - px(middle))), height: row_height - 10 }));
         const texts = (same ? halves.slice(0, 1) : halves).filter(({ value }) => value !== middle).map(({ value }) => svg("text", { x: px(value) + (value < middle ? -5 : 5), y: y + row_height / 2 + 4,
             "text-anchor": value < middle ? "end" : "start" }, number(value, 3)));
-        return [...parts, ...texts, svg("text", { class: "label", x: left - 42, y: y + row_height / 2 + 4, "text-anchor": "end" }, bar.parameter,
+        return [...parts, ...texts, svg("text", { class: "label", x: left - 56, y: y + row_height / 2 + 4, "text-anchor": "end" }, bar.parameter,
                                         svg("title", {}, `${bar.parameter}: ${number(bar.p10)} at its p10, ${number(bar.p90)} at its p90`))];
     }
 }

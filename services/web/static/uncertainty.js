@@ -81,7 +81,7 @@ export class Uncertainty {
             this.draw_percentiles(quantity);
             this.draw_exceedance(quantity);
             this.draw_tornado(quantity);
-            draw_importance(quantity);
+            draw_importance(quantity, this.bounds_note());
             this.draw_scatter(quantity);
         }
         this.draw_envelope();
@@ -135,10 +135,15 @@ export class Uncertainty {
                element("td", { class: "number" }), element("td", { class: "number" })), (row, { p, value, low, high, needs }) => {
             set_text(row.children[0], `p${p}`);
             set_text(row.children[1], Number.isFinite(value) ? `${this.at_least(value)} ${unit}` : "–");
-            set_text(row.children[2], Number.isFinite(low) ? `${number(low)} to ${number(high)}` : `${count} samples are not enough: ${needs} are needed`);
+            set_text(row.children[2], Number.isFinite(low) ? `${this.at_least(low)} to ${this.at_least(high)}` : `${count} samples are not enough: ${needs} are needed`);
             row.classList.toggle("waiting", !Number.isFinite(value));
             row.children[1].title = this.is_bound(value) ? "A lower bound: samples below it were stopped while their soil still moved" : "";
         });
+    }
+
+    /// What is fitted or ranked takes bounds for values.
+    bounds_note() {
+        return grows(this.quantity) && this.moving.length ? ` ${this.moving.length} of the samples behind it are lower bounds, taken as they are.` : "";
     }
 
     at_least(value, of_all = false) {
@@ -158,7 +163,7 @@ export class Uncertainty {
     draw_tornado({ tornado, ...quantity }) {
         by_id("uncertainty-tornado").hidden = Boolean(tornado.refused);
         set_text(by_id("uncertainty-tornado-note"), tornado.refused ? `No tornado: ${tornado.refused}. A surrogate that does not predict the samples left out of it says nothing of one parameter alone.`
-            : `From a fitted surrogate (Q² = ${number(tornado.q2, 2)} by cross-validation), the other parameters at their medians: ${number(tornado.at_median)} ${quantity.unit}.`);
+            : `From a fitted surrogate (Q² = ${number(tornado.q2, 2)} by cross-validation), the other parameters at their medians: ${number(tornado.at_median)} ${quantity.unit}.${this.bounds_note()}`);
         if (!tornado.refused) this.tornado.show(tornado, labelled(quantity));
     }
 
@@ -254,10 +259,10 @@ function inverse_text({ target, vary, value, low, high }) {
 const weight_of = ({ rank_correlation: rank, first_order: explained }) => (Number.isFinite(rank) ? Math.abs(rank) : Math.sqrt(Math.max(explained ?? 0, 0)));
 
 /// What decides: by rank, with what the others explain taken away, and the share of the variance; pale where it is not told from none.
-function draw_importance({ importance, count, of }) {
+function draw_importance({ importance, count, of }, bounds) {
     const told = importance.some(({ rank_correlation: rank, first_order: explained }) => Number.isFinite(rank) || Number.isFinite(explained));
     by_id("uncertainty-importance").hidden = !told;
-    set_text(by_id("uncertainty-importance-note"), told ? `${count} of ${of} samples. Pale: an interval has 0 in it, so the parameter is not told from one that does nothing.`
+    set_text(by_id("uncertainty-importance-note"), told ? `${count} of ${of} samples. Pale: an interval has 0 in it, so the parameter is not told from one that does nothing.${bounds}`
         : `${count} samples do not tell which parameter decides.`);
     if (!told) return;
     const ordered = [...importance].sort((a, b) => weight_of(b) - weight_of(a));

@@ -140,7 +140,16 @@ TEST_F(Sampled, SaysWhichCasesItCovers) {
     EXPECT_EQ(row(d, "assessment_cases", "1A")[3], "no");
     EXPECT_EQ(row(d, "assessment_cases", "1B")[3], "no");
     EXPECT_EQ(row(d, "assessment_cases", "2A")[3], "yes");
-    EXPECT_EQ(row(d, "assessment_cases", "2B")[3], "yes: this run") << "nothing liquefies";
+    EXPECT_EQ(row(d, "assessment_cases", "2B")[3], "yes");
+    const Table& cases = d.chapters[0].tables[3];
+    EXPECT_TRUE(cases.caption.starts_with("Whether this static scene is 2A or 2B"))
+        << cases.caption;
+    json study = json::parse(std::ifstream(folder_ / "study.json"));
+    study["scene"]["transfer"]["liquefied"]["regions"] = {"pond"};
+    write(folder_ / "study.json", study);
+    const Document other = document();
+    EXPECT_EQ(row(other, "assessment_cases", "2A")[3], "yes: this run");
+    EXPECT_EQ(row(other, "assessment_what", "What fails")[1], "A slope; soil liquefies in pond.");
 }
 
 TEST_F(Sampled, SaysWhatTheNumbersDoNot) {
