@@ -68,7 +68,7 @@ void add_hydrographs(const Run& run, const std::string& name, Chapter& chapter) 
                        {"time [s]"},
                        {"discharge [m3/s per m of width]"},
                        {}},
-                      "Sample " + nearest.variant + ", with " + name + " = " +
+                      "Sample " + nearest.variant + ", with " + name + " of " +
                           bounded(nearest, rounded(nearest.result.at(name).get<double>(), 4)) +
                           ": one run, no envelope. The hydrograph of a percentile of the runout "
                           "is not the percentile of the hydrographs."};

@@ -98,9 +98,17 @@ void add_gauges(const Run& run, Table& table) {
     }
 }
 
+/// "30 m (20 to 50 m)": one number, or [low, best, high].
+std::string breach_text(const json& width) {
+    if (!width.is_array()) return short_number(width) + " m";
+    return short_number(width[1]) + " m (" + short_number(width[0]) + " to " +
+           short_number(width[2]) + " m)";
+}
+
 void add_sections(const Run& run, Table& table) {
-    for (const json& section :
-         asked_scene(run).value("/mpm/sections"_json_pointer, json::array())) {
+    const json& scene = asked_scene(run);
+    const json width = scene.value("/mpm/breach_width"_json_pointer, json());
+    for (const json& section : scene.value("/mpm/sections"_json_pointer, json::array())) {
         const std::string name = section.at("name"), at = "/sections/" + name;
         const std::string where =
             "Section " + name + " (x = " + short_number(section.at("x")) + " m): ";
@@ -108,14 +116,12 @@ void add_sections(const Run& run, Table& table) {
             fact_row(run, where + "volume passed [m3 per m of width]", at + "/volume", 0.0, ""));
         table.rows.push_back(fact_row(run, where + "largest discharge [m3/s per m of width]",
                                       at + "/largest_discharge", 0.0, ""));
-        // [low, best, high] of the breach's width: the best one.
-        if (asked_scene(run).contains("/mpm/breach_width"_json_pointer)) {
-            table.rows.push_back(fact_row(run, where + "volume times the breach's width [m3]",
-                                          at + "/breach/volume/1", 0.0, ""));
-            table.rows.push_back(
-                fact_row(run, where + "largest discharge times the breach's width [m3/s]",
-                         at + "/breach/largest_discharge/1", 0.0, ""));
-        }
+        if (width.is_null()) continue;
+        const std::string times = " through a breach of " + breach_text(width);
+        table.rows.push_back(
+            fact_row(run, where + "volume" + times + " [m3]", at + "/breach/volume/1", 0.0, ""));
+        table.rows.push_back(fact_row(run, where + "largest discharge" + times + " [m3/s]",
+                                      at + "/breach/largest_discharge/1", 0.0, ""));
     }
 }
 
