@@ -81,6 +81,9 @@ class Export {
             keep_json("accuracy.json", server_.get(path_of({"runs", id, "accuracy"})),
                       "error against run time of each setting");
         for (const json& each : tasks) task(each.at("id"));
+        if (study.contains("uncertainty"))
+            keep_json("envelopes.json", server_.get(path_of({"runs", id, "envelopes"})),
+                      "depth, velocity and arrival along x over the samples");
         write_json(folder_ / "ro-crate-metadata.json", crate_.metadata(run));
         console_.notes << bar(1.0) << "  " << kept_ << " artifacts, " << fetched_
                        << " of them fetched, all verified\n";

@@ -42,7 +42,8 @@ Document filled(const Run& run, const Choice& choice) {
                                 paper->remarks.end());
     }
     const Material material{run, paper, measures, choice};
-    for (const auto add : {add_inputs, add_stability, add_element_tests}) add(material, document);
+    for (const auto add : {add_assessment, add_inputs, add_stability, add_element_tests})
+        add(material, document);
     if (is_static(run)) {
         document.left_out.push_back({"motion, course of the finite elements, meshes and transfers",
                                      "the scene is static: it has no FEM"});

@@ -5,6 +5,7 @@ import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
+import { envelopes_of, open_or_failed, results_of_sample, uncertainty_of } from "./samples.mjs";
 
 const static_folder = fileURLToPath(new URL("../../services/web/static", import.meta.url));
 const schema_folder = fileURLToPath(new URL("../../workflows/schema", import.meta.url));
@@ -68,7 +69,16 @@ class FakeRun {
             const not_reached = entangles !== null && transfer_time > entangles;
             this.tasks.push({ phase: "transfer_tool", transfer_time, from: taken, to: taken + 0.02 * pace, fails: broken,
                               skipped: not_reached, not_reached });
+            const odd = submitted.uncertainty ? open_or_failed(variants.length) : {};
             for (const variant of variants) {
+                if (odd[variant] === "failed") {
+                    this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: begin, to: begin + mpm_time, fails: true });
+                    continue;
+                }
+                if (odd[variant]) {
+                    this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: 1e9, to: 2e9 });
+                    continue;
+                }
                 this.tasks.push({ phase: "mpm_solver", transfer_time, variant, from: begin, to: begin + mpm_time, skipped: broken || not_reached, not_reached });
             }
         });
@@ -111,6 +121,17 @@ class FakeRun {
         };
     }
 
+    /// What the model of an uncertainty study says of a variant; null of any other.
+    sample_of(variant) {
+        if (!this.study.uncertainty) return null;
+        this.samples ??= new Map(this.study.variants.map(({ name, sample }) => [name, results_of_sample(sample.values)]));
+        return this.samples.get(variant) ?? null;
+    }
+
+    uncertainty() {
+        return uncertainty_of(this, (sample) => this.tasks.find((task) => task.phase === "mpm_solver" && task.variant === sample).id);
+    }
+
     /// Its own flags, and how it ended.
     verdict_of({ phase, transfer_time, variant }, ended_well) {
         if (!ended_well) return { ended: null, end_time: null, questionable: null, flags: null };
@@ -120,13 +141,16 @@ class FakeRun {
         }
         if (phase !== "mpm_solver") return { ended: null, end_time: null, questionable: false, flags: [] };
         const key = variant === "not-softened" ? "none" : transfer_time;
-        const flags = key in this.flagged ? this.flagged[key] : [];
+        const flags = this.sample_of(variant)?.moves ? [still_moving] : key in this.flagged ? this.flagged[key] : [];
         const moving = flags?.includes(still_moving);
         return { ended: flags && (moving ? "duration" : "at_rest"), end_time: flags && 6, flags,
                  questionable: flags && flags.some(({ severity }) => severity === "questionable") };
     }
 
     runout({ transfer_time, variant = "" }) {
+        const sample = this.sample_of(variant);
+        if (sample) return { runout: sample.runout_beyond_toe - 0.4, runout_beyond_toe: sample.runout_beyond_toe, runout_largest: sample.runout_beyond_toe + 2,
+                             volume_ratio: 1.01, numerical_share: 0.03, overlap: 0.004, cpu_seconds: 7.25 };
         const strength = Number(variant.match(/^strength_x_(.*)/)?.[1] ?? 1);
         const draw = Number(variant.match(/^d(\d)$/)?.[1] ?? 1);
         const reach = (draw - 1) * 0.5 + (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
@@ -357,6 +381,8 @@ export class FakeApi {
         if (["cancel", "pause", "resume", "retry", "pin", "unpin"].includes(rest[0])) return this.command(run, rest[0], response);
         if (rest[0] === "title") return this.rename(run, request, response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
+        if (rest[0] === "uncertainty" && run.study.uncertainty) return json(response, run.answer ??= run.uncertainty());
+        if (rest[0] === "envelopes" && run.study.uncertainty) return json(response, run.envelopes ??= envelopes_of(run));
         if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means() });
         if (rest[0] === "telemetry") {
             const from = Number(url.searchParams.get("from") ?? 0);

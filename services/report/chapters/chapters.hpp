@@ -43,6 +43,10 @@ std::string file_word(const PhaseFolder& mpm);
 Series section_at_rest(const nlohmann::json& scene);
 
 Front front_of(const Run& run);
+/// First the page that a regulator reads, then what it rests on; of a study over distributions.
+void add_assessment(const Material& from, Document& document);
+/// The row of the first page that its samples give; nothing of any other run.
+std::optional<std::vector<std::string>> sampled_answer(const Run& run);
 void add_inputs(const Material& from, Document& document);
 void add_stability(const Material& from, Document& document);
 void add_element_tests(const Material& from, Document& document);

@@ -4,6 +4,7 @@
 
 #include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/samples.hpp"
 #include "services/report/read/verdict.hpp"
 
 namespace breach::report {
@@ -92,6 +93,10 @@ std::vector<std::string> asked_of(const Run& run, const json& scene) {
     for (const json& each : run.study.value("variants", json::array()))
         if (each.value("made_by", "").empty()) names.push_back(each.at("name"));
     constexpr std::size_t most = 12;
+    if (has_samples(run))
+        asked.push_back("How sure is that? " + run.uncertainty.at("samples").at("planned").dump() +
+                        " samples of " + std::to_string(run.uncertainty.at("parameters").size()) +
+                        " uncertain parameters.");
     if (names.size() > 1)
         asked.push_back(std::to_string(names.size()) + " variants" +
                         (names.size() <= most ? ": " + joined(names) : "") +
@@ -286,9 +291,15 @@ void add_fems(const Run& run, Table& table) {
 // ---------------------------------------------------------------- limits
 
 std::vector<std::string> limits_of(const Run& run, const json& scene) {
-    std::vector<std::string> limits{
+    std::vector<std::string> limits;
+    if (asks_for_runouts(run) && !has_samples(run))
+        limits.emplace_back(
+            "No uncertainty was computed: strengths, viscosity and motion are taken as the scene "
+            "says "
+            "them, as if they were known. A study with \"uncertainty\" gives percentiles.");
+    limits.emplace_back(
         "Plane strain: the section goes on sideways for ever, and volumes are per metre of width. "
-        "A breach of finite width spreads and drains otherwise."};
+        "A breach of finite width spreads and drains otherwise.");
     if (!phase_named(run, phases::fem.program) && !phase_named(run, phases::mpm.program))
         limits.emplace_back(
             "Limit equilibrium: no deformation, and no surface but those that were searched.");
@@ -335,6 +346,7 @@ Front front_of(const Run& run) {
     const json& scene = asked_scene(run);
     Table found{
         "found", "What comes out", {"quantity", "here", "in the whole run", "to be known"}, {}};
+    if (auto sampled = sampled_answer(run)) found.rows.push_back(std::move(*sampled));
     add_runouts(run, found);
     add_factors(run, found);
     add_fems(run, found);

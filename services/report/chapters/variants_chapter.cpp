@@ -3,6 +3,7 @@
 
 #include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/samples.hpp"
 #include "services/report/read/verdict.hpp"
 
 namespace breach::report {
@@ -290,7 +291,8 @@ Chapter static_chapter(const Run& run, const std::vector<std::string>& variants)
 
 void add_variants(const Material& from, Document& document) {
     const std::vector<std::string> variants = listed_variants(from.run);
-    if (variants.size() < 2) return;
+    if (variants.size() < 2 || has_samples(from.run))
+        return;  // samples have a chapter of their own
     if (is_static(from.run)) {
         document.chapters.push_back(static_chapter(from.run, variants));
         return;

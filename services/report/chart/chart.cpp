@@ -36,7 +36,14 @@ void check_columns(const Chart& chart) {
                                         std::to_string(each.x.size()) + " points and " +
                                         std::to_string(each.error.size()) + " errors");
         }
-        if (each.style == Style::segments && each.x.size() % 2 != 0) {
+        if (each.low.size() != each.high.size() ||
+            (!each.low.empty() && each.low.size() != each.x.size())) {
+            throw std::invalid_argument("\"" + each.name + "\" has " +
+                                        std::to_string(each.x.size()) +
+                                        " points and a band of another length");
+        }
+        if ((each.style == Style::segments || each.style == Style::bars) &&
+            each.x.size() % 2 != 0) {
             throw std::invalid_argument("\"" + each.name + "\" has a segment without an end");
         }
     }

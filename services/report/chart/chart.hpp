@@ -9,13 +9,15 @@
 
 namespace breach::report {
 
-/// segments: points 0-1, 2-3, ... are joined (meshes); dots: one small dot per point (clouds).
-enum class Style { line, points, line_and_points, area, segments, dots };
+/// segments: points 0-1, 2-3, ... are joined (meshes); dots: one small dot per point (clouds); bars:
+/// as segments, broad.
+enum class Style { line, points, line_and_points, area, segments, dots, bars };
 enum class Aspect { free, equal };  ///< equal: a unit of x is as long as a unit of y
 
 struct Axis {
     std::string label;  ///< with its unit: "shear strain [%]"
     Scale scale = Scale::linear;
+    std::vector<std::string> names = {};  ///< of 0, 1, 2, ... instead of numbers; of y alone
 };
 
 /// What a point's value is worth. at_least: a lower bound, drawn with an arrow upwards.
@@ -31,6 +33,8 @@ struct Series {
     std::vector<Certainty> certainty = {};  ///< of each point; empty: all are certain
     /// How far y may be off, to either side, of each point; NaN: not known; empty: of none
     std::vector<double> error = {};
+    /// Or where y may be instead, of each point; NaN: not known; empty: of none
+    std::vector<double> low = {}, high = {};
 };
 
 /// Polygons (or, with one corner each, dots) coloured by a value.

@@ -23,6 +23,8 @@ struct Chapter {
     std::vector<Figure> figures = {};
     std::vector<Table> tables = {};
     std::string drawing = {};  ///< SVG above all else, without numbers of its own; empty: none
+    std::vector<std::string> cautions = {};  ///< what is to be known first, below the text
+    bool opens_page = false;                 ///< when it is printed
 };
 
 /// A figure that a full report has and this one has not.

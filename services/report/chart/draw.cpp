@@ -15,6 +15,7 @@ namespace {
 
 constexpr double left = 80, top = 50, bottom = 65, row = 22;
 constexpr double free_width = 560, free_height = 360;
+constexpr double bar_height = 34;
 constexpr double equal_width = 860, least_equal_height = 150;
 // colours that stay apart for colour-blind eyes (Okabe and Ito, then Tol)
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
@@ -47,11 +48,15 @@ Range range_of(const Chart& chart, Mark::At at) {
             if (std::isnan(each.error[i])) continue;
             add({each.x[i], each.x[i]}, {each.y[i] - each.error[i], each.y[i] + each.error[i]});
         }
+        for (std::size_t i = 0; i < each.low.size(); ++i)
+            if (!std::isnan(each.low[i])) add({each.x[i], each.x[i]}, {each.low[i], each.high[i]});
     }
     if (chart.field) add(chart.field->x, chart.field->y);
     for (const Mark& mark : chart.marks) {
         if (mark.at == at) values.push_back(mark.value);
     }
+    if (at == Mark::At::y && !chart.y.names.empty())
+        return {-0.6, static_cast<double>(chart.y.names.size()) - 0.4};
     return covering(values, at == Mark::At::x ? chart.x.scale : chart.y.scale);
 }
 
@@ -65,6 +70,10 @@ void draw_ticks(std::ostream& svg, const Frame& f) {
         svg << "<path d=\"M" << f.px(t) << ' ' << base << "V" << f.top << "\" stroke=\"#ddd\"/>\n"
             << text_at(f.px(t), base + 20, short_number(t), "text-anchor=\"middle\"");
     }
+    for (std::size_t i = 0; i < f.chart.y.names.size(); ++i)
+        svg << text_at(f.left - 8, f.py(static_cast<double>(i)) + 5, f.chart.y.names[i],
+                       "text-anchor=\"end\"");
+    if (!f.chart.y.names.empty()) return;
     for (const double t : ticks(f.y, f.chart.y.scale, f.height)) {
         svg << "<path d=\"M" << f.left << ' ' << f.py(t) << "h" << f.width
             << "\" stroke=\"#ddd\"/>\n"
@@ -140,6 +149,30 @@ void draw_point(std::ostream& svg, double x, double y, const std::string& colour
     }
 }
 
+/// Between the ends of the band, where neighbours both have them.
+void draw_band(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
+    const auto known = [&](std::size_t i) { return !std::isnan(s.low[i]); };
+    for (std::size_t from = 0; from < s.low.size(); ++from) {
+        if (!known(from)) continue;
+        std::size_t to = from;
+        while (to + 1 < s.low.size() && known(to + 1)) ++to;
+        svg << "<path d=\"";
+        for (std::size_t i = from; i <= to; ++i)
+            svg << (i == from ? 'M' : 'L') << f.px(s.x[i]) << ' ' << f.py(s.high[i]);
+        for (std::size_t i = to + 1; i-- > from;)
+            svg << 'L' << f.px(s.x[i]) << ' ' << f.py(s.low[i]);
+        svg << "Z\" fill=\"" << colour << "\" fill-opacity=\"0.16\" stroke=\"none\"/>\n";
+        from = to;
+    }
+}
+
+void draw_bars(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
+    for (std::size_t i = 0; i + 1 < s.x.size(); i += 2)
+        svg << "<path d=\"M" << f.px(s.x[i]) << ' ' << f.py(s.y[i]) << 'L' << f.px(s.x[i + 1])
+            << ' ' << f.py(s.y[i + 1]) << "\" stroke=\"" << colour
+            << "\" stroke-width=\"18\" stroke-opacity=\"0.75\"/>\n";
+}
+
 /// A whisker at each point whose error is known, and a band between neighbours that both have one.
 void draw_errors(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     const auto end = [&](std::size_t i, double side) {
@@ -162,6 +195,8 @@ void draw_errors(std::ostream& svg, const Frame& f, const Series& s, const std::
 void draw_series(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     if (s.x.empty()) return;
     if (s.style == Style::segments || s.style == Style::dots) return draw_many(svg, f, s, colour);
+    if (s.style == Style::bars) return draw_bars(svg, f, s, colour);
+    draw_band(svg, f, s, colour);
     draw_errors(svg, f, s, colour);
     if (s.style != Style::points) draw_line(svg, f, s, colour);
     if (s.style != Style::points && s.style != Style::line_and_points) return;
@@ -266,6 +301,11 @@ Frame frame_of(const Chart& chart, std::string& y_label) {
             free_width,
             free_height};
     y_label = chart.y.label;
+    if (!chart.y.names.empty()) {
+        for (const std::string& each : chart.y.names)
+            f.left = std::max(f.left, 24 + width_of(each));
+        f.height = 60.0 + bar_height * static_cast<double>(chart.y.names.size());
+    }
     if (chart.aspect == Aspect::free) return f;
     f.width = equal_width;
     f.height = f.width * (f.y.high - f.y.low) / (f.x.high - f.x.low);

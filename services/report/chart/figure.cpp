@@ -42,8 +42,11 @@ std::string as_csv(const Chart& chart) {
         chart.series, [](const Series& each) { return !each.certainty.empty(); });
     const bool errors =
         std::ranges::any_of(chart.series, [](const Series& each) { return !each.error.empty(); });
+    const bool bands =
+        std::ranges::any_of(chart.series, [](const Series& each) { return !each.low.empty(); });
     std::string csv = "series," + quoted(chart.x.label) + ',' + quoted(chart.y.label) +
-                      (told ? ",\"certainty\"" : "") + (errors ? ",\"error\"\n" : "\n");
+                      (told ? ",\"certainty\"" : "") + (errors ? ",\"error\"" : "") +
+                      (bands ? ",\"low\",\"high\"\n" : "\n");
     for (const Series& each : chart.series) {
         for (std::size_t i = 0; i < each.x.size(); ++i) {
             csv += quoted(each.name) + ',' + exact(each.x[i]) + ',' + exact(each.y[i]);
@@ -55,6 +58,10 @@ std::string as_csv(const Chart& chart) {
             if (errors) {
                 const bool known = !each.error.empty() && !std::isnan(each.error[i]);
                 csv += "," + (known ? exact(each.error[i]) : std::string());
+            }
+            if (bands) {
+                const bool known = !each.low.empty() && !std::isnan(each.low[i]);
+                csv += known ? "," + exact(each.low[i]) + "," + exact(each.high[i]) : ",,";
             }
             csv += '\n';
         }

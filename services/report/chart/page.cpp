@@ -28,7 +28,7 @@ constexpr const char* style =
     "font-size:14px}"
     ".verdict{border-left:4px solid #3b7a8c;background:#eaf4f6;padding:.4em 1em}.verdict.doubt{"
     "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
-    "td.b{white-space:nowrap;font-weight:bold}"
+    ".cautions{padding-left:2.2em}td.b{white-space:nowrap;font-weight:bold}"
     // A page cannot be scrolled: tables take its width, wide ones lie on their side with their
     // chapter when it has nothing else, rows stay whole, and only long texts are broken anywhere.
     "@page{margin:12mm;@bottom-right{content:counter(page) ' / ' counter(pages);font:8pt "
@@ -42,6 +42,8 @@ constexpr const char* style =
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
     "th,td{padding:.15em "
     ".4em}td.long{overflow-wrap:anywhere;min-width:6em}td.long:first-child{min-width:11em}"
+    ".opens{break-before:page}.opens>h2{margin-top:0}.opens>p,.cautions,.opens .wide p{"
+    "font-size:8.5pt;line-height:1.35;margin:.3em 0}"
     "tbody tr:first-child{break-before:avoid}.many,.sheet{page:wide}.sheet "
     "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}.many "
     "td.long:first-child{min-width:6em}}";
@@ -193,9 +195,19 @@ std::string as_html(const Document& document, const std::string& figures) {
         const Chapter& chapter = document.chapters[i];
         const bool sheet =
             chapter.figures.empty() && chapter.drawing.empty() && has_many(chapter.tables);
-        html << "<section" << (sheet ? " class=\"sheet\">" : ">") << "<h2 id=\"" << anchor_of(i)
-             << "\">" << i + 1 << " " << escaped(chapter.title) << "</h2>\n";
+        html << "<section"
+             << (sheet                ? " class=\"sheet\">"
+                 : chapter.opens_page ? " class=\"opens\">"
+                                      : ">")
+             << "<h2 id=\"" << anchor_of(i) << "\">" << i + 1 << " " << escaped(chapter.title)
+             << "</h2>\n";
         if (!chapter.text.empty()) html << "<p>" << escaped(chapter.text) << "</p>\n";
+        if (!chapter.cautions.empty()) {
+            html << "<ul class=\"verdict doubt cautions\">\n";
+            for (const std::string& each : chapter.cautions)
+                html << "<li>" << escaped(each) << "</li>\n";
+            html << "</ul>\n";
+        }
         if (!chapter.drawing.empty())
             html << "<figure class=\"drawing\">\n"
                  << inlined(chapter.drawing, "The section") << "</figure>\n";

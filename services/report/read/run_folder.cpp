@@ -177,6 +177,8 @@ Run read_run(const fs::path& folder) {
         const json results = read_if_there(folder / "results.json");
         take_errors(results, run.phases);
         if (results.is_object()) run.means = results.value("means", json::array());
+        run.uncertainty = read_if_there(folder / "uncertainty.json");
+        run.envelopes = read_if_there(folder / "envelopes.json");
         run.name = run.scene.at("name");
         run.title = run.scene.value("title", run.name);
         if (about.is_object()) {

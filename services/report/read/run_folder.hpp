@@ -39,6 +39,9 @@ struct Run {
     /// Over the draws of each runout, as the service tells them; empty: the study has no draws, or
     /// the folder no results.json
     nlohmann::json means = nlohmann::json::array();
+    /// Of a study over distributions, as the service tells them; null where the folder has none
+    nlohmann::json uncertainty = {};
+    nlohmann::json envelopes = {};
 };
 
 /// A folder belongs to a phase when it holds scene.completed.json, or the task.json of an export, and

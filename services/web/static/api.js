@@ -85,6 +85,18 @@ export const read_triggers = async (run) => (await get_json(path_of("runs", run,
 export const read_json_artifact = (sha256) => get_json(artifact_path(sha256), { cache: "default" });
 export const read_results = (run) => get_json(path_of("runs", run, "results"));
 export const results_csv = (run, means) => path_of("runs", run, "results") + (means ? "?format=csv&table=means" : "?format=csv");
+/// Percentiles, importance, samples of a study over distributions.
+export const read_uncertainty = (run) => get_json(path_of("runs", run, "uncertainty"));
+export const uncertainty_file = (run, format) => `${path_of("runs", run, "uncertainty")}?format=${format}`;
+/// What the samples reach along x; null where none of them tells, or of an earlier service.
+export async function read_envelopes(run) {
+    try {
+        return await get_json(path_of("runs", run, "envelopes"));
+    } catch (fault) {
+        if (fault instanceof Problem && [404, 409].includes(fault.status)) return null;
+        throw fault;
+    }
+}
 /// A file of the server as a Blob.
 export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);

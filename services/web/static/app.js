@@ -14,6 +14,7 @@ import { SubmitDialog } from "./submit.js";
 import { Tasks } from "./tasks.js";
 import { Telemetry } from "./telemetry.js";
 import { TokenDialog } from "./token.js";
+import { Uncertainty } from "./uncertainty.js";
 
 const settle = 250;        // [ms] events that arrive together cause one look
 const look_again = 1500;   // [ms] between looks while something runs: progress is no event
@@ -36,6 +37,7 @@ const database = new Database();
 const compare = new Compare();
 const telemetry = new Telemetry();
 const tasks = new Tasks();
+const uncertainty = new Uncertainty({ open_task: (id) => tasks.open(id), ask: (sample) => ask(results.rows.find((row) => row.variant === sample), "runout") });
 const head = new RunHead(() => look_soon());
 new SubmitDialog((run) => {
     location.hash = run_address(run.id);
@@ -134,7 +136,10 @@ async function show_open_run() {
     head.show(run);
     await tasks.show(run);
     // One part that fails must not hide the others.
-    const sweep = results.show(run).then((rows) => cost.show(run, rows, variants_of(run)));
+    const sweep = results.show(run).then((rows) => {
+        cost.show(run, rows, variants_of(run));
+        return uncertainty.show(run, rows);
+    });
     const parts = await Promise.allSettled([sweep, telemetry.show(run), particles.show(run)]);
     const broken = parts.find((part) => part.status === "rejected");
     if (broken) throw broken.reason;

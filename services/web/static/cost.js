@@ -34,10 +34,11 @@ export class Cost {
         for (const { plot, column, error, unit } of this.plots) {
             const field = error && has_error ? error : column;
             plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : plot.labels.y;
-            plot.show({ series: series_by_variant(finished, variants).map(({ variant, rows: points }) => ({
+            const lines = run.study?.uncertainty ? [{ variant: "samples", rows: finished }] : series_by_variant(finished, variants);
+            plot.show({ series: lines.map(({ variant, rows: points }) => ({
                 name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),
                 looks: points.map((row) => (column === "runout" ? look_of(row) : look_of(row).replace(/.*bound.*/, "doubtful"))), notes: points.map(flag_note),
-                names: points.map((row) => point_name({ ...row, variant: "" }) || "the section"),
+                names: points.map((row) => (run.study?.uncertainty ? row.variant : point_name({ ...row, variant: "" }) || "the section")),
                 x: points.map((row) => row.cpu_seconds), y: points.map((row) => row[field] ?? null) })) });
         }
         draw_totals(run.tasks);

@@ -4,16 +4,16 @@ import { element, set_text, svg } from "./dom.js";
 import { figure_of, offer_png, offer_svg } from "./figure_files.js";
 import { looks } from "./flags.js";
 import { number } from "./format.js";
-import { band, curve, error_at, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
-import { range_of, tick_label, ticks, widened } from "./plot_scale.js";
+import { band, curve, ends_at, error_at, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
+import { log_ticks, range_of, tick_label, ticks, widened } from "./plot_scale.js";
 
 const character = 7.6; // width of a digit at the plot's font size [px]
 const longest_name = 20; // characters of a named tick; the rest is in its title
 
 /// The values, and the ends of their errors where those are known.
 function with_errors(series) {
-    const ends = (side) => series.y.map((y, i) => (error_at(series, i) === null ? null : y + side * series.errors[i]));
-    return series.errors ? [series.y, ends(-1), ends(1)] : [series.y];
+    const ends = (side) => series.y.map((_, i) => ends_at(series, i)?.[side] ?? null);
+    return series.errors || series.low ? [series.y, ends(0), ends(1)] : [series.y];
 }
 
 export class Plot {
@@ -49,8 +49,9 @@ export class Plot {
 
     /// data: {series: [{name, unit, x, y, points, scatter, keys, names, looks, notes, errors}], marks: [{x, kind, label}],
     /// lines: [{x, label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}], names: [{x, label}] when the
-    /// abscissa has names at 0, 1, 2, ... instead of numbers, x_label: what they are}. points: markers; scatter: no line between
-    /// them; names: what each point is called; looks, notes: what is to be known of it (flags.js); errors: how far it may be off, to either side. Marks sit on the abscissa
+    /// abscissa has names at 0, 1, 2, ... instead of numbers, x_label: what they are, x_log: a logarithmic abscissa}. points: markers; scatter: no line between
+    /// them; names: what each point is called; looks, notes: what is to be known of it (flags.js); errors: how far it may be off, to either side,
+    /// or low and high: where it may be instead. Marks sit on the abscissa
     /// (kind: failed, skipped, running, pending), lines are verticals, levels horizontals, bands shaded stretches.
     show(data) {
         this.data = { marks: [], lines: [], levels: [], bands: [], ...data };
@@ -124,7 +125,8 @@ export class Plot {
                                     levels.map((each) => each.y));
         const pad_x = (right - left) * (marks.length || series.some((each) => each.points) ? 0.04 : 0);
         const pad_y = (high - low) * 0.06;
-        this.x_range = names ? [-0.5, names.length - 0.5] : [left - pad_x, right + pad_x];
+        const factor = (right / left) ** 0.04;
+        this.x_range = names ? [-0.5, names.length - 0.5] : this.data.x_log ? [left / factor, right * factor] : [left - pad_x, right + pad_x];
         this.y_range = [low === 0 ? 0 : low - pad_y, high + pad_y];
     }
 
@@ -136,7 +138,8 @@ export class Plot {
 
     px(x) {
         const [low, high] = this.x_range;
-        return this.left + ((x - low) / (high - low)) * (this.width - this.left - margin.right);
+        const share = this.data.x_log ? Math.log(x / low) / Math.log(high / low) : (x - low) / (high - low);
+        return this.left + share * (this.width - this.left - margin.right);
     }
 
     py(y) {
@@ -175,6 +178,7 @@ export class Plot {
             return names.map(({ x, label }) => (label.length <= longest_name ? { x, label }
                 : { x, label: `${label.slice(0, longest_name - 1)}…`, title: label }));
         }
+        if (this.data.x_log) return log_ticks(...this.x_range).map((x) => ({ x, label: number(x) }));
         const { values, step } = ticks(...this.x_range, (this.width - margin.right - this.left) / 80);
         return values.map((x) => ({ x, label: tick_label(x, step) }));
     }
@@ -188,7 +192,8 @@ export class Plot {
 
     // ---- readout
 
-    /// [index of the stop, index of the series] next to the pointer; of markers the next in both directions.
+    /// [index of the stop, index of the series, index in it] next to the pointer; of markers the next in both directions. Without the last
+    /// one: the first that stands there.
     nearest(event) {
         if (!this.stops || this.stops.length === 0 || !this.x_range) return [null, 0];
         const box = this.picture.getBoundingClientRect();
@@ -206,29 +211,30 @@ export class Plot {
             const distance = Math.hypot(dx, this.py(series.y[i]) - y);
             if (distance >= nearest) return;
             nearest = distance;
-            best = { stop: this.stops.indexOf(at), distance, series: k };
+            best = { stop: this.stops.indexOf(at), distance, series: k, i };
         }));
-        return [best.stop, best.series];
+        return [best.stop, best.series, best.i];
     }
 
-    point_at(index, series = this.curve_at) {
-        if (index === this.at && series === this.curve_at) return;
+    point_at(index, series = this.curve_at, i = null) {
+        if (index === this.at && series === this.curve_at && i === this.i_at) return;
         this.at = index;
         this.curve_at = series;
+        this.i_at = i;
         this.draw_cursor();
     }
 
-    pick(index, series = this.curve_at) {
+    pick(index, series = this.curve_at, i = null) {
         if (index === null || !this.choose) return;
         const x = this.stops[index];
-        const there = this.at_stop(x);
+        const there = this.at_stop(x, series, i);
         const meant = there.find((each) => each.index === series) ?? there[0];
         this.choose(x, meant?.series.keys?.[meant.i] ?? null);
     }
 
-    /// The series that have a value at x.
-    at_stop(x) {
-        return this.data.series.map((series, index) => ({ series, index, i: series.x.indexOf(x) }))
+    /// The series that have a value at x; of the one that is meant, where several of its points stand there, the i-th.
+    at_stop(x, meant = null, at = null) {
+        return this.data.series.map((series, index) => ({ series, index, i: index === meant && at !== null ? at : series.x.indexOf(x) }))
             .filter(({ series, i }) => i >= 0 && Number.isFinite(series.y[i]));
     }
 
@@ -255,17 +261,18 @@ export class Plot {
         }
         const x = this.stops[this.at];
         this.cursor.append(svg("path", { d: `M${this.px(x)},${margin.top}V${this.height - this.bottom}` }));
-        const values = this.at_stop(x).map(({ series, index, i }) => {
+        const values = this.at_stop(x, this.curve_at, this.i_at ?? null).map(({ series, index, i }) => {
             const meant = index === this.curve_at && this.data.series.length > 1 && this.choose;
             this.cursor.append(svg("circle", { class: series_class(index), cx: this.px(x), cy: this.py(series.y[i]), r: meant ? 6.5 : 4.5 }));
             const name = [series.name, series.names?.[i]].filter(Boolean).join(", ");
             const meaning = (series.looks?.[i] ?? "").split(" ").filter(Boolean).map((look) => looks[look]).join(", ");
             const error = error_at(series, i);
-            const value = error === null ? number(series.y[i]) : `${number(series.y[i])} ± ${number(error, 2)}`;
+            const ends = error === null ? ends_at(series, i) : null;
+            const value = number(series.y[i]) + (error === null ? "" : ` ± ${number(error, 2)}`) + (ends ? ` (${number(ends[0], 3)} to ${number(ends[1], 3)})` : "");
             return `${name} ${value} ${series.unit ?? ""}`.trim() + (meaning && ` (${meaning})`);
         });
         for (const each of this.data.marks) if (each.x === x) values.push(each.label);
-        const named = this.data.names?.find((each) => each.x === x)?.label;
+        const named = this.data.names?.find((each) => each.x === Math.round(x))?.label;
         set_text(this.readout, `${named ?? `${this.labels.x_name} = ${number(x)} ${this.labels.x_unit}`.trim()}: ${values.join(" · ")}`);
     }
 }

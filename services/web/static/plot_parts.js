@@ -38,14 +38,21 @@ export function curve(plot, data, index) {
 /// Half the width of the band at a point; null: its error is not known.
 export const error_at = (data, i) => (Number.isFinite(data.errors?.[i]) && Number.isFinite(data.y[i]) ? data.errors[i] : null);
 
-/// How far the values may be off: a whisker at each point, and a band where neighbours both have one.
+/// Both ends of the band at a point, by its error or as they are given; null: not known.
+export function ends_at(data, i) {
+    if (Number.isFinite(data.low?.[i]) && Number.isFinite(data.high?.[i])) return [data.low[i], data.high[i]];
+    const error = error_at(data, i);
+    return error === null ? null : [data.y[i] - error, data.y[i] + error];
+}
+
+/// How far the values may be off: a whisker at each point, and a band where neighbours both have one. Ends that are given have no whiskers.
 function error_parts(plot, data, index, drawn) {
-    const at = (i, side) => `${plot.px(data.x[i]).toFixed(1)},${plot.py(data.y[i] + side * data.errors[i]).toFixed(1)}`;
-    const known = drawn.filter((i) => error_at(data, i) !== null);
-    const parts = known.map((i) => svg("path", { class: `whisker ${series_class(index)}`, d: `M${at(i, -1)}L${at(i, 1)}` }));
+    const at = (i, side) => `${plot.px(data.x[i]).toFixed(1)},${plot.py(ends_at(data, i)[side]).toFixed(1)}`;
+    const known = new Set(drawn.filter((i) => ends_at(data, i) !== null));
+    const parts = [...known].filter(() => data.errors).map((i) => svg("path", { class: `whisker ${series_class(index)}`, d: `M${at(i, 0)}L${at(i, 1)}` }));
     if (data.scatter) return parts;
-    const pairs = drawn.slice(1).map((i, k) => [drawn[k], i]).filter(([a, b]) => known.includes(a) && known.includes(b));
-    const band = pairs.map(([a, b]) => `M${at(a, 1)}L${at(b, 1)}L${at(b, -1)}L${at(a, -1)}Z`).join("");
+    const pairs = drawn.slice(1).map((i, k) => [drawn[k], i]).filter(([a, b]) => known.has(a) && known.has(b));
+    const band = pairs.map(([a, b]) => `M${at(a, 1)}L${at(b, 1)}L${at(b, 0)}L${at(a, 0)}Z`).join("");
     return band ? [svg("path", { class: `error-band ${series_class(index)}`, d: band }), ...parts] : parts;
 }
 
@@ -131,9 +138,11 @@ export function legend({ series, marks, lines, bands, errors_name }, lines_name)
         [...(data.scatter ? [] : [svg("path", { class: `curve ${series_class(i)}`, d: "M0,7H24" })]),
          ...(data.points ? [svg("path", { class: `marker ${series_class(i)}`, d: shape_of(i), transform: "translate(12,7)" })] : [])],
         data.name));
-    if (series.some((data) => data.y.some((_, i) => error_at(data, i) !== null))) {
+    const banded = series.filter((data) => data.y.some((_, i) => ends_at(data, i) !== null));
+    if (banded.length) {
         items.push(legend_item([svg("rect", { class: "error-band neutral", width: 24, height: 14 }),
-                                svg("path", { class: "whisker neutral", d: "M12,0V14" })], errors_name ?? "error of one run"));
+                                ...(banded.some(({ errors }) => errors) ? [svg("path", { class: "whisker neutral", d: "M12,0V14" })] : [])],
+                               errors_name ?? "error of one run"));
     }
     const seen = new Set(series.flatMap(({ looks = [], y }) => looks.filter((look, i) => look && Number.isFinite(y[i])))
         .flatMap((look) => look.split(" ")));
@@ -145,7 +154,7 @@ export function legend({ series, marks, lines, bands, errors_name }, lines_name)
         items.push(legend_item([svg("path", { class: `mark ${kind}`, d: mark_shapes[kind], transform: "translate(12,7)" })], kind));
     }
     for (const kind of new Set(bands.map((each) => each.kind))) {
-        items.push(legend_item([svg("rect", { class: `band ${kind}`, width: 24, height: 14 })], kind));
+        items.push(legend_item([svg("rect", { class: `band ${kind}`, width: 24, height: 14 })], kind.replaceAll("-", " ")));
     }
     if (lines_name && lines.some((line) => !line.text)) {
         items.push(legend_item([svg("path", { class: "event", d: "M12,0V14" })], lines_name));

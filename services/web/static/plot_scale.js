@@ -11,6 +11,16 @@ export function ticks(low, high, wanted) {
     return { values, step };
 }
 
+/// Powers of ten in [low, high], with their 2 and 5 folds where those are few.
+export function log_ticks(low, high) {
+    const few = Math.log10(high / low) < 3;
+    const values = [];
+    for (let power = 10 ** Math.floor(Math.log10(low)); power <= high; power *= 10) {
+        values.push(...(few ? [1, 2, 5] : [1]).map((factor) => factor * power).filter((value) => value >= low && value <= high));
+    }
+    return values;
+}
+
 export function tick_label(value, step) {
     if (Math.abs(value) < 1e-9 * step) return "0";
     if (Math.abs(value) >= 1e5 || step < 1e-4) return number(value, 3);

@@ -89,6 +89,8 @@ export class Results {
         this.run = run;
         this.variants = variants_of(run);
         this.rows = rows.sort(by_point(this.variants));
+        by_id("runouts").hidden = Boolean(run.study?.uncertainty); // its samples are shown elsewhere
+        if (by_id("runouts").hidden) return this.rows;
         this.offer_what_there_is();
         this.offer_parameters();
         this.refresh();

@@ -5,6 +5,8 @@ import { by_point, bytes, clock, elapsed, is_active, number, percent, seconds, s
 import { flag_codes, flag_items, flag_note } from "./flags.js";
 import { LogView } from "./log.js";
 
+const most_in_flow = 40; // variants, each a row of the picture
+
 const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
 
 function in_order(tasks, variants) {
@@ -33,6 +35,8 @@ export class Tasks {
 
     /// LEM and FEM, then one column per transfer time: its transfers above its runouts, one row per variant.
     draw_flow(tasks) {
+        by_id("flow").hidden = variants_of(this.run).length > most_in_flow;
+        if (by_id("flow").hidden) return;
         const single = tasks.filter((task) => !Number.isFinite(task.transfer_time));
         const rows = rows_of(tasks);
         const times = [...new Set(tasks.map((task) => task.transfer_time).filter(Number.isFinite))];

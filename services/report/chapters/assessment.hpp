@@ -1,0 +1,32 @@
+// The parts of the dam-breach assessment, private to its files: what they have in common, the cautions
+// above it, its first page, and what that rests on.
+#pragma once
+
+#include "services/report/chapters/chapters.hpp"
+
+namespace breach::report {
+
+/// Names of the answer's quantities: the one that was asked first, then the others.
+std::vector<std::string> quantities_of(const nlohmann::json& answer);
+/// "Farthest point"; an unknown one by its name.
+std::string words_of(const std::string& quantity);
+/// " [m]"; empty without a unit.
+std::string unit_in_brackets(const nlohmann::json& quantity);
+/// "38.5 (32.6 to 45.5)", marked where it is a lower bound; why, where it is not told.
+std::string percentile_text(const Run& run, const std::string& name, double p);
+/// "60 of 64 samples".
+std::string known_of(const Run& run, const std::string& name);
+/// "2 samples".
+std::string count_of(const nlohmann::json& number, const std::string& noun);
+std::string or_dash(const nlohmann::json& value, int digits = 3);
+/// "0.1 to 0.3", of two entries; "-" where they are no numbers.
+std::string ends_of(const nlohmann::json& each, const char* low, const char* high);
+
+/// What the numbers of this quantity do not say by themselves, in sentences.
+std::vector<std::string> cautions_of(const Run& run, const nlohmann::json& quantity);
+/// The page that a regulator reads. name: the quantity that was asked first.
+Chapter assessment_page(const Run& run, const std::string& name);
+/// Distributions, envelopes, hydrographs and samples behind that page; what is missing is noted.
+Chapter assessment_basis(const Material& from, const std::string& name, Document& document);
+
+}  // namespace breach::report

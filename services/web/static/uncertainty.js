@@ -1,0 +1,277 @@
+// A study over distributions: how far with which probability, what decides it, what stands along x, every sample; and beside each number
+// what it rests on.
+import * as api from "./api.js";
+import { by_id, element, mirror, set_text } from "./dom.js";
+import { flag_note, look_of } from "./flags.js";
+import { is_active, number, show_state } from "./format.js";
+import { Plot } from "./plot.js";
+import { measures } from "./results.js";
+import { DataTable } from "./table.js";
+import { Tornado } from "./tornado.js";
+
+const along_x = { largest_depth: "largest depth", largest_velocity: "largest velocity", largest_momentum_flux: "largest h v²", arrival: "first arrival",
+                  time_of_peak: "time of the largest depth", final_depth: "final deposit" };
+const long_span = 5; // times from the least to the largest value, from which on a parameter is drawn on a logarithmic axis
+const golden = 0.618033988749895;
+
+const labelled = ({ name, unit }) => `${name}${unit ? ` [${unit}]` : ""}`;
+const share = (value) => `${number(100 * value, 2)} %`;
+const has_result = (row) => Object.values(row.results ?? {}).some(Number.isFinite);
+const plural = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
+
+/// Soil that moves on only adds to these.
+const grows = (quantity) => /^(runout|area|deposit)/.test(quantity);
+
+export class Uncertainty {
+    /// open_task(id), ask(sample): the task behind a sample; where its numbers come from.
+    constructor({ open_task, ask }) {
+        Object.assign(this, { open_task, ask });
+        this.exceedance = new Plot(by_id("uncertainty-exceedance"), { title: "Probability of more", x: "", y: "probability of more [–]", x_name: "more than", x_unit: "" }, { y_from_zero: true });
+        this.tornado = new Tornado(by_id("uncertainty-tornado"));
+        this.envelope = new Plot(by_id("uncertainty-envelope"), { title: "Along x", x: "x [m]", y: "", x_name: "x", x_unit: "m" });
+        this.scatter = new Plot(by_id("uncertainty-scatter"), { title: "Samples", x: "", y: "", x_name: "", x_unit: "",
+            hint: "One marker per sample; a click or Enter opens the task behind it." }, { choose: (_, sample) => sample && this.open(sample) });
+        for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).addEventListener("change", () => this.draw());
+    }
+
+    /// rows: the results of the run, which say how each sample ended.
+    async show(run, rows) {
+        const is_one = Boolean(run.study?.uncertainty);
+        by_id("uncertainty").hidden = !is_one;
+        if (!is_one) {
+            this.seen = null;
+            return;
+        }
+        const ended = run.tasks.filter(({ state }) => !is_active(state)).length;
+        const seen = `${run.id} ${ended} ${run.state}`;
+        if (seen === this.seen) return; // nothing has ended since: the same answer
+        const [answer, envelopes] = await Promise.all([api.read_uncertainty(run.id), api.read_envelopes(run.id)]);
+        if (this.run?.id !== run.id) this.forget();
+        Object.assign(this, { run, answer, envelopes, seen, results: new Map(rows.map((row) => [row.variant, row])) });
+        this.draw();
+    }
+
+    forget() {
+        for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).replaceChildren();
+    }
+
+    open(sample) {
+        const task = this.answer.rows.find((row) => row.sample === sample)?.task;
+        if (task) this.open_task(task);
+    }
+
+    /// What a sample's number is worth; "" is sound.
+    look(row) {
+        const result = this.results.get(row.sample);
+        return result && has_result(row) ? look_of(result) : "";
+    }
+
+    draw() {
+        const { answer } = this;
+        const named = Object.entries(answer.quantities).map(([value, each]) => ({ ...each, value, name: measures[value] ?? value, unit: each.unit === "1" ? "" : each.unit }));
+        offer(by_id("uncertainty-quantity"), named.map(({ value, name, label }) => ({ value, text: name, title: label })), answer.quantity);
+        offer(by_id("uncertainty-parameter"), answer.parameters.map(({ name }) => ({ value: name, text: name })), answer.parameters[0]?.name);
+        this.quantity = by_id("uncertainty-quantity").value;
+        this.moving = answer.rows.filter((row) => this.look(row).includes("bound")).map((row) => row.results[this.quantity]).filter(Number.isFinite);
+        by_id("uncertainty-csv").href = api.uncertainty_file(this.run.id, "csv");
+        this.draw_counts();
+        const quantity = named.find(({ value }) => value === this.quantity);
+        by_id("uncertainty-figures").hidden = !quantity;
+        if (quantity) {
+            this.draw_percentiles(quantity);
+            this.draw_exceedance(quantity);
+            this.draw_tornado(quantity);
+            draw_importance(quantity, this.bounds_note());
+            this.draw_scatter(quantity);
+        }
+        this.draw_envelope();
+        this.draw_samples(quantity);
+    }
+
+    /// How many there are, and what the numbers below do not say by themselves.
+    draw_counts() {
+        const { samples, rows, sentences, until, inverse } = this.answer;
+        set_text(by_id("uncertainty-counts"), `${samples.done} of ${plural(samples.planned, "sample")} ended with a result`);
+        const looks = rows.map((row) => this.look(row));
+        const doubtful = looks.filter((look) => look === "doubtful").length;
+        const unknown = looks.filter((look) => look === "unknown").length;
+        const doubts = [
+            samples.failed && `${samples.failed} of ${samples.planned} left no result and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
+            samples.open && `${samples.open} have not ended: the numbers will change.`,
+            this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound, ` +
+                "and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve.",
+            doubtful && `${doubtful} are questionable for other reasons (hollow and dashed among the samples).`,
+            unknown && `${unknown} carry no flags: what may be wrong with them is not known.`,
+            until && !until.reached && `Asked was p${until.percentile} to ± ${share(until.half_width)} of its value; ` +
+                (Number.isFinite(until.now) ? `it is known to ± ${share(until.now)}.` : "so few samples do not tell it at all."),
+        ].filter(Boolean);
+        const said = [...sentences, ...(inverse ? [inverse_text(inverse)] : []),
+                      ...(until?.reached ? [`p${until.percentile} is known to ± ${share(until.now)} of its value; ± ${share(until.half_width)} was asked.`] : [])];
+        by_id("uncertainty-doubts").hidden = doubts.length === 0;
+        for (const [id, lines] of [["uncertainty-doubts", doubts], ["uncertainty-said", said]]) {
+            mirror(by_id(id), lines, (line) => line, () => element("li"), set_text);
+        }
+        by_id("uncertainty-left-out").hidden = samples.left_out.length === 0;
+        set_text(by_id("uncertainty-left-out-title"), `Left out: ${plural(samples.left_out.length, "sample")}`);
+        mirror(by_id("uncertainty-left-out-list"), samples.left_out, ({ sample }) => sample, ({ sample }) => element("li", {},
+            element("button", { type: "button", class: "link", onclick: () => this.open(sample) }, sample), element("span")), (item, { state, reason }) =>
+            set_text(item.lastElementChild, ` ${state}${reason ? `: ${reason}` : ""}`));
+    }
+
+    /// A percentile is a lower bound as soon as one sample below it was stopped while it moved.
+    is_bound(value) {
+        return grows(this.quantity) && this.moving.some((each) => each <= value);
+    }
+
+    draw_percentiles({ percentiles, percentiles_lacking, unit, count, of, mean, sd }) {
+        const refused = percentiles.refused ?? "";
+        by_id("uncertainty-refused").hidden = !refused;
+        set_text(by_id("uncertainty-refused"), refused);
+        by_id("uncertainty-percentiles").hidden = Boolean(refused);
+        if (refused) return;
+        set_text(by_id("uncertainty-percentiles-caption"), `${count} of ${of} samples; mean ${this.at_least(mean, true)} ${unit}, standard deviation ${number(sd, 3)} ${unit}`);
+        const all = [...percentiles, ...percentiles_lacking].sort((a, b) => a.p - b.p);
+        mirror(by_id("uncertainty-percentile-rows"), all, ({ p }) => p, () => element("tr", {}, element("th", { scope: "row" }),
+               element("td", { class: "number" }), element("td", { class: "number" })), (row, { p, value, low, high, needs }) => {
+            set_text(row.children[0], `p${p}`);
+            set_text(row.children[1], Number.isFinite(value) ? `${this.at_least(value)} ${unit}` : "–");
+            set_text(row.children[2], Number.isFinite(low) ? `${this.at_least(low)} to ${this.at_least(high)}` : `${count} samples are not enough: ${needs} are needed`);
+            row.classList.toggle("waiting", !Number.isFinite(value));
+            row.children[1].title = this.is_bound(value) ? "A lower bound: samples below it were stopped while their soil still moved" : "";
+        });
+    }
+
+    /// What is fitted or ranked takes bounds for values.
+    bounds_note() {
+        return grows(this.quantity) && this.moving.length ? ` ${this.moving.length} of the samples behind it are lower bounds, taken as they are.` : "";
+    }
+
+    at_least(value, of_all = false) {
+        return `${(of_all ? grows(this.quantity) && this.moving.length > 0 : this.is_bound(value)) ? "≥ " : ""}${number(value)}`;
+    }
+
+    draw_exceedance({ exceedance, count, of, ...quantity }) {
+        const steps = in_steps(exceedance);
+        const bound = grows(this.quantity) && this.moving.length ? [{ from: Math.min(...this.moving), to: Math.max(...steps.x), label: "at least", kind: "lower-bound" }] : [];
+        this.exceedance.labels.x_unit = quantity.unit;
+        this.exceedance.show({
+            series: [{ name: `${count} of ${of} samples`, ...steps }],
+            x_label: labelled(quantity), errors_name: "90 % interval of so many samples", bands: bound,
+        });
+    }
+
+    draw_tornado({ tornado, ...quantity }) {
+        by_id("uncertainty-tornado").hidden = Boolean(tornado.refused);
+        set_text(by_id("uncertainty-tornado-note"), tornado.refused ? `No tornado: ${tornado.refused}. A surrogate that does not predict the samples left out of it says nothing of one parameter alone.`
+            : `From a fitted surrogate (Q² = ${number(tornado.q2, 2)} by cross-validation), the other parameters at their medians: ${number(tornado.at_median)} ${quantity.unit}.${this.bounds_note()}`);
+        if (!tornado.refused) this.tornado.show(tornado, labelled(quantity));
+    }
+
+    /// Values of choices and lattices stand beside each other, spread so that each can be pointed at.
+    draw_scatter(quantity) {
+        const parameter = this.answer.parameters.find(({ name }) => name === by_id("uncertainty-parameter").value);
+        if (!parameter) return;
+        const rows = this.answer.rows.filter((row) => Number.isFinite(row.results?.[this.quantity]));
+        const values = rows.map((row) => row.values[parameter.name]);
+        const is_choice = ["choice", "numerical"].includes(parameter.kind);
+        const options = is_choice ? [...new Set(values)].sort((a, b) => String(a).localeCompare(String(b), undefined, { numeric: true })) : [];
+        const x = is_choice ? values.map((value, i) => options.indexOf(value) + 0.6 * (((i + 1) * golden) % 1) - 0.3) : values;
+        const log = !is_choice && Math.min(...x) > 0 && Math.max(...x) > long_span * Math.min(...x);
+        Object.assign(this.scatter.labels, { title: `${quantity.name} against ${parameter.name}`, y: labelled(quantity), x_name: parameter.name });
+        this.scatter.show({
+            series: [{ name: `${rows.length} samples`, unit: quantity.unit, points: true, scatter: true, x, y: rows.map((row) => row.results[this.quantity]),
+                       keys: rows.map(({ sample }) => sample), names: rows.map(({ sample }) => sample), looks: rows.map((row) => this.look(row)),
+                       notes: rows.map((row) => this.note(row)) }],
+            x_label: parameter.kind === "factor" ? `${parameter.name} (factor)` : parameter.name, x_log: log, ...(is_choice ? { names: options.map((label, at) => ({ x: at, label: String(label) })) } : {}),
+        });
+    }
+
+    note(row) {
+        const result = this.results.get(row.sample);
+        return [row.sample, ...Object.entries(row.values).map(([name, value]) => `${name} = ${typeof value === "number" ? number(value) : value}`),
+                result?.flags?.length ? flag_note(result) : ""].filter(Boolean).join("\n");
+    }
+
+    draw_envelope() {
+        const { envelopes } = this;
+        const columns = Object.keys(envelopes?.bands ?? {});
+        by_id("uncertainty-along").hidden = columns.length === 0;
+        if (columns.length === 0) return;
+        offer(by_id("uncertainty-column"), columns.map((value) => ({ value, text: along_x[value] ?? value.replaceAll("_", " ") })), columns[0]);
+        const chosen = by_id("uncertainty-column").value;
+        const { unit, p10, p50, p90, rests_on: count } = envelopes.bands[chosen];
+        const most = envelopes.samples;
+        // Fewer samples are another curve, which begins where the first one ends.
+        const part = (name, is_in) => ({ name, unit, x: envelopes.x, y: p50.map((y, i) => (is_in(i) ? y : null)), low: p10, high: p90,
+                                         names: count.map((each) => `${each} of ${most} samples came`) });
+        const is_whole = (i) => count[i] === most;
+        const fewer = part("p50, some never came", (i) => !is_whole(i) || (count[i + 1] ?? most) < most || (count[i - 1] ?? most) < most);
+        this.envelope.labels.y = `${along_x[chosen] ?? chosen} [${unit || "–"}]`;
+        this.envelope.show({ series: [part("p50", is_whole), ...(count.every((_, i) => is_whole(i)) ? [] : [fewer])], errors_name: "p10 to p90" });
+        set_text(by_id("uncertainty-along-note"), `${most} of ${this.answer.samples.planned} samples. ` + (unit === "s"
+            ? "A sample whose flow never came arrives after all others: a percentile ends where too few came." : "Where the flow of a sample never came it is 0 there.") +
+            (this.moving.length ? ` ${this.moving.length} still moved when stopped: beyond where they lay depths and velocities are lower bounds, and what was not reached may yet be.` : ""));
+    }
+
+    draw_samples(quantity) {
+        const { parameters, rows } = this.answer;
+        const open = ({ sample, task }) => element("span", { class: "row" }, element("button", { type: "button", class: "link", disabled: !task, onclick: () => this.open(sample) }, sample));
+        const trace = ({ sample, has_result: traceable }) => (traceable ? element("button", { type: "button", class: "link", onclick: () => this.ask(sample) }, "trace") : "");
+        const state = (record) => {
+            const badge = element("span");
+            show_state(badge, record.state);
+            return badge;
+        };
+        const value = (record) => (record.value === null ? "–" : `${record.look.includes("bound") ? "≥ " : ""}${number(record.value)}`);
+        this.table ??= new DataTable(by_id("uncertainty-samples"));
+        this.table.open(`samples_${this.run.name}`, [
+            { name: "sample", title: "sample", cell: open }, { name: "state", title: "state", cell: state },
+            { name: "value", title: quantity?.name ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
+            ...parameters.map(({ name, kind }) => ({ name: `values ${name}`, title: name, number: kind !== "choice",
+                                              cell: kind === "choice" ? null : (record) => number(record[`values ${name}`]) })),
+            { name: "trace", title: "", cell: trace },
+        ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look(row), has_result: has_result(row),
+                                ...Object.fromEntries(Object.entries(row.values).map(([name, each]) => [`values ${name}`, each])) })), false);
+    }
+}
+
+/// The share of samples above each value stays until the next one.
+function in_steps(exceedance) {
+    const points = exceedance.flatMap((each, i) => (i === 0 ? [each] : [{ ...exceedance[i - 1], value: each.value }, each]));
+    return { x: points.map(({ value }) => value), y: points.map(({ probability }) => probability), low: points.map(({ low }) => low), high: points.map(({ high }) => high) };
+}
+
+/// The options of a select, with what was chosen still chosen.
+function offer(select, options, first) {
+    const before = select.value;
+    mirror(select, options, ({ value }) => value, ({ value }) => element("option", { value }), (option, { text, title }) => {
+        set_text(option, text);
+        option.title = title ?? "";
+    });
+    select.value = options.some(({ value }) => value === before) ? before : first;
+}
+
+function inverse_text({ target, vary, value, low, high }) {
+    return `Back-analysis: ${vary} = ${number(value)} (${number(low)} to ${number(high)}) gives ${number(target)}.`;
+}
+
+/// Options of a choice have no order and so no rank correlation.
+const weight_of = ({ rank_correlation: rank, first_order: explained }) => (Number.isFinite(rank) ? Math.abs(rank) : Math.sqrt(Math.max(explained ?? 0, 0)));
+
+/// What decides: by rank, with what the others explain taken away, and the share of the variance; pale where it is not told from none.
+function draw_importance({ importance, count, of }, bounds) {
+    const told = importance.some(({ rank_correlation: rank, first_order: explained }) => Number.isFinite(rank) || Number.isFinite(explained));
+    by_id("uncertainty-importance").hidden = !told;
+    set_text(by_id("uncertainty-importance-note"), told ? `${count} of ${of} samples. Pale: an interval has 0 in it, so the parameter is not told from one that does nothing.${bounds}`
+        : `${count} samples do not tell which parameter decides.`);
+    if (!told) return;
+    const ordered = [...importance].sort((a, b) => weight_of(b) - weight_of(a));
+    mirror(by_id("uncertainty-importance-rows"), ordered, ({ parameter }) => parameter, () => element("tr", {}, element("th", { scope: "row" }),
+           ...Array.from({ length: 4 }, () => element("td", { class: "number" }))), (row, { parameter, rank_correlation: rank, low, high, partial_rank_correlation: partial,
+        first_order: explained, first_order_low: least, first_order_high: most }) => {
+        const ends = (a, b) => (Number.isFinite(a) ? `${number(a, 2)} to ${number(b, 2)}` : "–");
+        [parameter, number(rank, 2), ends(low, high), number(partial, 2), number(explained, 2)].forEach((text, i) => set_text(row.children[i], text));
+        row.lastElementChild.title = `90 % interval: ${ends(least, most)}`;
+        row.classList.toggle("waiting", Number.isFinite(low) ? low <= 0 && high >= 0 : !(least > 0));
+    });
+}
