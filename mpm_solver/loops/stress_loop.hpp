@@ -170,12 +170,12 @@ template <class Law, VolumeRule volume_rule, class Real>
 
 /// Anti-locking: the block's part in the mean stress of its cells.
 template <int N>
-[[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells) {
+[[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells,
+                                                   const materials::StressOf<Lanes<N>>& sigma) {
     using Real = Lanes<N>;
     const auto& [a, p, first, count] = block;
     const Real V_sigma_m =
-        load<Real>(a.V + p) *
-        ((load<Real>(a.sxx + p) + load<Real>(a.syy + p) + load<Real>(a.szz + p)) * Real(1.0 / 3.0));
+        load<Real>(a.V + p) * ((sigma.xx + sigma.yy + sigma.zz) * Real(1.0 / 3.0));
     for (int k = 0; k < count; ++k) cells[a.cell[p + k]].sigma_m += V_sigma_m.v[k];
 }
 
@@ -200,7 +200,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
                 pushed_in = pushed_in - V * increment.sigma_m * increment.hidden;
             }
             if constexpr (averages == Averages::per_cell) {
-                add_mean_stress<Isa::lanes>(block, work.cells);
+                add_mean_stress<Isa::lanes>(block, work.cells, update.sigma);
             }
         });
     sums.plastic += sum_of(plastic);
