@@ -164,6 +164,7 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.x, a.y, a.vx, a.vy, a.m, a.V, a.Lxx, a.Lxy, a.Lyx, a.Lyy});
             const Real x = load<Real>(a.x + p);
             const Real y = load<Real>(a.y + p);
             const Real xi = (x - Real(grid.x_0)) * Real(grid.per_h);

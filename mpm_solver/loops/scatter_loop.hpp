@@ -202,6 +202,8 @@ void scatter(const ZoneWork& work, Span span, Totals&) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.x, a.y, a.vx, a.vy, a.m, a.V, a.Lxx, a.Lxy, a.Lyx, a.Lyy, a.sxx,
+                              a.syy, a.sxy});
             const Real xi = (load<Real>(a.x + p) - Real(grid.x_0)) * Real(grid.per_h);
             const Real eta = (load<Real>(a.y + p) - Real(grid.y_0)) * Real(grid.per_h);
             const Stencil<Real> sx = kernel(xi, grid.walls_x);

@@ -190,6 +190,8 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.Lxx, a.Lxy, a.Lyx, a.Lyy, a.sxx, a.syy, a.szz, a.sxy, a.V, a.volume,
+                              a.gap, a.epsilon_q});
             const Real V =
                 materials::lanes::select(own_lanes<Real>(block), load<Real>(a.V + p), Real(0.0));
             const Increment<Real> increment = increments.of(block);
@@ -219,6 +221,7 @@ void settle(const ZoneWork& work, Span span, Totals& sums) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.sxx, a.syy, a.szz, a.V_0, a.V, a.m});
             Real sigma_m(0.0);
             if constexpr (averages == Averages::per_cell ||
                           volume_rule == VolumeRule::from_stress) {
