@@ -105,8 +105,8 @@ void refuse_if_ragged(const Points& points, std::size_t soils, const std::string
         refuse(file, "/stress_of_soils", "has another length");
 }
 
-/// Points are on the grid, and their homes are the cells where they are or next to them, unless they are sorted before
-/// homes are next asked for.
+/// Points are on the grid, and their homes are no farther than a column and a row from the cells where they are, unless
+/// they are sorted before homes are next asked for.
 void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
                         const std::string& file) {
     if (strayed < 0.0) refuse(file, "/run.strayed", "is less than nothing");
@@ -116,11 +116,12 @@ void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
             refuse(file, "/x", "places a point outside the grid");
         const std::int32_t home = points.home[p];
         if (home < grid.rows || home >= grid.nodes() || home % grid.rows == 0)
-            refuse(file, "/home", "names a cell outside the grid");
+            refuse(file, "/home", "names a node outside the grid");
         const std::int32_t here = grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]));
         const bool far = std::abs(home / grid.rows - here / grid.rows) > 1 ||
                          std::abs(home % grid.rows - here % grid.rows) > 1;
-        if (far && !sorted_before_use) refuse(file, "/home", "names a cell where the point is not");
+        if (far && !sorted_before_use)
+            refuse(file, "/home", "names a node that is not next to the point");
     }
 }
 

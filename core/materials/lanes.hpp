@@ -9,6 +9,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 namespace breach::materials {
 
 /// N doubles in a vector register (GCC and clang vector extensions; any CPU).
@@ -21,8 +25,9 @@ struct Lanes {
 
     Lanes() = default;
     [[gnu::always_inline]] explicit Lanes(const Vector& vector) : v(vector) {}
-    /// The same number in every lane.
-    [[gnu::always_inline]] Lanes(double number) : v(Vector{} + number) {}
+    /// The same number in every lane: a number less 0 is itself, while 0 + number has to be added
+    /// up, for -0 + 0 is 0.
+    [[gnu::always_inline]] Lanes(double number) : v(number - Vector{}) {}
 
     [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) {
         return Lanes(a.v + b.v);
@@ -95,8 +100,15 @@ template <int N>
 }
 
 [[gnu::always_inline]] inline bool any(bool mask) { return mask; }
+/// In one instruction where there is one; GCC 12 takes the lanes one by one.
 template <class Mask>
 [[gnu::always_inline]] inline bool any(const Mask& mask) {
+#if defined(__AVX512DQ__)
+    if constexpr (sizeof(mask.m) == 64) return _mm512_movepi64_mask((__m512i)mask.m) != 0;
+#endif
+#if defined(__AVX__)
+    if constexpr (sizeof(mask.m) == 32) return _mm256_movemask_pd((__m256d)mask.m) != 0;
+#endif
     std::int64_t all = 0;
     for (std::size_t i = 0; i < sizeof(mask.m) / sizeof(std::int64_t); ++i) all |= mask.m[i];
     return all != 0;

@@ -57,6 +57,10 @@ struct Grid {
     std::int32_t cell(double xi, double eta) const {
         return static_cast<std::int32_t>(xi) * rows + static_cast<std::int32_t>(eta);
     }
+    /// Node in the middle of the 3 x 3 of a point there.
+    std::int32_t nearest_node(double xi, double eta) const {
+        return cell(grid::nearest_whole(xi), grid::nearest_whole(eta));
+    }
     bool holds(double x, double y) const {
         return x >= low.x() && x <= high.x() && y >= low.y() && y <= high.y();
     }

@@ -37,7 +37,7 @@ struct Points {
     std::vector<double> c, tan_phi, c_residual, tan_phi_residual;
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
     std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
-    std::vector<std::int32_t> home;    ///< cell when the points were last sorted
+    std::vector<std::int32_t> home;    ///< nearest node when they were last sorted
     std::vector<std::int32_t> cell;    ///< cell at the start of the step; anti-locking only
 
     Carried carried;

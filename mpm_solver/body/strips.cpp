@@ -30,7 +30,7 @@ void order_zone(const Grid& grid, const Points& points, const Zone& zone,
 
 void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
     for (std::size_t p = 0; p < points.size(); ++p) {
-        points.home[p] = grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]));
+        points.home[p] = grid.nearest_node(grid.xi(points.x[p]), grid.eta(points.y[p]));
     }
     // Scratch of its own: a sort is due once in some hundred steps.
     std::vector<std::int32_t> starts;
@@ -73,7 +73,7 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
     find_active_nodes(grid, points);
 }
 
-/// The 4 x 4 nodes about every home: what a point can reach from at most half a cell away.
+/// The 5 x 5 nodes about every home: what a point can reach from at most a cell away.
 void Strips::find_active_nodes(Grid& grid, const Points& points) {
     clear(grid);
     std::vector<std::uint8_t> is_active(static_cast<std::size_t>(grid.nodes()), 0);
@@ -83,9 +83,10 @@ void Strips::find_active_nodes(Grid& grid, const Points& points) {
         last = home;
         const std::int32_t i = home / grid.rows;
         const std::int32_t j = home % grid.rows;
-        for (std::int32_t k = i - 1; k <= std::min(i + 2, grid.columns - 1); ++k) {
+        for (std::int32_t k = std::max(i - 2, 0); k <= std::min(i + 2, grid.columns - 1); ++k) {
             const auto column = is_active.begin() + k * grid.rows;
-            std::fill(column + (j - 1), column + std::min(j + 3, grid.rows), std::uint8_t{1});
+            std::fill(column + std::max(j - 2, 0), column + std::min(j + 3, grid.rows),
+                      std::uint8_t{1});
         }
     }
     grid.active.clear();

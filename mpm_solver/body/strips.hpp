@@ -1,8 +1,8 @@
-// The order of the points: by zone, then by cell, column by column, so that points that share nodes
-// are neighbours in memory. Columns are cut into strips; while no point has strayed far from the
-// cell where it was sorted, every second strip shares no node with another, and the active nodes
-// are known. So strips are the unit of work of a thread, and what they add up does not depend on
-// how many threads there are.
+// The order of the points: by zone, then by the node next to them, column by column, so that points
+// that share their 3 x 3 nodes are neighbours in memory. Columns are cut into strips; while no point
+// has strayed far from where it was sorted, every second strip shares no node with another, and the
+// active nodes are known. So strips are the unit of work of a thread, and what they add up does not
+// depend on how many threads there are.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace breach::mpm {
 
 class Strips {
   public:
-    /// Columns of cells in a strip: of two strips that are a strip apart none reaches the same
+    /// Columns of nodes in a strip: of two strips that are a strip apart none reaches the same
     /// node.
     static constexpr std::int32_t width = 4;
     /// Points may stray this far from their home before they have to be sorted again [cells].

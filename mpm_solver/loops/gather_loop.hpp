@@ -12,31 +12,56 @@ struct Gathered {
     Lanes<N> Lxx, Lyx, Lxy, Lyy;  ///< times h
 };
 
+/// What point k's nodes give it: the value, and d/dx and d/dy of vx and vy.
+template <int N>
+[[gnu::always_inline]] inline void gather_point(const GridArrays& grid, const Weights<N>& w, int k,
+                                                Quad<N>& value, Quad<N>& gradient) {
+    using Four = Quad<N>;
+    const double* motion = grid.motion + 4 * static_cast<std::int64_t>(w.node[k]);
+    value = Four(0.0);
+    Four d_x(0.0);
+    Four d_y(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const Four node[3] = {load<Four>(motion), load<Four>(motion + 4), load<Four>(motion + 8)};
+        const Four column =
+            node[0] * Four(w.Ny[0][k]) + node[1] * Four(w.Ny[1][k]) + node[2] * Four(w.Ny[2][k]);
+        const Four d_column =
+            node[0] * Four(w.dNy[0][k]) + node[1] * Four(w.dNy[1][k]) + node[2] * Four(w.dNy[2][k]);
+        value = value + column * Four(w.Nx[i][k]);
+        d_x = d_x + column * Four(w.dNx[i][k]);
+        d_y = d_y + d_column * Four(w.Nx[i][k]);
+        motion += 4 * grid.rows;
+    }
+    gradient = low_halves(d_x, d_y);
+}
+/// The same in registers of eight: a column's values and its d/dy side by side.
+[[gnu::always_inline]] inline void gather_point(const GridArrays& grid, const Weights<8>& w, int k,
+                                                Lanes<4>& value, Lanes<4>& gradient) {
+    using Four = Lanes<4>;
+    using Eight = Lanes<8>;
+    const double* motion = grid.motion + 4 * static_cast<std::int64_t>(w.node[k]);
+    const Eight y[3] = {joined(Four(w.Ny[0][k]), Four(w.dNy[0][k])),
+                        joined(Four(w.Ny[1][k]), Four(w.dNy[1][k])),
+                        joined(Four(w.Ny[2][k]), Four(w.dNy[2][k]))};
+    Eight value_and_d_y(0.0);
+    Four d_x(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const Eight column = twice(load<Four>(motion)) * y[0] +
+                             twice(load<Four>(motion + 4)) * y[1] +
+                             twice(load<Four>(motion + 8)) * y[2];
+        value_and_d_y = value_and_d_y + column * Eight(w.Nx[i][k]);
+        d_x = d_x + low_four(column) * Four(w.dNx[i][k]);
+        motion += 4 * grid.rows;
+    }
+    value = low_four(value_and_d_y);
+    gradient = low_halves(d_x, high_four(value_and_d_y));
+}
+
 template <int N>
 [[gnu::always_inline]] inline Gathered<N> gathered(const GridArrays& grid, const Weights<N>& w) {
-    using Four = Quad<N>;
-    Four values[N];
-    Four gradients[N];
-    for (int k = 0; k < N; ++k) {
-        const double* motion = grid.motion + 4 * static_cast<std::int64_t>(w.node[k]);
-        Four value(0.0);
-        Four d_x(0.0);
-        Four d_y(0.0);
-        for (int i = 0; i < 3; ++i) {
-            const Four node[3] = {load<Four>(motion), load<Four>(motion + 4),
-                                  load<Four>(motion + 8)};
-            const Four column = node[0] * Four(w.Ny[0][k]) + node[1] * Four(w.Ny[1][k]) +
-                                node[2] * Four(w.Ny[2][k]);
-            const Four d_column = node[0] * Four(w.dNy[0][k]) + node[1] * Four(w.dNy[1][k]) +
-                                  node[2] * Four(w.dNy[2][k]);
-            value = value + column * Four(w.Nx[i][k]);
-            d_x = d_x + column * Four(w.dNx[i][k]);
-            d_y = d_y + d_column * Four(w.Nx[i][k]);
-            motion += 4 * grid.rows;
-        }
-        values[k] = value;
-        gradients[k] = low_halves(d_x, d_y);
-    }
+    Quad<N> values[N];
+    Quad<N> gradients[N];
+    for (int k = 0; k < N; ++k) gather_point(grid, w, k, values[k], gradients[k]);
     Gathered<N> at;
     from_points(values, at.vx, at.vy, at.dvx, at.dvy);
     from_points(gradients, at.Lxx, at.Lyx, at.Lxy, at.Lyy);
@@ -139,6 +164,7 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.x, a.y, a.vx, a.vy, a.m, a.V, a.Lxx, a.Lxy, a.Lyx, a.Lyy});
             const Real x = load<Real>(a.x + p);
             const Real y = load<Real>(a.y + p);
             const Real xi = (x - Real(grid.x_0)) * Real(grid.per_h);

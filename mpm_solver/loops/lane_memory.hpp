@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "core/materials/lanes.hpp"
 
@@ -44,15 +45,29 @@ using Quad = typename QuadFor<N>::Type;
 template <int N>
 using Integers [[gnu::vector_size(N * sizeof(std::int32_t))]] = std::int32_t;
 
+/// Numbers where they lie. Through such a reference and not by copying bytes: GCC 12 takes what is
+/// copied through memory, even when it stands in a register.
+template <int N>
+using InMemory
+    [[gnu::vector_size(N * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] =
+        double;
+
 template <class Real>
 [[gnu::always_inline]] inline Real load(const double* from) {
-    Real a;
-    std::memcpy(&a, from, sizeof(Real));
-    return a;
+    if constexpr (std::is_same_v<Real, Pairs>) {
+        return {load<Lanes<2>>(from), load<Lanes<2>>(from + 2)};
+    } else {
+        constexpr int N = materials::LaneTraits<Real>::count;
+        return Real(typename Real::Vector(*reinterpret_cast<const InMemory<N>*>(from)));
+    }
 }
-template <class Real>
-[[gnu::always_inline]] inline void store(double* to, const Real& a) {
-    std::memcpy(to, &a, sizeof(Real));
+template <int N>
+[[gnu::always_inline]] inline void store(double* to, const Lanes<N>& a) {
+    *reinterpret_cast<InMemory<N>*>(to) = a.v;
+}
+[[gnu::always_inline]] inline void store(double* to, const Pairs& a) {
+    store(to, a.low);
+    store(to + 2, a.high);
 }
 
 /// Whole numbers toward zero.
@@ -112,7 +127,7 @@ template <int N>
     return {first.low, second.low};
 }
 
-/// Rows to columns, in place.
+/// Rows to columns, in place, in every group of four lanes.
 [[gnu::always_inline]] inline void transpose(Lanes<4>& a, Lanes<4>& b, Lanes<4>& c, Lanes<4>& d) {
     const auto ab_low = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6);
     const auto ab_high = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
@@ -123,42 +138,54 @@ template <int N>
     c.v = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
     d.v = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
-
-/// Lanes 4 part .. 4 part + 3.
-template <int N>
-[[gnu::always_inline]] inline Lanes<4> quad_of(const Lanes<N>& a, int part) {
-    Lanes<4> quad;
-    std::memcpy(&quad, reinterpret_cast<const double*>(&a) + 4 * part, sizeof(quad));
-    return quad;
+[[gnu::always_inline]] inline void transpose(Lanes<8>& a, Lanes<8>& b, Lanes<8>& c, Lanes<8>& d) {
+    const auto ab_low = __builtin_shufflevector(a.v, b.v, 0, 8, 2, 10, 4, 12, 6, 14);
+    const auto ab_high = __builtin_shufflevector(a.v, b.v, 1, 9, 3, 11, 5, 13, 7, 15);
+    const auto cd_low = __builtin_shufflevector(c.v, d.v, 0, 8, 2, 10, 4, 12, 6, 14);
+    const auto cd_high = __builtin_shufflevector(c.v, d.v, 1, 9, 3, 11, 5, 13, 7, 15);
+    a.v = __builtin_shufflevector(ab_low, cd_low, 0, 1, 8, 9, 4, 5, 12, 13);
+    b.v = __builtin_shufflevector(ab_high, cd_high, 0, 1, 8, 9, 4, 5, 12, 13);
+    c.v = __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15);
+    d.v = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
-template <int N>
-[[gnu::always_inline]] inline void set_quad(Lanes<N>& a, int part, const Lanes<4>& quad) {
-    std::memcpy(reinterpret_cast<double*>(&a) + 4 * part, &quad, sizeof(quad));
+
+/// Two fours side by side, one beside itself, and each of them again.
+[[gnu::always_inline]] inline Lanes<8> joined(const Lanes<4>& low, const Lanes<4>& high) {
+    return Lanes<8>(__builtin_shufflevector(low.v, high.v, 0, 1, 2, 3, 4, 5, 6, 7));
+}
+[[gnu::always_inline]] inline Lanes<8> twice(const Lanes<4>& a) { return joined(a, a); }
+[[gnu::always_inline]] inline Lanes<4> low_four(const Lanes<8>& a) {
+    return Lanes<4>(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3));
+}
+[[gnu::always_inline]] inline Lanes<4> high_four(const Lanes<8>& a) {
+    return Lanes<4>(__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7));
 }
 
 /// Four components over N points to N points of four components.
-template <int N>
-[[gnu::always_inline]] inline void to_points(const Lanes<N>& a, const Lanes<N>& b,
-                                             const Lanes<N>& c, const Lanes<N>& d,
-                                             Quad<N>* points) {
-    static_assert(N % 4 == 0);
-    for (int part = 0; part < N / 4; ++part) {
-        Lanes<4> q[4] = {quad_of(a, part), quad_of(b, part), quad_of(c, part), quad_of(d, part)};
-        transpose(q[0], q[1], q[2], q[3]);
-        for (int k = 0; k < 4; ++k) points[4 * part + k] = q[k];
-    }
+[[gnu::always_inline]] inline void to_points(Lanes<4> a, Lanes<4> b, Lanes<4> c, Lanes<4> d,
+                                             Lanes<4>* points) {
+    transpose(a, b, c, d);
+    points[0] = a, points[1] = b, points[2] = c, points[3] = d;
+}
+[[gnu::always_inline]] inline void to_points(Lanes<8> a, Lanes<8> b, Lanes<8> c, Lanes<8> d,
+                                             Lanes<4>* points) {
+    transpose(a, b, c, d);
+    points[0] = low_four(a), points[1] = low_four(b);
+    points[2] = low_four(c), points[3] = low_four(d);
+    points[4] = high_four(a), points[5] = high_four(b);
+    points[6] = high_four(c), points[7] = high_four(d);
 }
 /// And back.
-template <int N>
-[[gnu::always_inline]] inline void from_points(const Quad<N>* points, Lanes<N>& a, Lanes<N>& b,
-                                               Lanes<N>& c, Lanes<N>& d) {
-    for (int part = 0; part < N / 4; ++part) {
-        const Lanes<4>* from = points + 4 * part;
-        Lanes<4> q[4] = {from[0], from[1], from[2], from[3]};
-        transpose(q[0], q[1], q[2], q[3]);
-        set_quad(a, part, q[0]), set_quad(b, part, q[1]);
-        set_quad(c, part, q[2]), set_quad(d, part, q[3]);
-    }
+[[gnu::always_inline]] inline void from_points(const Lanes<4>* points, Lanes<4>& a, Lanes<4>& b,
+                                               Lanes<4>& c, Lanes<4>& d) {
+    a = points[0], b = points[1], c = points[2], d = points[3];
+    transpose(a, b, c, d);
+}
+[[gnu::always_inline]] inline void from_points(const Lanes<4>* points, Lanes<8>& a, Lanes<8>& b,
+                                               Lanes<8>& c, Lanes<8>& d) {
+    a = joined(points[0], points[4]), b = joined(points[1], points[5]);
+    c = joined(points[2], points[6]), d = joined(points[3], points[7]);
+    transpose(a, b, c, d);
 }
 
 [[gnu::always_inline]] inline void to_points(const Lanes<2>& a, const Lanes<2>& b,

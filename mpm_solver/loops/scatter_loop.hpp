@@ -66,45 +66,144 @@ template <int N, Scattered what, Viscosity viscosity>
     to_points(mLxy, mLyy, fxy, fyy, gifts.C);
 }
 
-template <int N, Scattered what>
-[[gnu::always_inline]] inline void give(const GridArrays& grid, const Weights<N>& w,
-                                        const Gifts<N>& gifts, int k) {
-    constexpr bool masses = what == Scattered::momentum_and_force || what == Scattered::momentum;
+/// What a column of three nodes is given; `mass` of all three.
+template <int N>
+struct Column {
+    Quad<N> low, middle, high;
+    Quad<N> mass;
+};
+
+/// Where a column lies.
+struct ColumnPlace {
+    double* motion;
+    double* mass;
+
+    [[gnu::always_inline]] ColumnPlace(const GridArrays& grid, std::int64_t node, int column)
+        : motion(grid.motion + 4 * (node + column * static_cast<std::int64_t>(grid.rows))),
+          mass(grid.mass + (node + column * static_cast<std::int64_t>(grid.rows))) {}
+};
+
+template <int N, bool masses>
+[[gnu::always_inline]] inline Column<N> load_column(const ColumnPlace& at) {
     using Four = Quad<N>;
-    const Four Ny[3] = {Four(w.Ny[0][k]), Four(w.Ny[1][k]), Four(w.Ny[2][k])};
-    const Four M[3] = {halves(Four(0.0), Four(w.dNy[0][k])), halves(Ny[1], Four(w.dNy[1][k])),
-                       halves(Ny[2] + Ny[2], Four(w.dNy[2][k]))};
-    const Four row_of_N = first_of(Ny[0], Ny[1], Ny[2]);
-    Four A = gifts.A[k];
-    const Four B = gifts.B[k];
-    const Four C = gifts.C[k];
-    const std::int64_t node = w.node[k];
-    double* motion = grid.motion + 4 * node;
-    double* mass = grid.mass + node;
-    const Four m(gifts.m[k]);
-    for (int i = 0; i < 3; ++i) {
-        const Four Nx(w.Nx[i][k]);
-        const Four P = halves(Nx, Four(w.dNx[i][k])) * A;
-        const Four Q = Nx * C;
-        for (int j = 0; j < 3; ++j) {
-            store(motion + 4 * j, load<Four>(motion + 4 * j) + P * Ny[j] + Q * M[j]);
+    return {load<Four>(at.motion), load<Four>(at.motion + 4), load<Four>(at.motion + 8),
+            masses ? load<Four>(at.mass) : Four(0.0)};
+}
+template <int N, bool masses>
+[[gnu::always_inline]] inline void store_column(const ColumnPlace& at, const Column<N>& column) {
+    store(at.motion, column.low);
+    store(at.motion + 4, column.middle);
+    store(at.motion + 8, column.high);
+    if constexpr (masses) store(at.mass, column.mass);
+}
+
+/// A point's part in its three columns.
+template <int N, bool masses>
+class Giver {
+    using Four = Quad<N>;
+
+  public:
+    [[gnu::always_inline]] Giver(const Weights<N>& w, const Gifts<N>& gifts, int k)
+        : Ny_low_(w.Ny[0][k]),
+          Ny_middle_(w.Ny[1][k]),
+          Ny_high_(w.Ny[2][k]),
+          M_low_(halves(Four(0.0), Four(w.dNy[0][k]))),
+          M_middle_(halves(Ny_middle_, Four(w.dNy[1][k]))),
+          M_high_(halves(Ny_high_ + Ny_high_, Four(w.dNy[2][k]))),
+          m_Ny_(Four(gifts.m[k])),
+          row_of_N_(first_of(Ny_low_, Ny_middle_, Ny_high_)),
+          A_(gifts.A[k]),
+          B_(gifts.B[k]),
+          C_(gifts.C[k]) {}
+
+    /// To the next column, left to right.
+    [[gnu::always_inline]] void give(Column<N>& column, double Nx_of_column, double dNx) {
+        const Four Nx(Nx_of_column);
+        const Four P = halves(Nx, Four(dNx)) * A_;
+        const Four Q = Nx * C_;
+        column.low = column.low + P * Ny_low_ + Q * M_low_;
+        column.middle = column.middle + P * Ny_middle_ + Q * M_middle_;
+        column.high = column.high + P * Ny_high_ + Q * M_high_;
+        if constexpr (masses) column.mass = column.mass + (m_Ny_ * Nx) * row_of_N_;
+        A_ = A_ + B_;
+    }
+
+  private:
+    Four Ny_low_, Ny_middle_, Ny_high_;
+    Four M_low_, M_middle_, M_high_;
+    Four m_Ny_, row_of_N_;
+    Four A_, B_, C_;
+};
+
+/// What points that share their nodes give them, summed in registers: for CPUs that have as many.
+/// The order of the points sees to it that neighbours share (strips.hpp).
+template <bool masses>
+class Shared {
+    static constexpr int N = 8;
+
+  public:
+    [[gnu::always_inline]] void take(const Weights<N>& w, const Gifts<N>& gifts, int k) {
+        Giver<N, masses> giver(w, gifts, k);
+        giver.give(left_, w.Nx[0][k], w.dNx[0][k]);
+        giver.give(middle_, w.Nx[1][k], w.dNx[1][k]);
+        giver.give(right_, w.Nx[2][k], w.dNx[2][k]);
+    }
+    [[gnu::always_inline]] void hand_over(const GridArrays& grid, std::int64_t node) {
+        hand_over({grid, node, 0}, left_);
+        hand_over({grid, node, 1}, middle_);
+        hand_over({grid, node, 2}, right_);
+    }
+
+  private:
+    [[gnu::always_inline]] static Column<N> none() {
+        return {Lanes<4>(0.0), Lanes<4>(0.0), Lanes<4>(0.0), Lanes<4>(0.0)};
+    }
+    [[gnu::always_inline]] static void hand_over(const ColumnPlace& at, Column<N>& column) {
+        const Column<N> had = load_column<N, masses>(at);
+        store_column<N, masses>(at, {had.low + column.low, had.middle + column.middle,
+                                     had.high + column.high, had.mass + column.mass});
+        column = none();
+    }
+
+    Column<N> left_ = none();
+    Column<N> middle_ = none();
+    Column<N> right_ = none();
+};
+
+template <int N, bool masses>
+[[gnu::always_inline]] inline void give_all(const GridArrays& grid, const Weights<N>& w,
+                                            const Gifts<N>& gifts, int count) {
+    if constexpr (N == 8) {
+        Shared<masses> shared;
+        for (int k = 0; k < count; ++k) {
+            shared.take(w, gifts, k);
+            if (k + 1 == count || w.node[k + 1] != w.node[k]) shared.hand_over(grid, w.node[k]);
         }
-        if constexpr (masses) store(mass, load<Four>(mass) + (m * Nx) * row_of_N);
-        A = A + B;
-        motion += 4 * grid.rows;
-        mass += grid.rows;
+    } else {
+        for (int k = 0; k < count; ++k) {
+            Giver<N, masses> giver(w, gifts, k);
+            for (int i = 0; i < 3; ++i) {
+                const ColumnPlace at(grid, w.node[k], i);
+                Column<N> column = load_column<N, masses>(at);
+                giver.give(column, w.Nx[i][k], w.dNx[i][k]);
+                store_column<N, masses>(at, column);
+            }
+        }
     }
 }
 
 template <class Isa, class Kernel, Scattered what, Viscosity viscosity>
 void scatter(const ZoneWork& work, Span span, Totals&) {
     constexpr int N = Isa::lanes;
+    constexpr bool masses = what == Scattered::momentum_and_force || what == Scattered::momentum;
     using Real = Lanes<N>;
     const Kernel kernel = kernel_of<Kernel>(work);
     const GridArrays grid = work.grid;
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.x, a.y, a.vx, a.vy, a.m, a.V, a.Lxx, a.Lxy, a.Lyx, a.Lyy, a.sxx,
+                              a.syy, a.sxy});
             const Real xi = (load<Real>(a.x + p) - Real(grid.x_0)) * Real(grid.per_h);
             const Real eta = (load<Real>(a.y + p) - Real(grid.y_0)) * Real(grid.per_h);
             const Stencil<Real> sx = kernel(xi, grid.walls_x);
@@ -112,7 +211,7 @@ void scatter(const ZoneWork& work, Span span, Totals&) {
             const Weights<N> weights(sx, sy, grid.rows);
             Gifts<N> gifts;
             fill_gifts<N, what, viscosity>(gifts, work, a, p, sx, sy);
-            for (int k = 0; k < count; ++k) give<N, what>(grid, weights, gifts, k);
+            give_all<N, masses>(grid, weights, gifts, count);
         });
 }
 

@@ -170,12 +170,12 @@ template <class Law, VolumeRule volume_rule, class Real>
 
 /// Anti-locking: the block's part in the mean stress of its cells.
 template <int N>
-[[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells) {
+[[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells,
+                                                   const materials::StressOf<Lanes<N>>& sigma) {
     using Real = Lanes<N>;
     const auto& [a, p, first, count] = block;
     const Real V_sigma_m =
-        load<Real>(a.V + p) *
-        ((load<Real>(a.sxx + p) + load<Real>(a.syy + p) + load<Real>(a.szz + p)) * Real(1.0 / 3.0));
+        load<Real>(a.V + p) * ((sigma.xx + sigma.yy + sigma.zz) * Real(1.0 / 3.0));
     for (int k = 0; k < count; ++k) cells[a.cell[p + k]].sigma_m += V_sigma_m.v[k];
 }
 
@@ -190,6 +190,8 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.Lxx, a.Lxy, a.Lyx, a.Lyy, a.sxx, a.syy, a.szz, a.sxy, a.V, a.volume,
+                              a.gap, a.epsilon_q});
             const Real V =
                 materials::lanes::select(own_lanes<Real>(block), load<Real>(a.V + p), Real(0.0));
             const Increment<Real> increment = increments.of(block);
@@ -200,7 +202,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
                 pushed_in = pushed_in - V * increment.sigma_m * increment.hidden;
             }
             if constexpr (averages == Averages::per_cell) {
-                add_mean_stress<Isa::lanes>(block, work.cells);
+                add_mean_stress<Isa::lanes>(block, work.cells, update.sigma);
             }
         });
     sums.plastic += sum_of(plastic);
@@ -219,6 +221,7 @@ void settle(const ZoneWork& work, Span span, Totals& sums) {
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
+            ask_ahead(block, {a.sxx, a.syy, a.szz, a.V_0, a.V, a.m});
             Real sigma_m(0.0);
             if constexpr (averages == Averages::per_cell ||
                           volume_rule == VolumeRule::from_stress) {

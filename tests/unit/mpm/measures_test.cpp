@@ -64,10 +64,11 @@ TEST(Sort, ChangesTheOrderAndNothingElse) {
         EXPECT_EQ(before.position[p], after.position[p]);
     }
     for (std::size_t p = 1; p < body.points.size(); ++p) {
-        const auto cell = [&](std::size_t q) {
-            return body.grid.cell(body.grid.xi(body.points.x[q]), body.grid.eta(body.points.y[q]));
+        const auto node = [&](std::size_t q) {
+            return body.grid.nearest_node(body.grid.xi(body.points.x[q]),
+                                          body.grid.eta(body.points.y[q]));
         };
-        EXPECT_LE(cell(p - 1), cell(p));
+        EXPECT_LE(node(p - 1), node(p));
     }
 }
 
