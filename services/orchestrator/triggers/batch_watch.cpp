@@ -21,8 +21,8 @@ constexpr const char* name_of_trigger = "until (samples)";  // no study can name
 
 std::string condition_of(const Until& until) {
     const auto number = [](double value) { return json(value).dump(); };
-    return "half the interval of percentile " + number(until.percentile) + " of " +
-           until.quantity + " <= " + number(until.half_width) + " of it";
+    return "half the interval of percentile " + number(until.percentile) + " of " + until.quantity +
+           " <= " + number(until.half_width) + " of it";
 }
 
 std::size_t place_of_column(const std::string& name) {
@@ -73,8 +73,7 @@ Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
     const Interval interval = percentile(results, p);
     narrowness.value = interval.value;
     if (interval.value != 0.0)
-        narrowness.half_width =
-            0.5 * (interval.high - interval.low) / std::abs(interval.value);
+        narrowness.half_width = 0.5 * (interval.high - interval.low) / std::abs(interval.value);
     narrowness.reached =
         narrowness.half_width && *narrowness.half_width <= spec.at("half_width").get<double>();
     return narrowness;
@@ -123,9 +122,8 @@ bool BatchWatch::settle(const Trigger& trigger) {
 bool BatchWatch::draw_on(const Trigger& trigger, const json& study) {
     const json& entry = study.at("uncertainty");
     const std::size_t asked = entry.at("samples");
-    const std::size_t drawn =
-        std::min(asked, entry.at("drawn").get<std::size_t>() +
-                            trigger.spec.at("batch").get<std::size_t>());
+    const std::size_t drawn = std::min(
+        asked, entry.at("drawn").get<std::size_t>() + trigger.spec.at("batch").get<std::size_t>());
     bool added = false;
     try {
         const RunSoFar so_far{.study = study,

@@ -17,8 +17,8 @@ std::optional<TriggerPlan> batches_of(const Study& study);
 
 /// How well a percentile is known.
 struct Narrowness {
-    std::size_t samples;                ///< with a result
-    std::optional<double> value;        ///< of the percentile; nothing: too few samples
+    std::size_t samples;                 ///< with a result
+    std::optional<double> value;         ///< of the percentile; nothing: too few samples
     std::optional<double> half_width{};  ///< of its interval, over its value
     bool reached = false;
 };
