@@ -16,6 +16,7 @@
 //     as_before=1            the MPM's result is one of a version without flags
 //     by_cell=1              the runout grows with the square of the MPM's cells, the cost with
 //                            their number, and a moved lattice changes the runout
+//     by_stiffness=1         the runout grows with the square of the MPM's stiffness_scale
 #include <unistd.h>
 
 #include <chrono>
@@ -282,6 +283,10 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
     if (wish(wanted, "as_before", 0) == 0) add_judgement(result, moves);
     if (wish(wanted, "by_cell", 0) > 0)
         add_cell_error(changed(scene, order.overrides), shift, result);
+    if (wish(wanted, "by_stiffness", 0) > 0) {
+        const double s = changed(scene, order.overrides).at("mpm").at("stiffness_scale");
+        result["runout"] = result["runout"].get<double>() + s * s;
+    }
     end_well(order, result);
 }
 

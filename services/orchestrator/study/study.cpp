@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <set>
+#include <thread>
 
 #include "core/check/check.hpp"
 #include "core/criteria/expression.hpp"
@@ -10,6 +13,7 @@
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/recipe.hpp"
+#include "services/orchestrator/study/sampled_variants.hpp"
 
 namespace breach::orchestrator {
 
@@ -241,8 +245,45 @@ json as_json(const std::vector<VariantEntry>& entries) {
     for (const VariantEntry& each : entries) {
         list.push_back({{"name", each.name}, {"overrides", each.overrides}});
         if (!each.made_by.empty()) list.back()["made_by"] = each.made_by;
+        if (!each.sample.is_null()) list.back()["sample"] = each.sample;
     }
     return list;
+}
+
+/// One variant's scene as it was checked.
+struct CheckedVariant {
+    json scene;  ///< completed; null where it has faults
+    std::vector<Fault> faults;
+};
+
+CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
+                               const std::vector<double>& times) {
+    std::vector<std::string> overrides = base.overrides;
+    overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
+    const check::Checked changed = check_sent_scene(base.scene, overrides, base.folder);
+    CheckedVariant variant{.scene = nullptr, .faults = faults_of_variant(changed, base, times)};
+    if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
+    return variant;
+}
+
+/// All of them, on several threads where they are many: no variant's check hangs on another's.
+std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries, const Base& base,
+                                         const std::vector<double>& times) {
+    constexpr std::size_t worth_a_thread = 50;
+    const std::size_t threads = std::clamp<std::size_t>(
+        std::min<std::size_t>(std::thread::hardware_concurrency(), entries.size() / worth_a_thread),
+        1, 8);
+    std::vector<CheckedVariant> checked(entries.size());
+    const auto check_from = [&](std::size_t first) {
+        for (std::size_t i = first; i < entries.size(); i += threads)
+            checked[i] = checked_variant(entries[i], base, times);
+    };
+    std::vector<std::future<void>> others;
+    for (std::size_t first = 1; first < threads; ++first)
+        others.push_back(std::async(std::launch::async, check_from, first));
+    check_from(0);
+    for (std::future<void>& each : others) each.get();
+    return checked;
 }
 
 /// Each variant's scene, checked and completed; faults are those of its overrides.
@@ -251,17 +292,15 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
                                       std::vector<Fault>& faults) {
     if (entries.empty()) return {{.name = "", .overrides = {}, .scene = base.scene}};
     std::vector<Variant> variants;
-    for (const VariantEntry& entry : entries) {
-        Variant variant{.name = entry.name, .overrides = entry.overrides, .scene = nullptr};
-        if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
-            faults.push_back({entry.name_pointer,
-                              "the name \"" + variant.name + "\" is given twice",
+    std::set<std::string> names;
+    std::vector<CheckedVariant> checked = each_checked(entries, base, times);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const VariantEntry& entry = entries[i];
+        if (!names.insert(entry.name).second) {
+            faults.push_back({entry.name_pointer, "the name \"" + entry.name + "\" is given twice",
                               "give each variant a name of its own"});
         }
-        std::vector<std::string> overrides = base.overrides;
-        overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
-        const check::Checked changed = check_sent_scene(base.scene, overrides, base.folder);
-        for (const Fault& each : faults_of_variant(changed, base, times)) {
+        for (const Fault& each : checked[i].faults) {
             const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
             const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
                               each.pointer + ": " + each.cause,
@@ -271,8 +310,9 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
             });
             if (!told) faults.push_back(fault);
         }
-        if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
-        variants.push_back(std::move(variant));
+        variants.push_back({.name = entry.name,
+                            .overrides = entry.overrides,
+                            .scene = std::move(checked[i].scene)});
     }
     return variants;
 }
@@ -372,6 +412,85 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
     }
 }
 
+// ---------------------------------------------------------------- uncertainty
+
+/// Of the phases that a sample runs; empty where a probe's scene has faults, which are told.
+std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<std::string>& probe,
+                                          const std::vector<phases::Phase>& phases,
+                                          std::vector<Fault>& found) {
+    const check::Checked changed = check_sent_scene(base.scene, probe, base.folder);
+    for (const Fault& each : changed.faults)
+        found.push_back({"/uncertainty", each.pointer + ": " + each.cause, each.remedy});
+    std::vector<std::string> recipes;
+    if (!changed.faults.empty()) return recipes;
+    const json scene = json::parse(changed.scene.completed);
+    for (const phases::Phase& each : phases)
+        recipes.push_back(recipe_of(each.program, scene, 0).hash);
+    return recipes;
+}
+
+/// A parameter that changes nothing for any phase that runs would do nothing.
+void check_parameters_are_read(const Study& study, const Base& base, std::vector<Fault>& faults) {
+    std::vector<phases::Phase> phases = phases_of(study.reach);
+    if (study.stability && study.reach != Reach::lem) phases.push_back(phases::lem);
+    std::string readers;
+    for (const phases::Phase& each : phases)
+        readers += (readers.empty() ? "" : ", ") + std::string(each.program);
+    std::vector<Fault> found;
+    for (const ParameterProbe& probe : probes_of(*study.uncertainty, base.scene, study.reach)) {
+        std::vector<std::vector<std::string>> recipes;
+        for (const auto& each : probe.overrides) {
+            recipes.push_back(recipes_of_probe(base, each, phases, found));
+            if (recipes.back().empty()) break;
+        }
+        if (recipes.back().empty() ||
+            std::ranges::adjacent_find(recipes, std::not_equal_to<>()) != recipes.end())
+            continue;
+        faults.push_back({"/uncertainty/parameters/" + std::to_string(probe.parameter),
+                          "no phase that runs reads what \"" +
+                              study.uncertainty->parameters[probe.parameter].name + "\" changes (" +
+                              readers + " would run): it would do nothing",
+                          "name an entry that one of them reads, or leave the parameter out"});
+    }
+    for (Fault& each : told_by_parameter(found, *study.uncertainty))
+        faults.push_back(std::move(each));
+}
+
+/// Each sample is one state: more would be several results of one sample.
+void check_state_of_samples(const Study& study, std::vector<Fault>& faults) {
+    const std::size_t times = study.transfer_times.size();
+    if (study.reach != Reach::chain) {
+        if (times + study.triggers.size() > 0)
+            faults.push_back({times > 0 ? "/transfer_times" : "/triggers",
+                              "nothing is transferred for this quantity", "leave it out"});
+        return;
+    }
+    const bool searches = std::ranges::any_of(
+        study.triggers, [](const TriggerPlan& each) { return each.kind == "bisect"; });
+    if (times + study.triggers.size() > 1 || searches)
+        faults.push_back({times > 1 ? "/transfer_times" : "/triggers",
+                          "each sample is transferred once, and this makes several transfers",
+                          "give one time, or one trigger that fires once"});
+}
+
+/// Reads the plan, checks it, and makes the study's variants of its samples.
+void take_samples(Study& study, json& document, const Base& base, std::vector<Fault>& faults) {
+    const std::size_t before = faults.size();
+    study.uncertainty = read_uncertainty(document["uncertainty"], base.scene, faults);
+    const UncertaintyPlan& plan = *study.uncertainty;
+    check_company_of_samples(document, plan, study.reach, faults);
+    if (faults.size() > before) return;
+    check_parameters_are_read(study, base, faults);
+    if (faults.size() > before) return;
+    const std::vector<VariantEntry> entries = variants_of(plan, base.scene, study.reach);
+    std::vector<Fault> found;
+    study.variants = checked_variants(entries, base, study.transfer_times, found);
+    for (Fault& each : told_by_parameter(found, plan)) faults.push_back(std::move(each));
+    document["variants"] = as_json(entries);
+    document["uncertainty"]["drawn"] = plan.drawn;
+    document["uncertainty"]["first_block"] = plan.first;
+}
+
 /// One fault instead of one per entry that a study lacks.
 void refuse_scene(const json& document) {
     if (!document.is_object() || !document.contains("format") || !document["format"].is_string() ||
@@ -414,6 +533,9 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
         if (sound("accuracy")) {
             accuracy = read_accuracy(document["accuracy"], base.scene, faults);
             study.reach = accuracy->quantity.reach;
+        } else if (sound("uncertainty")) {
+            study.reach =
+                reach_of_samples(document["uncertainty"], base.scene, reach_of(base.scene), faults);
         } else if (sound("check") && sound("draws")) {
             study.reach = read_blind_check(document["check"], base.scene, document["draws"], faults)
                               .quantity.reach;
@@ -431,6 +553,7 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
     const auto* fem = scene && scene->scene.fem ? &*scene->scene.fem : nullptr;
+    if (times_are_sound && sound("uncertainty")) place_transfer(document, faults);
     if (times_are_sound) {
         read_triggers(document, fem ? dynamic_duration(*fem) : unknown_span, study, faults);
         if (fem) check_times(study.transfer_times, *fem, faults);
@@ -448,10 +571,19 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     } else if (scene && times_are_sound && repeats_are_sound && sound("check")) {
         check_blind(document, study, faults);
     }
-    const bool judged = document.contains("accuracy") || document.contains("check");
+    const bool samples = document.contains("uncertainty");
+    const bool judged = samples || document.contains("accuracy") || document.contains("check");
     if (!judged && times_are_sound && sound("stability") && study.reach != Reach::chain)
         check_without_fem(document, study.reach, faults);
-    if (scene && repeats_are_sound && rungs_are_sound) {
+    if (scene && sound("stability"))
+        study.stability =
+            study.reach == Reach::lem ||
+            (!accuracy && document["stability"].get<bool>() && scene->scene.lem.has_value());
+    if (samples && times_are_sound) check_state_of_samples(study, faults);
+    if (samples && sound("uncertainty") && sound("overrides") && repeats_are_sound &&
+        faults.empty())
+        take_samples(study, document, base, faults);
+    if (!samples && scene && repeats_are_sound && rungs_are_sound) {
         const std::vector<VariantEntry> entries =
             accuracy ? variants_of(*accuracy, base.scene)
                      : wanted_variants(document, study.reach, faults);
@@ -477,9 +609,6 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     study.resources = wanted_resources(document["resources"]);
     study.priority = document["priority"];
     study.reuse = document["reuse"];
-    study.stability =
-        study.reach == Reach::lem ||
-        (!accuracy && document["stability"].get<bool>() && scene->scene.lem.has_value());
     document.erase("scene");
     study.document = std::move(document);
     return study;
