@@ -14,13 +14,15 @@ struct Sums {
     double V = 0.0;
     double m = 0.0;
     double mv = 0.0;
+    std::int32_t count = 0;
 
     void add(const Points& points, std::size_t p, double weight) {
         V += weight * points.volume[p];
         m += weight * points.m[p];
         mv += weight * points.m[p] * points.vx[p];
+        ++count;
     }
-    Flow over(double area) const { return {V / area, m > 0.0 ? mv / m : 0.0}; }
+    Flow over(double area) const { return {V / area, m > 0.0 ? mv / m : 0.0, count}; }
 };
 
 /// Integral of the hat about x over what of its width lies inside the grid [m].
@@ -67,6 +69,13 @@ std::vector<Flow> flow_profile(const Points& points, const FlowView& view) {
     std::vector<Flow> profile;
     for (std::size_t k = 0; k < sums.size(); ++k) {
         profile.push_back(sums[k].over(hat_width(view, places[k]) * view.thickness));
+    }
+    return profile;
+}
+
+std::vector<Flow> without_grains(std::vector<Flow> profile) {
+    for (Flow& flow : profile) {
+        if (flow.points < fewest_points_of_a_flow) flow = {};
     }
     return profile;
 }
