@@ -227,7 +227,7 @@ void write_envelope(Session& session, const Simulation& simulation) {
         time(envelope.time_of_peak[k]);
         table << last[k].depth << "\n";
     }
-    const auto file = session.output("envelope.csv");
+    const auto file = session.output(phases::files::envelope);
     exchange::publish_text(file, table.str());
     session.announce(file, {{"kind", "envelope"}, {"time", simulation.clock().time}});
 }

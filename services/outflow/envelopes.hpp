@@ -11,13 +11,13 @@ namespace breach::outflow {
 
 /// Of one runout, per column; not a number where a time never came.
 struct Envelope {
-    std::vector<double> x;                      ///< ascending [m]
-    std::vector<double> largest_depth;          ///< [m]
-    std::vector<double> largest_velocity;       ///< [m/s]
-    std::vector<double> largest_momentum_flux;  ///< [m3/s2]
-    std::vector<double> arrival;                ///< [s]
-    std::vector<double> time_of_peak;           ///< [s]
-    std::vector<double> final_depth;            ///< [m]
+    std::vector<double> x{};                      ///< ascending [m]
+    std::vector<double> largest_depth{};          ///< [m]
+    std::vector<double> largest_velocity{};       ///< [m/s]
+    std::vector<double> largest_momentum_flux{};  ///< [m3/s2]
+    std::vector<double> arrival{};                ///< [s]
+    std::vector<double> time_of_peak{};           ///< [s]
+    std::vector<double> final_depth{};            ///< [m]
 };
 
 /// Calls visit(name, unit, values) for every quantity.
@@ -38,18 +38,18 @@ Envelope read_envelope(const std::filesystem::path& file);
 struct Band {
     std::string quantity;
     std::string unit;
-    std::vector<double> p10;
-    std::vector<double> p50;
-    std::vector<double> p90;
+    std::vector<double> p10{};
+    std::vector<double> p50{};
+    std::vector<double> p90{};
     /// Samples with a value of their own: of times those that were reached, else all.
-    std::vector<std::size_t> rests_on;
+    std::vector<std::size_t> rests_on{};
 };
 
 struct Ensemble {
     std::size_t samples = 0;
-    std::vector<double> x;             ///< of the coarsest grid [m]
-    std::vector<std::size_t> reached;  ///< samples whose flow arrived at x
-    std::vector<Band> bands;           ///< one per quantity, in the order of for_each_quantity
+    std::vector<double> x{};             ///< of the coarsest grid [m]
+    std::vector<std::size_t> reached{};  ///< samples whose flow arrived at x
+    std::vector<Band> bands{};           ///< one per quantity, in the order of for_each_quantity
 };
 
 /// Percentiles by linear interpolation between order statistics (as numpy's default) over all samples: one

@@ -13,12 +13,12 @@ namespace breach::outflow {
 /// At one section, per metre of width; one entry per telemetry line.
 struct Hydrograph {
     std::string section;
-    std::vector<double> time;       ///< since the runout began [s]
-    std::vector<double> discharge;  ///< mean since the entry before, towards +x [m2/s]
-    std::vector<double> depth;      ///< [m]
-    std::vector<double> velocity;   ///< [m/s]
-    std::vector<double> volume;     ///< of soil as it lay, passed so far, net [m2]
-    std::vector<double> mass;       ///< [kg/m]
+    std::vector<double> time{};       ///< since the runout began [s]
+    std::vector<double> discharge{};  ///< mean since the entry before, towards +x [m2/s]
+    std::vector<double> depth{};      ///< [m]
+    std::vector<double> velocity{};   ///< [m/s]
+    std::vector<double> volume{};     ///< of soil as it lay, passed so far, net [m2]
+    std::vector<double> mass{};       ///< [kg/m]
 };
 
 /// Calls visit(name, unit, values) for every column beside the time.
