@@ -79,29 +79,29 @@ json envelope_json(const Simulation& simulation, double arrival_depth) {
 
 /// What passed each section, per metre of width; with a breach width in m3 and m3/s, too.
 json sections_json(const Simulation& simulation, const std::optional<scene::BreachWidth>& width) {
-    const History& history = simulation.records().history;
+    std::vector<double> times;
+    for (const Row& row : simulation.records().history) times.push_back(row.time);
     json result = json::object();
     for (std::size_t k = 0; k < simulation.sections().size(); ++k) {
         const SectionRecord& record = simulation.records().sections[k];
-        const auto peak = std::max_element(record.discharge.begin(), record.discharge.end());
+        const auto peak = peak_of(record, times, simulation.view());
         const auto closure = closure_of(record);
         json& entry = result[simulation.sections()[k].name];
-        entry = {
-            {"x", simulation.sections()[k].x},
-            {"largest_discharge", *peak},
-            {"time_of_largest_discharge",
-             *peak > 0.0 ? json(history[peak - record.discharge.begin()].time) : json(nullptr)},
-            {"largest_depth", *std::max_element(record.depth.begin(), record.depth.end())},
-            {"volume", record.volume.back()},
-            {"mass", record.mass.back()},
-            {"closure", closure ? json(*closure) : json(nullptr)}};
+        entry = {{"x", simulation.sections()[k].x},
+                 {"largest_discharge", peak ? peak->discharge : 0.0},
+                 {"time_of_largest_discharge", peak ? json(peak->time) : json(nullptr)},
+                 {"averaged_over", peak ? json(peak->window) : json(nullptr)},
+                 {"largest_depth", *std::max_element(record.depth.begin(), record.depth.end())},
+                 {"volume", record.volume.back()},
+                 {"mass", record.mass.back()},
+                 {"closure", closure ? json(*closure) : json(nullptr)}};
         if (!width) continue;
-        const auto times = [&](double per_metre) {
+        const auto of_breach = [&](double per_metre) {
             return json{per_metre * width->low, per_metre * width->best, per_metre * width->high};
         };
-        entry["breach"] = {{"width", times(1.0)},
-                           {"volume", times(record.volume.back())},
-                           {"largest_discharge", times(*peak)}};
+        entry["breach"] = {{"width", of_breach(1.0)},
+                           {"volume", of_breach(record.volume.back())},
+                           {"largest_discharge", of_breach(peak ? peak->discharge : 0.0)}};
     }
     return result;
 }

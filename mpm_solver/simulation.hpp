@@ -90,8 +90,8 @@ class Simulation {
 
   private:
     double next_step() const;
-    /// What the envelope and the sections see now.
-    void sample();
+    void sample_envelope();
+    void sample_momentum();
     exchange::ParticleState stamped(const Points& points, double time, std::int64_t step) const;
     [[noreturn]] void break_down(const std::string& complaint) const;
 

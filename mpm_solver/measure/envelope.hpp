@@ -6,8 +6,8 @@
 
 namespace breach::mpm {
 
-/// Steps between two looks of the envelope and of the sections' momentum. Measured in
-/// docs/hydrographs.md: what that costs, and how far it is from looking after every step.
+/// Steps between two looks of the envelope. Measured in docs/hydrographs.md: what that costs, and how
+/// far it is from looking after every step.
 inline constexpr std::int64_t steps_between_samples = 16;
 /// Rows of the depth over time that are kept; when they are full every second one goes.
 inline constexpr std::size_t most_rows = 256;

@@ -29,24 +29,35 @@ Beyond beyond(const Points& points, const FlowView& view, double x) {
     return {sum.volume / view.thickness, sum.mass / view.thickness};
 }
 
-double flux_at(const Points& points, const FlowView& view, double x) {
+double flux_at(const Body& body, const FlowView& view, double x) {
+    const Points& points = body.points;
+    // Those within a cell are at home at most two columns away.
+    const auto column = static_cast<std::int32_t>(body.grid.xi(x));
+    const std::int32_t first = std::max(column - 2, 0) / Strips::width;
+    const std::int32_t last =
+        std::min((column + 2) / Strips::width, static_cast<std::int32_t>(body.strips.count()) - 1);
     double sum = 0.0;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const double distance = std::abs(points.x[p] - x);
-        if (distance >= view.width || !view.mobile[points.region[p]]) continue;
-        const double a = half_edge(points, p, view, x);
-        if (distance < a) sum += points.V_0[p] * points.vx[p] / (2.0 * a);
+    for (std::int32_t strip = first; strip <= last; ++strip) {
+        for (std::size_t z = 0; z < body.zones.size(); ++z) {
+            const Span span = body.strips.span(static_cast<std::size_t>(strip), z);
+            for (std::size_t p = span.begin; p < span.end; ++p) {
+                const double distance = std::abs(points.x[p] - x);
+                if (distance >= view.width || !view.mobile[points.region[p]]) continue;
+                const double a = half_edge(points, p, view, x);
+                if (distance < a) sum += points.V_0[p] * points.vx[p] / (2.0 * a);
+            }
+        }
     }
     return sum / view.thickness;
 }
 
-void sample_sections(const std::vector<scene::FlowSection>& sections, const Points& points,
+void sample_sections(const std::vector<scene::FlowSection>& sections, const Body& body,
                      const FlowView& view, double now, SectionRecords& records) {
     records.resize(sections.size());
     for (std::size_t k = 0; k < sections.size(); ++k) {
         SectionRecord& record = records[k];
         if (now == record.time) continue;
-        const double flux = flux_at(points, view, sections[k].x);
+        const double flux = flux_at(body, view, sections[k].x);
         if (record.time >= 0.0)
             record.by_momentum += 0.5 * (record.flux + flux) * (now - record.time);
         record.flux = flux;
@@ -71,6 +82,30 @@ void read_sections(const std::vector<scene::FlowSection>& sections, const Points
         record.volume.push_back(passed);
         record.mass.push_back(there.mass - record.start.mass);
     }
+}
+
+std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
+                            const FlowView& view) {
+    double fastest = 0.0;
+    for (const double v : record.velocity) fastest = std::max(fastest, std::abs(v));
+    if (fastest == 0.0 || times.size() < 2) return std::nullopt;
+    const double window = 2.0 * view.width / fastest;
+    const auto passed = [&](double at) {
+        if (at <= times.front()) return record.volume.front();
+        if (at >= times.back()) return record.volume.back();
+        const auto k = std::upper_bound(times.begin(), times.end(), at) - times.begin();
+        const double share = (at - times[k - 1]) / (times[k] - times[k - 1]);
+        return record.volume[k - 1] + share * (record.volume[k] - record.volume[k - 1]);
+    };
+    Peak peak{.window = window};
+    for (const double time : times) {
+        const double mean = (passed(time + 0.5 * window) - passed(time - 0.5 * window)) / window;
+        if (mean > peak.discharge) {
+            peak.discharge = mean;
+            peak.time = time;
+        }
+    }
+    return peak.discharge > 0.0 ? std::optional(peak) : std::nullopt;
 }
 
 std::optional<double> closure_of(const SectionRecord& record) {

@@ -6,9 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "mpm_solver/body/body.hpp"
 #include "mpm_solver/measure/flow.hpp"
 
 namespace breach::mpm {
+
+/// Steps between two samples of the momentum that passes; a point passes in about ten times as many.
+inline constexpr std::int64_t steps_between_fluxes = 4;
 
 /// Soil beyond a section, per metre of width. A point is a square of its volume: it passes bit by bit,
 /// and what stands up to a section is not beyond it.
@@ -37,15 +41,26 @@ Beyond beyond(const Points& points, const FlowView& view, double x);
 
 /// Volume that the points' momentum carries through x per time and metre [m2/s]: the rate of
 /// Beyond::volume, by the velocities instead of the places.
-double flux_at(const Points& points, const FlowView& view, double x);
+double flux_at(const Body& body, const FlowView& view, double x);
 
 /// Adds the flux of the time since the last sample, by the trapezoidal rule.
-void sample_sections(const std::vector<scene::FlowSection>& sections, const Points& points,
+void sample_sections(const std::vector<scene::FlowSection>& sections, const Body& body,
                      const FlowView& view, double now, SectionRecords& records);
 
 /// Adds a row; `since` is the time of the row before.
 void read_sections(const std::vector<scene::FlowSection>& sections, const Points& points,
                    const FlowView& view, double now, double since, SectionRecords& records);
+
+/// Largest mean discharge over the time in which the fastest flow passes two cells: from row to row the
+/// discharge jitters with the points that happen to cross.
+struct Peak {
+    double discharge = 0.0;  ///< towards +x [m2/s]
+    double time = 0.0;       ///< middle of the window [s]
+    double window = 0.0;     ///< [s]
+};
+/// `times`: of the rows. Nothing when nothing passed towards +x.
+std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
+                            const FlowView& view);
 
 /// What the momentum carried through, less what has come to lie beyond, as a share of all that moved
 /// to and fro [-]. Nothing when nothing passed.
