@@ -11,7 +11,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
-constexpr int version = 7;
+constexpr int version = 8;
 constexpr const char* records_prefix = "records.";
 
 [[noreturn]] void refuse(const std::string& file, const std::string& where,
@@ -193,6 +193,8 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
     store(records.history, records_prefix, archive);
     store(simulation.gauges(), records.gauges, records_prefix, archive);
     store(records.profiles, simulation.view(), records_prefix, archive);
+    store(records.envelope, records_prefix, archive);
+    store(simulation.sections(), records.sections, records_prefix, SectionState::whole, archive);
     store(simulation.ground(), archive);
     archive.texts["scene"] = provenance.scene;
     archive.texts["inputs"] = digests(provenance);
@@ -222,9 +224,14 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         clock.frames = count_at(archive, "run.frames", file.string());
         clock.looks = count_at(archive, "run.looks", file.string());
         if (clock.time < 0.0) refuse(file.string(), "/run.time", "is before the beginning");
-        Records records{load(archive, records_prefix),
-                        load_gauges(scene::mpm_of(scene).gauges, archive, records_prefix),
-                        load_profiles(archive, records_prefix)};
+        History history = load(archive, records_prefix);
+        const std::size_t rows = history.size();
+        Records records{
+            std::move(history), load_gauges(scene::mpm_of(scene).gauges, archive, records_prefix),
+            load_profiles(archive, records_prefix),
+            load_envelope(archive, records_prefix,
+                          profile_places(flow_view(scene, body.grid)).size()),
+            load_sections(scene::mpm_of(scene).sections, archive, records_prefix, rows)};
         if (records.history.empty() && clock.looks > 0)
             refuse(file.string(), "/run.looks", "counts looks of which there is no record");
         return {Simulation(scene, std::move(body), clock, start, std::move(records),

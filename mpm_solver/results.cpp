@@ -55,6 +55,57 @@ json gauges_json(const Simulation& simulation) {
     return result;
 }
 
+/// Where and how much at most, and how far the flow came by the envelope's own rule.
+json envelope_json(const Simulation& simulation, double arrival_depth) {
+    const Envelope& envelope = simulation.records().envelope;
+    const std::vector<double> places = profile_places(simulation.view());
+    json result{{"arrival_depth", arrival_depth},
+                {"fewest_points", fewest_points_of_a_flow},
+                {"steps_between_samples", steps_between_samples},
+                {"farthest_arrival", nullptr}};
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (envelope.arrival[k] == Envelope::never) continue;
+        result["farthest_arrival"] = {{"x", places[k]}, {"time", envelope.arrival[k]}};
+    }
+    const auto largest = [&](const char* name, const std::vector<double>& values) {
+        const auto most = std::max_element(values.begin(), values.end());
+        result[name] = {{"value", *most}, {"x", places[most - values.begin()]}};
+    };
+    largest("largest_depth", envelope.depth);
+    largest("largest_velocity", envelope.velocity);
+    largest("largest_momentum_flux", envelope.flux);
+    return result;
+}
+
+/// What passed each section, per metre of width; with a breach width in m3 and m3/s, too.
+json sections_json(const Simulation& simulation, const std::optional<scene::BreachWidth>& width) {
+    std::vector<double> times;
+    for (const Row& row : simulation.records().history) times.push_back(row.time);
+    json result = json::object();
+    for (std::size_t k = 0; k < simulation.sections().size(); ++k) {
+        const SectionRecord& record = simulation.records().sections[k];
+        const auto peak = peak_of(record, times, simulation.view());
+        const auto closure = closure_of(record);
+        json& entry = result[simulation.sections()[k].name];
+        entry = {{"x", simulation.sections()[k].x},
+                 {"largest_discharge", peak ? peak->discharge : 0.0},
+                 {"time_of_largest_discharge", peak ? json(peak->time) : json(nullptr)},
+                 {"averaged_over", peak ? json(peak->window) : json(nullptr)},
+                 {"largest_depth", *std::max_element(record.depth.begin(), record.depth.end())},
+                 {"volume", record.volume.back()},
+                 {"mass", record.mass.back()},
+                 {"closure", closure ? json(*closure) : json(nullptr)}};
+        if (!width) continue;
+        const auto of_breach = [&](double per_metre) {
+            return json{per_metre * width->low, per_metre * width->best, per_metre * width->high};
+        };
+        entry["breach"] = {{"width", of_breach(1.0)},
+                           {"volume", of_breach(record.volume.back())},
+                           {"largest_discharge", of_breach(peak ? peak->discharge : 0.0)}};
+    }
+    return result;
+}
+
 json rest_json(const scene::Mpm& mpm, const scene::Rest& rest, const Ending& ending) {
     return {{"change", rest.change},
             {"window", rest.window},
@@ -98,6 +149,8 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["runout_front"] = row.runout_front;
     result["area_beyond_toe"] = row.area_beyond_toe;
     result["gauges"] = gauges_json(simulation);
+    result["envelope"] = envelope_json(simulation, mpm.arrival_depth);
+    result["sections"] = sections_json(simulation, mpm.breach_width);
     result["at_rest"] = simulation.verdict() == Verdict::rests;
     result["ended"] = simulation.verdict() == Verdict::rests ? "at_rest" : "duration";
     result["end_time"] = clock.time;
@@ -125,6 +178,8 @@ void write_history(const Session& session, const Simulation& simulation) {
     store(records.history, "", archive);
     store(simulation.gauges(), records.gauges, "", archive);
     store(records.profiles, simulation.view(), "", archive);
+    publish(records.envelope, simulation.view(), without_grains(simulation.profile()), archive);
+    store(simulation.sections(), records.sections, "", SectionState::rows, archive);
     write_archive(session.output(phases::files::history), archive, session.provenance());
 }
 
@@ -150,6 +205,31 @@ void write_profile(Session& session, const Simulation& simulation) {
     const auto file = session.output("profile.csv");
     exchange::publish_text(file, table.str());
     session.announce(file, {{"kind", "profile"}, {"time", simulation.clock().time}});
+}
+
+/// The envelope as a table; nothing in a cell for what never came.
+void write_envelope(Session& session, const Simulation& simulation) {
+    const Envelope& envelope = simulation.records().envelope;
+    const std::vector<double> places = profile_places(simulation.view());
+    const std::vector<Flow> last = without_grains(simulation.profile());
+    std::ostringstream table;
+    table.precision(10);
+    table << "x_m,largest_depth_m,largest_velocity_m_per_s,largest_momentum_flux_m3_per_s2,"
+             "arrival_s,time_of_peak_s,final_depth_m\n";
+    const auto time = [&](double value) {
+        if (value != Envelope::never) table << value;
+        table << ",";
+    };
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        table << places[k] << "," << envelope.depth[k] << "," << envelope.velocity[k] << ","
+              << envelope.flux[k] << ",";
+        time(envelope.arrival[k]);
+        time(envelope.time_of_peak[k]);
+        table << last[k].depth << "\n";
+    }
+    const auto file = session.output(phases::files::envelope);
+    exchange::publish_text(file, table.str());
+    session.announce(file, {{"kind", "envelope"}, {"time", simulation.clock().time}});
 }
 
 /// What a person wants to know first, for the log.
@@ -181,6 +261,7 @@ void say(const Session& session, const Ending& ending, const Row& row) {
 void write_results(Session& session, const Simulation& simulation, double speed) {
     write_history(session, simulation);
     write_profile(session, simulation);
+    write_envelope(session, simulation);
     const Ending ending = ending_of(*session.scene().mpm, simulation);
     conclude(session, simulation, ending, speed);
     for (fault::Flag& each : doubts_of(ending)) session.flag(std::move(each));

@@ -63,6 +63,14 @@ void report(Session& session, const Simulation& simulation) {
         line[gauge + ".depth"] = simulation.records().gauges[k].depth.back();
         line[gauge + ".velocity"] = simulation.records().gauges[k].velocity.back();
     }
+    for (std::size_t k = 0; k < simulation.sections().size(); ++k) {
+        const std::string section = "section." + simulation.sections()[k].name + ".";
+        for_each_column_of_section(
+            simulation.records().sections[k],
+            [&](const char* name, const char*, const std::vector<double>& rows) {
+                line[section + name] = rows.back();
+            });
+    }
     session.telemetry(line);
 }
 

@@ -71,6 +71,16 @@ void Simulation::advance() {
     const double next_frame = static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
     if (std::abs(clock_.time - next_frame) < 1e-9 * dt) clock_.time = next_frame;
     if (const auto complaint = step_complaint(body_, limits_)) break_down(*complaint);
+    if (clock_.step % steps_between_samples == 0) sample_envelope();
+    if (clock_.step % steps_between_fluxes == 0) sample_momentum();
+}
+
+void Simulation::sample_envelope() {
+    records_.envelope.see(clock_.time, without_grains(profile()), mpm_.arrival_depth);
+}
+
+void Simulation::sample_momentum() {
+    sample_sections(mpm_.sections, body_, view_, clock_.time, records_.sections);
 }
 
 bool Simulation::frame_due() const {
@@ -93,6 +103,10 @@ const Row& Simulation::look() {
     const double volume = volume_of(body_.points, view_.mobile);
     const double front = front_of(profile(), view_, mpm_.runout.front_depth);
     read_gauges(mpm_.gauges, body_.points, view_, records_.gauges);
+    sample_envelope();
+    sample_momentum();
+    const double since = records_.history.empty() ? clock_.time : last_row().time;
+    read_sections(mpm_.sections, body_.points, view_, clock_.time, since, records_.sections);
     records_.history.push_back(
         {.time = clock_.time,
          .step = static_cast<double>(clock_.step),

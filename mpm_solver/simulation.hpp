@@ -7,12 +7,14 @@
 #include "mpm_solver/body/ground_motion.hpp"
 #include "mpm_solver/last_good.hpp"
 #include "mpm_solver/measure/energy.hpp"
+#include "mpm_solver/measure/envelope.hpp"
 #include "mpm_solver/measure/gauges.hpp"
 #include "mpm_solver/measure/guard.hpp"
 #include "mpm_solver/measure/history.hpp"
 #include "mpm_solver/measure/overlap.hpp"
 #include "mpm_solver/measure/rest.hpp"
 #include "mpm_solver/measure/runout.hpp"
+#include "mpm_solver/measure/sections.hpp"
 
 namespace breach::mpm {
 
@@ -38,6 +40,8 @@ struct Records {
     History history;
     GaugeRecords gauges;
     Profiles profiles;  ///< one per snapshot
+    Envelope envelope;
+    SectionRecords sections;
 };
 
 enum class Verdict { goes_on, rests, time_is_up };
@@ -79,12 +83,15 @@ class Simulation {
     std::vector<Flow> profile() const { return flow_profile(body_.points, view_); }
     const FlowView& view() const { return view_; }
     const std::vector<scene::Gauge>& gauges() const { return mpm_.gauges; }
+    const std::vector<scene::FlowSection>& sections() const { return mpm_.sections; }
     /// The points now, and at the last look that found all well.
     exchange::ParticleState state() const;
     exchange::ParticleState last_good_state() const;
 
   private:
     double next_step() const;
+    void sample_envelope();
+    void sample_momentum();
     exchange::ParticleState stamped(const Points& points, double time, std::int64_t step) const;
     [[noreturn]] void break_down(const std::string& complaint) const;
 

@@ -20,6 +20,7 @@ inline constexpr const char* motion = "motion.csv";            ///< fem: as it i
 inline constexpr const char* base_motion = "base_motion.csv";  ///< fem: of the free ground
 inline constexpr const char* particles = "particles.vtkhdf";   ///< transfer: the new points
 inline constexpr const char* final_state = "final.vtkhdf";     ///< mpm
+inline constexpr const char* envelope = "envelope.csv";        ///< mpm: over x
 inline constexpr const char* request = "snapshot_request";     ///< to the fem, in its output
 inline constexpr const char* element_tests = "element_tests.h5";
 

@@ -52,18 +52,38 @@ void check_terrain(Reader& reader, const Mpm& mpm) {
     }
 }
 
-void check_gauges(Reader& reader, const Mpm& mpm) {
-    for (std::size_t i = 0; i < mpm.gauges.size(); ++i) {
-        const Gauge& gauge = mpm.gauges[i];
-        const std::string pointer = "/mpm/gauges/" + std::to_string(i);
-        if (gauge.x < mpm.domain_x[0] || gauge.x > mpm.domain_x[1]) {
+/// Of places that have names (gauges, sections): inside the grid, no name twice.
+template <class Place>
+void check_places(Reader& reader, const Mpm& mpm, const std::vector<Place>& places,
+                  const std::string& list, const std::string& kind) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::string pointer = list + "/" + std::to_string(i);
+        if (places[i].x < mpm.domain_x[0] || places[i].x > mpm.domain_x[1]) {
             reader.add(pointer + "/x", "lies outside the grid", "give an x inside domain_x");
         }
         for (std::size_t j = 0; j < i; ++j) {
-            if (mpm.gauges[j].name != gauge.name) continue;
-            reader.add(pointer + "/name", "is given twice", "give every gauge its own name");
+            if (places[j].name != places[i].name) continue;
+            reader.add(pointer + "/name", "is given twice", "give every " + kind + " its own name");
         }
     }
+}
+
+void read_sections(Reader& reader, const json& mpm, Mpm& result) {
+    result.arrival_depth = mpm.at("envelope").at("arrival_depth");
+    for (const json& section : mpm.at("sections")) {
+        result.sections.push_back({section.at("name"), section.at("x")});
+    }
+    if (!mpm.contains("breach_width")) return;
+    const json& width = mpm.at("breach_width");
+    if (width.is_number()) {
+        result.breach_width = {width, width, width};
+        return;
+    }
+    result.breach_width = {width.at(0), width.at(1), width.at(2)};
+    const BreachWidth& b = *result.breach_width;
+    if (b.low <= b.best && b.best <= b.high) return;
+    reader.add("/mpm/breach_width", "does not ascend",
+               "write [low, best, high] with low <= best <= high, or one number");
 }
 
 /// What the FEM of this scene does not write, no runout can be shaken by. A scene without a FEM is
@@ -82,7 +102,8 @@ void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     check_grid(reader, mpm);
     check_shaking(reader, mpm);
     check_terrain(reader, mpm);
-    check_gauges(reader, mpm);
+    check_places(reader, mpm, mpm.gauges, "/mpm/gauges", "gauge");
+    check_places(reader, mpm, mpm.sections, "/mpm/sections", "section");
     check_order(
         reader, mpm.floor.friction,
         [](const FrictionZone& a, const FrictionZone& b) { return a.to <= b.from + 1e-9; },
@@ -194,6 +215,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     for (const json& gauge : mpm.at("gauges")) {
         result.gauges.push_back({gauge.at("name"), gauge.at("x"), gauge.at("arrival_depth")});
     }
+    read_sections(reader, mpm, result);
     result.snapshot_interval = mpm.at("snapshot_interval");
     for (const json& field : mpm.at("output").at("fields")) {
         result.output.fields.push_back(

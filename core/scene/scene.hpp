@@ -466,6 +466,19 @@ struct Gauge {
     double arrival_depth;  ///< the flow has arrived when it is this deep [m]
 };
 
+/// A place through which soil leaves what is modelled: its hydrograph is recorded.
+struct FlowSection {
+    std::string name;
+    double x;  ///< [m]
+};
+
+/// Width of the breach across the section that is modelled [m].
+struct BreachWidth {
+    double low;
+    double best;
+    double high;
+};
+
 /// What a point has beside its place and region, by the names of the exchange files.
 enum class PointField {
     velocity,
@@ -525,6 +538,9 @@ struct Mpm {
     Rest rest;
     Runout runout;
     std::vector<Gauge> gauges{};
+    double arrival_depth = 0.1;  ///< of the envelope: the flow has arrived when it is this deep [m]
+    std::vector<FlowSection> sections{};
+    std::optional<BreachWidth> breach_width{};
     double snapshot_interval;  ///< [s]
     Output output{};
     double telemetry_interval;   ///< [s]

@@ -14,13 +14,21 @@ struct Sums {
     double V = 0.0;
     double m = 0.0;
     double mv = 0.0;
+    std::int32_t count = 0;
 
     void add(const Points& points, std::size_t p, double weight) {
         V += weight * points.volume[p];
         m += weight * points.m[p];
         mv += weight * points.m[p] * points.vx[p];
+        ++count;
     }
-    Flow over(double area) const { return {V / area, m > 0.0 ? mv / m : 0.0}; }
+    void add(const Sums& part) {
+        V += part.V;
+        m += part.m;
+        mv += part.mv;
+        count += part.count;
+    }
+    Flow over(double area) const { return {V / area, m > 0.0 ? mv / m : 0.0, count}; }
 };
 
 /// Integral of the hat about x over what of its width lies inside the grid [m].
@@ -54,19 +62,41 @@ Flow flow_at(const Points& points, const FlowView& view, double x) {
 
 std::vector<Flow> flow_profile(const Points& points, const FlowView& view) {
     std::vector<Sums> sums(columns(view));
-    const double last = static_cast<double>(sums.size() - 1);
+    const auto last_cell = static_cast<std::int32_t>(sums.size()) - 2;
+    const double per_width = 1.0 / view.width;
+    // Of the cells between two columns: neighbours in memory mostly lie in the same.
+    std::int32_t cell = 0;
+    Sums to_left;
+    Sums to_right;
+    const auto keep = [&] {
+        sums[cell].add(to_left);
+        sums[cell + 1].add(to_right);
+        to_left = to_right = {};
+    };
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (!view.mobile[points.region[p]]) continue;
-        const double xi = std::clamp((points.x[p] - view.low) / view.width, 0.0, last);
-        const auto left = std::min(static_cast<std::size_t>(xi), sums.size() - 2);
-        const double to_right = xi - static_cast<double>(left);
-        sums[left].add(points, p, 1.0 - to_right);
-        sums[left + 1].add(points, p, to_right);
+        const double xi = (points.x[p] - view.low) * per_width;
+        const std::int32_t here = std::clamp(static_cast<std::int32_t>(xi), 0, last_cell);
+        if (here != cell) {
+            keep();
+            cell = here;
+        }
+        const double share = std::clamp(xi - static_cast<double>(here), 0.0, 1.0);
+        to_left.add(points, p, 1.0 - share);
+        to_right.add(points, p, share);
     }
+    keep();
     const std::vector<double> places = profile_places(view);
     std::vector<Flow> profile;
     for (std::size_t k = 0; k < sums.size(); ++k) {
         profile.push_back(sums[k].over(hat_width(view, places[k]) * view.thickness));
+    }
+    return profile;
+}
+
+std::vector<Flow> without_grains(std::vector<Flow> profile) {
+    for (Flow& flow : profile) {
+        if (flow.points < fewest_points_of_a_flow) flow = {};
     }
     return profile;
 }

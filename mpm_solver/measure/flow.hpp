@@ -23,8 +23,9 @@ struct FlowView {
 FlowView flow_view(const scene::Scene& scene, const Grid& grid);
 
 struct Flow {
-    double depth = 0.0;     ///< volume over the plan area [m]
-    double velocity = 0.0;  ///< mass-weighted mean of v_x; 0 where there is no soil [m/s]
+    double depth = 0.0;       ///< volume over the plan area [m]
+    double velocity = 0.0;    ///< mass-weighted mean of v_x; 0 where there is no soil [m/s]
+    std::int32_t points = 0;  ///< that it is the mean of
 };
 
 /// Mean with the hat function of half width `width` about x, cut at the ends of the grid.
@@ -32,6 +33,13 @@ Flow flow_at(const Points& points, const FlowView& view, double x);
 
 /// flow_at every column of the grid's nodes, in one pass over the points.
 std::vector<Flow> flow_profile(const Points& points, const FlowView& view);
+
+/// Where fewer points than these are within a cell of a column, what is there are grains, not a
+/// flow: a layer one point thick has four.
+inline constexpr std::int32_t fewest_points_of_a_flow = 3;
+
+/// The profile with nothing where there are only grains.
+std::vector<Flow> without_grains(std::vector<Flow> profile);
 
 /// x of the columns of a profile [m].
 std::vector<double> profile_places(const FlowView& view);

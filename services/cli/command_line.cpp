@@ -53,6 +53,7 @@ struct Arguments {
     LogWish log;
     bool follow = false;
     TelemetryWish telemetry;
+    HydrographWish hydrograph;
     std::filesystem::path folder;
     std::filesystem::path scene;
     DrawWish draw;
@@ -364,6 +365,30 @@ class CommandLine {
         telemetry_->add_option("--stride", wish.stride, "every n-th line")
             ->check(CLI::PositiveNumber);
         telemetry_->add_flag("--csv", a_.csv, "comma-separated, for other programs");
+        add_hydrograph();
+    }
+
+    void add_hydrograph() {
+        HydrographWish& wish = a_.hydrograph;
+        CLI::App* sub =
+            add("hydrograph", "what passed a section of a runout, for HEC-RAS, FLO-2D or as CSV",
+                "latest --section toe --for hec-ras --breach-width 72 --output toe.csv",
+                [this](Server& s, const Console& c) { return hydrograph(s, a_.hydrograph, c); });
+        sub->add_option("RUN", wish.run, "which run")->required();
+        sub->add_option("--section", wish.section, "its name in the scene's /mpm/sections")
+            ->required();
+        sub->add_option("--for", wish.target, "csv, hec-ras or flo-2d")
+            ->check(CLI::IsMember({"csv", "hec-ras", "flo-2d"}))
+            ->capture_default_str();
+        sub->add_option("--breach-width", wish.breach_width,
+                        "72, or 60,72,90 for low, best, high [m] (default: the scene's)");
+        sub->add_option("--interval", wish.interval, "between two flows of an export [s] (1)");
+        sub->add_option("--transfer-time", wish.transfer_time, "which of the sweep's runouts [s]");
+        sub->add_option("--variant", wish.variant, "which of the study's variants");
+        sub->add_option("--cell", wish.cell, "FLO-2D's grid element that takes the inflow (1)");
+        sub->add_option("--concentration", wish.concentration,
+                        "FLO-2D: solids by volume, 0 to 1; adds the column for mudflow");
+        sub->add_option("--output", wish.file, "a file instead of the screen");
     }
 
     void add_file_commands() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/exchange/csv.hpp"
+#include "core/exchange/publish.hpp"
 #include "services/cli/accuracy_view.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
@@ -259,6 +260,31 @@ ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& con
         case Style::people:
             console.out << as_telemetry_table(lines);
             break;
+    }
+    return ExitCode::done;
+}
+
+ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& console) {
+    const std::string target = console.style == Style::json ? "json" : wish.target;
+    const std::string text =
+        server
+            .get_text(path_of({"runs", run_named(server, wish.run), "hydrograph"}) +
+                      query_of({{"section", wish.section},
+                                {"for", target},
+                                {"transfer_time", wish.transfer_time},
+                                {"variant", wish.variant},
+                                {"breach_width", wish.breach_width},
+                                {"interval", wish.interval},
+                                {"cell", wish.cell},
+                                {"concentration", wish.concentration}}))
+            .body;
+    if (target == "flo-2d")  // whose file has no place for it
+        console.notes << "tailings slurry, not water: volumes are of soil with its pore water\n";
+    if (wish.file.empty()) {
+        console.out << text;
+    } else {
+        exchange::publish_text(wish.file, text);
+        console.out << wish.file.string() << "\n";
     }
     return ExitCode::done;
 }

@@ -93,6 +93,22 @@ struct TelemetryWish {
     std::int64_t stride = 1;
 };
 
+struct HydrographWish {
+    std::string run;
+    std::string section;
+    std::string target = "csv";  ///< json, csv, hec-ras or flo-2d
+    std::string transfer_time;   ///< empty: the run has one runout
+    std::string variant;
+    std::string breach_width;    ///< [m], "72" or "60,72,90"; empty: the scene's
+    std::string interval;        ///< between two flows of an export [s]
+    std::string cell;            ///< FLO-2D: grid element that takes the inflow
+    std::string concentration;   ///< FLO-2D: solids by volume
+    std::filesystem::path file;  ///< empty: printed
+};
+
+/// What passed a section of a runout, as rows or as another program takes it.
+fault::ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& console);
+
 fault::ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console);
 fault::ExitCode plan(Server& server, const std::filesystem::path& scene, const Console& console);
 

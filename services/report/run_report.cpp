@@ -52,7 +52,8 @@ Document filled(const Run& run, const Choice& choice) {
             add(material, document);
     }
     if (phase_named(run, phases::mpm.program)) {
-        for (const auto add : {add_runout, add_ground, add_flow}) add(material, document);
+        for (const auto add : {add_runout, add_ground, add_flow, add_outflow})
+            add(material, document);
     } else {
         document.left_out.push_back({"runout, flow and deposit", "the run has no runout"});
     }

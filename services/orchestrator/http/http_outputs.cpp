@@ -43,27 +43,6 @@ void log(const Service& service, Call& call) {
     call.response.set_content(text, "text/plain; charset=utf-8");
 }
 
-/// The task whose telemetry is meant: a phase, for one per transfer the time, for one per variant
-/// its name.
-Task meant_task(const Service& service, const std::string& run, const std::string& phase,
-                std::optional<double> transfer_time, const std::optional<std::string>& variant) {
-    constexpr double same_time = 5e-7;
-    std::optional<Task> found;
-    for (Task& each : service.store.tasks_of(run)) {
-        if (each.phase != phase) continue;
-        if (transfer_time &&
-            (!each.transfer_time || std::abs(*each.transfer_time - *transfer_time) > same_time))
-            continue;
-        if (variant && each.variant != *variant) continue;
-        if (found)
-            throw bad_request("several tasks run " + phase +
-                              "; say which with transfer_time= and variant=");
-        found = std::move(each);
-    }
-    if (!found) throw not_found("such task of " + phase + " in run " + run);
-    return std::move(*found);
-}
-
 /// Of a parameter that lists names by commas.
 std::vector<std::string> names_in(const Call& call, const std::string& parameter) {
     std::vector<std::string> names;
@@ -156,6 +135,25 @@ void artifact(const Service& service, Call& call) {
 }
 
 }  // namespace
+
+Task meant_task(const Service& service, const std::string& run, const std::string& phase,
+                std::optional<double> transfer_time, const std::optional<std::string>& variant) {
+    constexpr double same_time = 5e-7;
+    std::optional<Task> found;
+    for (Task& each : service.store.tasks_of(run)) {
+        if (each.phase != phase) continue;
+        if (transfer_time &&
+            (!each.transfer_time || std::abs(*each.transfer_time - *transfer_time) > same_time))
+            continue;
+        if (variant && each.variant != *variant) continue;
+        if (found)
+            throw bad_request("several tasks run " + phase +
+                              "; say which with transfer_time= and variant=");
+        found = std::move(each);
+    }
+    if (!found) throw not_found("such task of " + phase + " in run " + run);
+    return std::move(*found);
+}
 
 void send_content(Call& call, const std::filesystem::path& file, const std::string& sha256,
                   std::int64_t bytes, const std::string& name) {

@@ -16,6 +16,8 @@ void add_accuracy_routes(Router& router, Service& service);
 void add_trigger_routes(Router& router, Service& service);
 /// What the phases wrote: logs, telemetry, frames, artifacts.
 void add_output_routes(Router& router, Service& service);
+/// What leaves the model: hydrographs at sections, envelopes over an ensemble.
+void add_outflow_routes(Router& router, Service& service);
 /// What lies on the disk, and its removal.
 void add_storage_routes(Router& router, Service& service);
 /// The stream of events. `stopping` ends every waiting client.
@@ -43,5 +45,9 @@ void send_content(Call& call, const std::filesystem::path& file, const std::stri
 /// The task, or 404.
 Task wanted_task(const Service& service, const std::string& id);
 Run wanted_run(const Service& service, const std::string& id);
+/// The only task of a phase, for one per transfer of that time, for one per variant of that name;
+/// 400 where several are meant, 404 where none is.
+Task meant_task(const Service& service, const std::string& run, const std::string& phase,
+                std::optional<double> transfer_time, const std::optional<std::string>& variant);
 
 }  // namespace breach::orchestrator

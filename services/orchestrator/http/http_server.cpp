@@ -139,6 +139,7 @@ class HttpServer::Implementation {
         add_accuracy_routes(router_, service);
         add_trigger_routes(router_, service);
         add_output_routes(router_, service);
+        add_outflow_routes(router_, service);
         add_storage_routes(router_, service);
         add_file_routes(router_, service);
         add_event_routes(router_, service, stopping_);

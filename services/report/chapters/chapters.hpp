@@ -56,6 +56,7 @@ void add_mesh(const Material& from, Document& document);
 void add_transfer(const Material& from, Document& document);
 void add_runout(const Material& from, Document& document);
 void add_flow(const Material& from, Document& document);
+void add_outflow(const Material& from, Document& document);
 void add_ground(const Material& from, Document& document);
 void add_variants(const Material& from, Document& document);
 void add_numbers(const Material& from, Document& document);

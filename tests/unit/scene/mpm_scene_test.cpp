@@ -86,5 +86,33 @@ TEST(MpmScene, RefusesTerrainAndGaugesThatCannotBe) {
     EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a b", "x": 1}])"), Set{"/mpm/gauges/0/name"});
 }
 
+TEST(MpmScene, SectionsEnvelopeAndBreachWidthAreRead) {
+    json document = column();
+    document["mpm"]["sections"] = json::parse(R"([{"name": "toe", "x": 10}])");
+    document["mpm"]["breach_width"] = 72;
+    scene::Mpm mpm = *scene::parse_scene(document.dump(), "test").mpm;
+    ASSERT_EQ(mpm.sections.size(), 1U);
+    EXPECT_EQ(mpm.sections[0].x, 10.0);
+    EXPECT_EQ(mpm.arrival_depth, 0.1);
+    EXPECT_EQ(mpm.breach_width->low, 72.0);
+    document["mpm"]["breach_width"] = json::parse("[60, 72, 90]");
+    document["mpm"]["envelope"] = json::parse(R"({"arrival_depth": 0.3})");
+    mpm = *scene::parse_scene(document.dump(), "test").mpm;
+    EXPECT_EQ(mpm.breach_width->high, 90.0);
+    EXPECT_EQ(mpm.arrival_depth, 0.3);
+}
+
+TEST(MpmScene, RefusesSectionsAndBreachWidthsThatCannotBe) {
+    using Set = std::set<std::string>;
+    EXPECT_EQ(faults_of_mpm("sections", R"([{"name": "a", "x": 61}])"), Set{"/mpm/sections/0/x"});
+    EXPECT_EQ(faults_of_mpm("sections", R"([{"name": "a", "x": 1}, {"name": "a", "x": 2}])"),
+              Set{"/mpm/sections/1/name"});
+    EXPECT_EQ(faults_of_mpm("breach_width", "[80, 72, 90]"), Set{"/mpm/breach_width"});
+    EXPECT_EQ(faults_of_mpm("breach_width", "0"), Set{"/mpm/breach_width"});
+    EXPECT_EQ(faults_of_mpm("breach_width", "[72, 90]"), Set{"/mpm/breach_width"});
+    EXPECT_EQ(faults_of_mpm("envelope", R"({"arrival_depth": 0})"),
+              Set{"/mpm/envelope/arrival_depth"});
+}
+
 }  // namespace
 }  // namespace breach

@@ -1,0 +1,86 @@
+// What passes the scene's sections: hydrographs per metre of width. Volumes are of soil as it lay
+// (V_0, which no step changes), so what has passed is what lies beyond, whatever has loosened since.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mpm_solver/body/body.hpp"
+#include "mpm_solver/measure/flow.hpp"
+
+namespace breach::mpm {
+
+/// Steps between two samples of the momentum that passes; a point passes in about ten times as many.
+inline constexpr std::int64_t steps_between_fluxes = 4;
+
+/// Soil beyond a section, per metre of width. A point is a square of its volume: it passes bit by bit,
+/// and what stands up to a section is not beyond it.
+struct Beyond {
+    double volume = 0.0;  ///< [m2]
+    double mass = 0.0;    ///< [kg/m]
+};
+
+struct SectionRecord {
+    Beyond start;              ///< at the first look
+    double by_momentum = 0.0;  ///< integral of the momentum's flux over time so far [m2]
+    double flux = 0.0;         ///< of the momentum at `time` [m2/s]
+    double time = -1.0;        ///< of the last sample of the flux [s]
+    // One per row of the history:
+    std::vector<double> discharge;  ///< mean since the row before, towards +x [m2/s]
+    std::vector<double> depth;      ///< as a gauge sees it [m]
+    std::vector<double> velocity;   ///< as a gauge sees it [m/s]
+    std::vector<double> volume;     ///< passed since the first look, net [m2]
+    std::vector<double> mass;       ///< the same [kg/m]
+};
+
+/// In the order of Mpm::sections.
+using SectionRecords = std::vector<SectionRecord>;
+
+Beyond beyond(const Points& points, const FlowView& view, double x);
+
+/// Volume that the points' momentum carries through x per time and metre [m2/s]: the rate of
+/// Beyond::volume, by the velocities instead of the places.
+double flux_at(const Body& body, const FlowView& view, double x);
+
+/// Adds the flux of the time since the last sample, by the trapezoidal rule.
+void sample_sections(const std::vector<scene::FlowSection>& sections, const Body& body,
+                     const FlowView& view, double now, SectionRecords& records);
+
+/// Adds a row; `since` is the time of the row before.
+void read_sections(const std::vector<scene::FlowSection>& sections, const Points& points,
+                   const FlowView& view, double now, double since, SectionRecords& records);
+
+/// Largest mean discharge over the time in which the fastest flow passes two cells: from row to row the
+/// discharge jitters with the points that happen to cross.
+struct Peak {
+    double discharge = 0.0;  ///< towards +x [m2/s]
+    double time = 0.0;       ///< middle of the window [s]
+    double window = 0.0;     ///< [s]
+};
+/// `times`: of the rows. Nothing when nothing passed towards +x.
+std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
+                            const FlowView& view);
+
+/// What the momentum carried through, less what has come to lie beyond, as a share of all that moved
+/// to and fro [-]. Nothing when nothing passed.
+std::optional<double> closure_of(const SectionRecord& record);
+
+/// "<prefix>section.<name>.discharge" and so on: the rows; with `State::whole` what goes on, too.
+enum class SectionState { rows, whole };
+void store(const std::vector<scene::FlowSection>& sections, const SectionRecords& records,
+           const std::string& prefix, SectionState state, exchange::Archive& archive);
+/// Throws std::out_of_range where an array is absent or not `rows` long.
+SectionRecords load_sections(const std::vector<scene::FlowSection>& sections,
+                             const exchange::Archive& archive, const std::string& prefix,
+                             std::size_t rows);
+
+/// Calls visit(name, unit, rows) for each column of a hydrograph.
+template <class AnyRecord, class Visit>
+void for_each_column_of_section(AnyRecord& record, Visit&& visit) {
+    visit("discharge", "m2/s", record.discharge), visit("depth", "m", record.depth);
+    visit("velocity", "m/s", record.velocity), visit("volume", "m2", record.volume);
+    visit("mass", "kg/m", record.mass);
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,65 @@
+// The envelopes that runouts left (envelope.csv), one by one and over an ensemble.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace breach::outflow {
+
+/// Of one runout, per column; not a number where a time never came.
+struct Envelope {
+    std::vector<double> x{};                      ///< ascending [m]
+    std::vector<double> largest_depth{};          ///< [m]
+    std::vector<double> largest_velocity{};       ///< [m/s]
+    std::vector<double> largest_momentum_flux{};  ///< [m3/s2]
+    std::vector<double> arrival{};                ///< [s]
+    std::vector<double> time_of_peak{};           ///< [s]
+    std::vector<double> final_depth{};            ///< [m]
+};
+
+/// Calls visit(name, unit, values) for every quantity.
+template <class AnyEnvelope, class Visit>
+void for_each_quantity(AnyEnvelope& envelope, Visit&& visit) {
+    visit("largest_depth", "m", envelope.largest_depth);
+    visit("largest_velocity", "m/s", envelope.largest_velocity);
+    visit("largest_momentum_flux", "m3/s2", envelope.largest_momentum_flux);
+    visit("arrival", "s", envelope.arrival), visit("time_of_peak", "s", envelope.time_of_peak);
+    visit("final_depth", "m", envelope.final_depth);
+}
+
+/// Throws BadInput where it is no such table, IoError where it cannot be read.
+Envelope read_envelope(const std::filesystem::path& file);
+
+/// One quantity over the samples; not a number where so few samples were reached that the percentile
+/// falls among those that never were.
+struct Band {
+    std::string quantity;
+    std::string unit;
+    std::vector<double> p10{};
+    std::vector<double> p50{};
+    std::vector<double> p90{};
+    /// Samples with a value of their own: of times those that were reached, else all.
+    std::vector<std::size_t> rests_on{};
+};
+
+struct Ensemble {
+    std::size_t samples = 0;
+    std::vector<double> x{};             ///< of the coarsest grid [m]
+    std::vector<std::size_t> reached{};  ///< samples whose flow arrived at x
+    std::vector<Band> bands{};           ///< one per quantity, in the order of for_each_quantity
+};
+
+/// Percentiles by linear interpolation between order statistics (as numpy's default) over all samples: one
+/// whose flow never reached an x is 0 deep and slow there, and arrives after all others. Samples on
+/// other grids are read between their columns; beyond its grid a sample is not reached.
+Ensemble ensemble_of(std::span<const Envelope> samples);
+
+/// {"x": [...], "largest_depth": {"unit", "values"}}; what is not a number is null.
+nlohmann::json as_json(const Envelope& envelope);
+/// {"samples", "x", "reached", "bands": {"arrival": {"unit", "p10", "p50", "p90", "rests_on"}}}
+nlohmann::json as_json(const Ensemble& ensemble);
+
+}  // namespace breach::outflow

@@ -1,0 +1,46 @@
+// A hydrograph as other programs take it: CSV, HEC-RAS's flow hydrograph, FLO-2D's INFLOW.DAT.
+// docs/hydrographs.md says where the formats come from and what could be tried.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/outflow/hydrograph.hpp"
+
+namespace breach::outflow {
+
+/// What everybody must know who routes the numbers as if they were water.
+extern const std::string slurry_warning;
+
+/// Every row per metre; with a width the discharges and volumes of its low, best and high, too.
+std::string as_csv(const Hydrograph& hydrograph, const std::optional<BreachWidth>& width);
+
+/// Flows at equal intervals.
+struct Ordinates {
+    double interval;               ///< [s]
+    std::vector<double> m3_per_s;  ///< the first and the last are 0
+    double volume;                 ///< that straight lines between them carry [m3]
+};
+
+/// Means over intervals about each time, so that straight lines between them carry exactly what passed:
+/// the first ordinate is an interval before the runout begins. Soil that comes back is taken from what
+/// passed before it, so that no flow is negative. Throws BadInput when nothing passes towards +x, or
+/// when there were more than a million ordinates.
+Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interval,
+                       const std::string& file);
+
+/// Comments, then ordinate, simulation time, flow [m3/s]. interval: one of HEC-RAS's, whole
+/// seconds; throws BadInput else.
+std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
+                       const std::string& file);
+
+struct Flo2dWish {
+    std::int64_t cell = 1;                  ///< number of the grid element that takes the inflow
+    std::optional<double> concentration{};  ///< of solids by volume; none: no column [-]
+};
+
+/// Hours and m3/s. Throws BadInput as ordinates_of does.
+std::string as_flo_2d(const Hydrograph& hydrograph, double width, double interval,
+                      const Flo2dWish& wish, const std::string& file);
+
+}  // namespace breach::outflow

@@ -1,0 +1,70 @@
+#include "services/outflow/hydrograph.hpp"
+
+#include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
+
+namespace breach::outflow {
+
+namespace {
+
+constexpr std::string_view prefix = "section.";
+constexpr std::string_view last_column = ".discharge";
+
+std::string list_of(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list.empty() ? "none: the scene has no /mpm/sections" : list;
+}
+
+}  // namespace
+
+std::vector<std::string> sections_in(const exchange::Archive& history) {
+    std::vector<std::string> names;
+    for (const auto& [name, values] : history.reals) {
+        if (name.starts_with(prefix) && name.ends_with(last_column))
+            names.push_back(
+                name.substr(prefix.size(), name.size() - prefix.size() - last_column.size()));
+    }
+    return names;
+}
+
+Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& section,
+                         const std::string& file) {
+    const auto refuse = [&](const std::string& cause) {
+        throw fault::BadInput(
+            file, {{"/section", cause, "its sections are: " + list_of(sections_in(history))}});
+    };
+    Hydrograph found{.section = section};
+    const auto time = history.reals.find("time");
+    if (time == history.reals.end()) refuse("has no times");
+    found.time = time->second;
+    for_each_column(found, [&](const char* what, const char*, std::vector<double>& values) {
+        const auto column = history.reals.find("section." + section + "." + what);
+        if (column == history.reals.end() || column->second.size() != found.time.size())
+            refuse("has no section \"" + section + "\"");
+        values = column->second;
+    });
+    return found;
+}
+
+exchange::Archive history_of(const std::filesystem::path& output) {
+    return exchange::read_archive(output / phases::files::history, "mpm_history", 1);
+}
+
+BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
+                              const std::string& pointer) {
+    const auto sound = [](const nlohmann::json& each) {
+        return each.is_number() && each.get<double>() > 0.0 && each.get<double>() <= 1e5;
+    };
+    if (sound(entry)) return {entry, entry, entry};
+    const bool three = entry.is_array() && entry.size() == 3 && sound(entry[0]) &&
+                       sound(entry[1]) && sound(entry[2]) && entry[0] <= entry[1] &&
+                       entry[1] <= entry[2];
+    if (!three)
+        throw fault::BadInput(file,
+                              {{pointer, "is no width of a breach in metres",
+                                "give a number above 0, or three that ascend: low, best, high"}});
+    return {entry[0], entry[1], entry[2]};
+}
+
+}  // namespace breach::outflow

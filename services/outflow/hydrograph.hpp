@@ -1,0 +1,53 @@
+// The hydrographs that a runout left at its sections (history.h5).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/exchange/archive.hpp"
+
+namespace breach::outflow {
+
+/// At one section, per metre of width; one entry per telemetry line.
+struct Hydrograph {
+    std::string section;
+    std::vector<double> time{};       ///< since the runout began [s]
+    std::vector<double> discharge{};  ///< mean since the entry before, towards +x [m2/s]
+    std::vector<double> depth{};      ///< [m]
+    std::vector<double> velocity{};   ///< [m/s]
+    std::vector<double> volume{};     ///< of soil as it lay, passed so far, net [m2]
+    std::vector<double> mass{};       ///< [kg/m]
+};
+
+/// Calls visit(name, unit, values) for every column beside the time.
+template <class AnyHydrograph, class Visit>
+void for_each_column(AnyHydrograph& hydrograph, Visit&& visit) {
+    visit("discharge", "m2/s", hydrograph.discharge), visit("depth", "m", hydrograph.depth);
+    visit("velocity", "m/s", hydrograph.velocity), visit("volume", "m2", hydrograph.volume);
+    visit("mass", "kg/m", hydrograph.mass);
+}
+
+/// Names of the sections that a history has.
+std::vector<std::string> sections_in(const exchange::Archive& history);
+
+/// Throws BadInput, naming `file` and the sections there are, where there is no such one.
+Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& section,
+                         const std::string& file);
+
+/// Of a runout's output folder.
+exchange::Archive history_of(const std::filesystem::path& output);
+
+/// Width of the breach [m].
+struct BreachWidth {
+    double low;
+    double best;
+    double high;
+};
+
+/// Of a number or [low, best, high]. Throws BadInput at `pointer`.
+BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
+                              const std::string& pointer);
+
+}  // namespace breach::outflow

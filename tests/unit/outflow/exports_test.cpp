@@ -1,0 +1,139 @@
+#include "services/outflow/exports.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::outflow {
+namespace {
+
+/// A triangle of 8 m2 over 4 s with its peak of 4 m2/s at 1 s, after 0.5 s of nothing, every 0.05 s; `returns`
+/// flow back over the last second.
+Hydrograph triangle(double returns = 0.0) {
+    Hydrograph h{.section = "toe"};
+    for (int k = 0; k <= 120; ++k) {
+        const double t = 0.05 * k;
+        const double s = std::clamp(t - 0.5, 0.0, 4.0);
+        double volume = s <= 1.0 ? 2.0 * s * s : 8.0 - (4.0 - s) * (4.0 - s) * 2.0 / 3.0;
+        volume -= returns * std::max(0.0, t - 5.0);
+        h.discharge.push_back(h.volume.empty() ? 0.0 : (volume - h.volume.back()) / 0.05);
+        h.time.push_back(t);
+        h.volume.push_back(volume);
+        h.mass.push_back(2000.0 * volume);
+        h.depth.push_back(1.0);
+        h.velocity.push_back(2.0);
+    }
+    return h;
+}
+
+double trapezoid(const std::vector<double>& values, double interval) {
+    double sum = 0.0;
+    for (std::size_t k = 1; k < values.size(); ++k)
+        sum += 0.5 * (values[k - 1] + values[k]) * interval;
+    return sum;
+}
+
+TEST(Ordinates, CarryExactlyWhatPassedAtAnyInterval) {
+    for (const double interval : {0.05, 0.3, 1.0, 2.0, 60.0}) {
+        const Ordinates flows = ordinates_of(triangle(), 72.0, interval, "test");
+        EXPECT_EQ(flows.m3_per_s.front(), 0.0);
+        EXPECT_EQ(flows.m3_per_s.back(), 0.0);
+        EXPECT_NEAR(trapezoid(flows.m3_per_s, interval), 576.0, 1e-9) << interval;
+        EXPECT_NEAR(flows.volume, 576.0, 1e-9);
+        for (const double flow : flows.m3_per_s) EXPECT_GE(flow, 0.0);
+    }
+    // The middle of the ordinate after t = 1.5 s, one interval late, sees the peak.
+    const Ordinates fine = ordinates_of(triangle(), 1.0, 0.1, "test");
+    EXPECT_NEAR(fine.m3_per_s[16], 4.0, 0.15);
+}
+
+TEST(Ordinates, SoilThatComesBackIsTakenFromWhatPassedBefore) {
+    const Ordinates flows = ordinates_of(triangle(3.0), 1.0, 0.5, "test");
+    EXPECT_NEAR(flows.volume, 5.0, 1e-9);
+    for (const double flow : flows.m3_per_s) EXPECT_GE(flow, 0.0);
+}
+
+TEST(Ordinates, WithoutAnInflowThereAreNone) {
+    EXPECT_THROW(ordinates_of(triangle(9.0), 1.0, 0.5, "test"), fault::BadInput);
+    EXPECT_THROW(ordinates_of(triangle(), 1.0, 1e-6, "test"), fault::BadInput);
+    EXPECT_THROW(ordinates_of(triangle(), 1.0, 0.0, "test"), fault::BadInput);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST(Exports, HecRasHasOneFlowPerIntervalAndSaysWhatItIs) {
+    const std::string text = as_hec_ras(triangle(), 72.0, 1.0, "test");
+    const auto lines = lines_of(text);
+    EXPECT_NE(lines[0].find("volume 576 m3"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[1].find("slurry"), std::string::npos);
+    EXPECT_EQ(lines[2], "Ordinate,Simulation Time (hh:mm:ss),Flow (m3/s)");
+    EXPECT_EQ(lines[3], "1,00:00:00,0");
+    EXPECT_TRUE(lines[4].starts_with("2,00:00:01,"));
+    EXPECT_TRUE(lines.back().ends_with(",0"));
+    EXPECT_THROW(as_hec_ras(triangle(), 72.0, 0.7, "test"), fault::BadInput);
+}
+
+TEST(Exports, Flo2dHasHoursAndTheCell) {
+    const auto lines =
+        lines_of(as_flo_2d(triangle(), 72.0, 1.0, {.cell = 8672, .concentration = 0.45}, "test"));
+    std::vector<std::vector<std::string>> words;
+    for (const std::string& line : lines) {
+        std::istringstream stream(line);
+        words.emplace_back(std::istream_iterator<std::string>(stream),
+                           std::istream_iterator<std::string>());
+    }
+    EXPECT_EQ(words[0], (std::vector<std::string>{"0", "8672"}));
+    EXPECT_EQ(words[1], (std::vector<std::string>{"F", "0", "8672"}));
+    EXPECT_EQ(words[2], (std::vector<std::string>{"H", "0.00000000", "0", "0.45"}));
+    double volume = 0.0;
+    for (std::size_t k = 3; k < words.size(); ++k) {
+        EXPECT_NEAR(std::stod(words[k][1]), static_cast<double>(k - 2) / 3600.0, 1e-8);
+        volume += std::stod(words[k][2]);
+    }
+    EXPECT_NEAR(volume, 576.0, 0.01);
+    EXPECT_EQ(lines_of(as_flo_2d(triangle(), 72.0, 1.0, {}, "test"))[2].back(), '0');
+}
+
+TEST(Exports, CsvHasEveryRowAndTheBreachOnce) {
+    const auto lines = lines_of(as_csv(triangle(), BreachWidth{60, 72, 90}));
+    EXPECT_EQ(lines.size(), 2U + 121U);
+    EXPECT_TRUE(lines[0].starts_with("# section toe"));
+    EXPECT_TRUE(lines.back().ends_with(",480,576,720")) << lines.back();
+    EXPECT_EQ(lines_of(as_csv(triangle(), {}))[1],
+              "time_s,discharge_m2_per_s,depth_m,velocity_m_per_s,volume_m2,mass_kg_per_m");
+}
+
+TEST(Sections, AreNamedWhereOneIsAskedForThatIsNotThere) {
+    exchange::Archive history;
+    history.reals = {{"time", {0.0, 1.0}}};
+    for (const char* what : {"discharge", "depth", "velocity", "volume", "mass"})
+        history.reals[std::string("section.toe.") + what] = {0.0, 1.0};
+    EXPECT_EQ(hydrograph_in(history, "toe", "run").volume, (std::vector<double>{0.0, 1.0}));
+    try {
+        hydrograph_in(history, "road", "run");
+        FAIL();
+    } catch (const fault::BadInput& bad) {
+        EXPECT_EQ(bad.faults()[0].pointer, "/section");
+        EXPECT_NE(bad.faults()[0].remedy.find("toe"), std::string::npos);
+    }
+}
+
+TEST(Breach, WidthIsANumberOrThreeThatAscend) {
+    EXPECT_EQ(breach_width_from(72, "f", "/w").high, 72.0);
+    EXPECT_EQ(breach_width_from({60, 72, 90}, "f", "/w").low, 60.0);
+    using nlohmann::json;
+    for (const json& wrong : {json(0), json(-1), json("72"), json(nullptr), json({90, 72, 60}),
+                              json({60, 72}), json(json::value_t::discarded)})
+        EXPECT_THROW(breach_width_from(wrong, "f", "/w"), fault::BadInput);
+}
+
+}  // namespace
+}  // namespace breach::outflow
