@@ -36,12 +36,35 @@ std::vector<std::size_t> order_of(std::span<const double> values) {
     return order;
 }
 
+/// 1 for the smallest; equal values share the mean of their ranks.
+VectorXd ranks_of(std::span<const double> values) {
+    const std::vector<std::size_t> order = order_of(values);
+    VectorXd ranks(static_cast<Index>(values.size()));
+    for (std::size_t first = 0; first < order.size();) {
+        std::size_t end = first + 1;
+        while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
+        const double shared = 0.5 * static_cast<double>(first + 1 + end);
+        for (; first < end; ++first) ranks(static_cast<Index>(order[first])) = shared;
+    }
+    return ranks;
+}
+
 /// In Fisher's z = atanh(r), with the variance of Bonett & Wright (2000); degrees: of freedom, n - 3
 /// less one for each column that was taken out.
 Interval in_fishers_z(double r, double degrees) {
     const double half = z_of_tail * std::sqrt((1.0 + 0.5 * r * r) / degrees);
     const double z = std::atanh(std::clamp(r, -1.0 + 1e-15, 1.0 - 1e-15));
     return {r, std::tanh(z - half), std::tanh(z + half)};
+}
+
+std::optional<Interval> rank_correlation(std::span<const double> a, std::span<const double> b) {
+    assert(a.size() == b.size());
+    if (a.size() < least_samples || !varies(a) || !varies(b)) return std::nullopt;
+    VectorXd x = ranks_of(a);
+    VectorXd y = ranks_of(b);
+    x.array() -= x.mean();
+    y.array() -= y.mean();
+    return in_fishers_z(x.dot(y) / (x.norm() * y.norm()), size_of(a) - 3.0);
 }
 
 /// What least squares on the columns leave.
@@ -135,18 +158,6 @@ std::vector<std::size_t> options_of(const Drawn& choice) {
 
 }  // namespace
 
-VectorXd ranks_of(std::span<const double> values) {
-    const std::vector<std::size_t> order = order_of(values);
-    VectorXd ranks(static_cast<Index>(values.size()));
-    for (std::size_t first = 0; first < order.size();) {
-        std::size_t end = first + 1;
-        while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
-        const double shared = 0.5 * static_cast<double>(first + 1 + end);
-        for (; first < end; ++first) ranks(static_cast<Index>(order[first])) = shared;
-    }
-    return ranks;
-}
-
 MatrixXd indicators_of(const Drawn& choice) {
     const std::set<double> options(choice.values.begin(), choice.values.end());
     MatrixXd columns = MatrixXd::Zero(static_cast<Index>(choice.values.size()),
@@ -156,16 +167,6 @@ MatrixXd indicators_of(const Drawn& choice) {
         if (option > 0) columns(static_cast<Index>(i), option - 1) = 1.0;
     }
     return columns;
-}
-
-std::optional<Interval> rank_correlation(std::span<const double> a, std::span<const double> b) {
-    assert(a.size() == b.size());
-    if (a.size() < least_samples || !varies(a) || !varies(b)) return std::nullopt;
-    VectorXd x = ranks_of(a);
-    VectorXd y = ranks_of(b);
-    x.array() -= x.mean();
-    y.array() -= y.mean();
-    return in_fishers_z(x.dot(y) / (x.norm() * y.norm()), size_of(a) - 3.0);
 }
 
 std::optional<Interval> share_explained(std::span<const std::size_t> groups,

@@ -21,7 +21,8 @@ struct Drawn {
 
 /// Nothing where it cannot be told: too few samples, or nothing varies.
 struct Importance {
-    /// Spearman's. Not of a choice: its options have no order.
+    /// Spearman's, with the interval of Bonett & Wright (2000) in Fisher's z. Not of a choice: its
+    /// options have no order.
     std::optional<Interval> rank_correlation;
     /// The same after what ranks of the other parameters, and choices, explain by a straight line is
     /// taken from both (Saltelli et al. 2008, 1.2.5).
@@ -34,15 +35,8 @@ struct Importance {
 std::vector<Importance> importance_of(std::span<const Drawn> parameters,
                                       std::span<const double> results);
 
-/// 1 for the smallest; equal values share the mean of their ranks.
-Eigen::VectorXd ranks_of(std::span<const double> values);
-
 /// The parameter's columns in a regression on choices: one per option that occurs but the first.
 Eigen::MatrixXd indicators_of(const Drawn& choice);
-
-/// Spearman's rank correlation with the interval of Bonett & Wright (2000) in Fisher's z.
-/// Nothing: fewer than 5 samples, or one of the two does not vary.
-std::optional<Interval> rank_correlation(std::span<const double> a, std::span<const double> b);
 
 /// First-order index: the share of the variance that a straight line in each bin of the parameter's
 /// values explains, and of a choice the mean of each option (Pearson's correlation ratio); without
