@@ -1,0 +1,14 @@
+// What the samples of an uncertainty study say of its results: percentiles, exceedance, importance
+// and tornado of each, and the same in sentences.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "services/orchestrator/ensemble/ensemble.hpp"
+
+namespace breach::orchestrator {
+
+/// The answer of GET /v1/runs/{id}/uncertainty. quantity: of this one only; empty: of all.
+nlohmann::json findings_of(const Ensemble& ensemble, const std::string& quantity = {});
+
+}  // namespace breach::orchestrator
