@@ -48,7 +48,8 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"records"}, {"files"}, {"programs"}, {"uncertainty"}, {"study", "executors", "store"}, {"triggers"}, {"dispatch", "accuracy", "audit"},
+    "services/orchestrator": [{"records", "sampling"}, {"files"}, {"programs"}, {"uncertainty"}, {"study", "executors", "store"}, {"triggers", "ensemble"},
+                              {"dispatch", "accuracy", "audit"},
                               {"http"}],
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
 }

@@ -11,7 +11,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array answers{"runout_beyond_toe", "runout", "runout_largest", "factor_of_safety"};
+constexpr std::array<const char*, 4> answers{"runout_beyond_toe", "runout", "runout_largest",
+                                             "factor_of_safety"};
 
 /// Of a row's state, which is that of a task, "questionable" or "not_reached".
 Fate fate_of(const std::string& state) {
@@ -59,22 +60,25 @@ std::optional<double> result_of(const SampleRow& sample, std::string_view quanti
     return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
-std::vector<const ResultColumn*> quantities_of(const Ensemble& ensemble) {
-    std::vector<const ResultColumn*> found;
-    for (const char* name : answers)
-        if (std::ranges::any_of(ensemble.samples, [&](const SampleRow& each) {
-                return result_of(each, name).has_value();
-            }))
-            found.push_back(&column_named(name));
-    return found;
+std::string first_quantity(const Ensemble& ensemble) {
+    return ensemble.entry.value("quantity", answers.front());
 }
 
-std::string first_quantity(const Ensemble& ensemble) {
-    if (ensemble.entry.contains("quantity")) return ensemble.entry.at("quantity");
-    const json& until = ensemble.entry.value("until", json());
-    if (until.is_object()) return until.at("quantity");
-    const auto found = quantities_of(ensemble);
-    return found.empty() ? answers.front() : found.front()->name;
+std::vector<const ResultColumn*> quantities_of(const Ensemble& ensemble) {
+    std::vector<std::string> names{first_quantity(ensemble)};
+    if (const json until = ensemble.entry.value("until", json()); until.contains("quantity"))
+        names.push_back(until.at("quantity"));
+    names.insert(names.end(), answers.begin(), answers.end());
+    std::vector<const ResultColumn*> found;
+    for (const std::string& name : names) {
+        const ResultColumn* column = &column_named(name);
+        const bool told = std::ranges::find(found, column) != found.end();
+        if (!told && std::ranges::any_of(ensemble.samples, [&](const SampleRow& each) {
+                return result_of(each, name).has_value();
+            }))
+            found.push_back(column);
+    }
+    return found;
 }
 
 SampleTable sample_table(const Ensemble& ensemble) {

@@ -15,17 +15,17 @@ namespace breach::orchestrator {
 enum class Fate { done, failed, open };
 
 struct SampleRow {
-    std::string name;     ///< of its variant, "s0001"
-    std::string state;    ///< that of its row of the results; "queued": it has none yet
-    Fate fate;            ///< failed: it ended without a result, whatever the reason
-    nlohmann::json drawn; ///< by parameter: a number, an option's name, a lattice's number
+    std::string name;      ///< of its variant, "s0001"
+    std::string state;     ///< that of its row of the results; "queued": it has none yet
+    Fate fate;             ///< failed: it ended without a result, whatever the reason
+    nlohmann::json drawn;  ///< by parameter: a number, an option's name, a lattice's number
     std::optional<ResultRow> row;
 };
 
 struct Ensemble {
     Run run;
-    nlohmann::json entry;           ///< "uncertainty" of the study
-    std::vector<SampleRow> samples; ///< in the order of their numbers
+    nlohmann::json entry;            ///< "uncertainty" of the study
+    std::vector<SampleRow> samples;  ///< in the order of their numbers
 };
 
 /// Nothing: the run is not there, or its study has no samples.

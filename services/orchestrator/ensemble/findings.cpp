@@ -6,8 +6,8 @@
 #include <set>
 
 #include "services/orchestrator/ensemble/sentences.hpp"
-#include "services/orchestrator/records/repeats.hpp"
 #include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/records/repeats.hpp"
 #include "services/orchestrator/uncertainty/percentiles.hpp"
 #include "services/orchestrator/uncertainty/surrogate.hpp"
 
@@ -71,10 +71,9 @@ Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& sampl
     for (const SampleRow* each : samples) options.insert(each->drawn.at(drawn.name));
     for (const SampleRow* each : samples) {
         const json& value = each->drawn.at(drawn.name);
-        drawn.values.push_back(
-            drawn.is_choice
-                ? static_cast<double>(std::distance(options.begin(), options.find(value)))
-                : value.get<double>());
+        drawn.values.push_back(drawn.is_choice ? static_cast<double>(std::distance(
+                                                     options.begin(), options.find(value)))
+                                               : value.get<double>());
     }
     return drawn;
 }
@@ -214,7 +213,7 @@ json until_of(const Ensemble& ensemble) {
     json made = until;
     made["reached"] = false;
     made["now"] = nullptr;
-    const Measured found = measured(ensemble, until.at("quantity").get<std::string>());
+    const Measured found = measured(ensemble, until.value("quantity", first_quantity(ensemble)));
     const double p = until.at("percentile");
     if (found.results.size() < samples_needed(p)) return made;
     const Interval now = percentile(found.results, p);

@@ -82,9 +82,8 @@ std::string importance_in_words(const json& statistics) {
             first = &each;
     if (first == nullptr) return "Too few results, or too alike, to tell which parameter matters.";
     const double least = first->at("first_order_low");
-    std::string words = "Most of the spread goes by " +
-                        first->at("parameter").get<std::string>() + ": by itself " +
-                        shown(100.0 * first->at("first_order").get<double>()) +
+    std::string words = "Most of the spread goes by " + first->at("parameter").get<std::string>() +
+                        ": by itself " + shown(100.0 * first->at("first_order").get<double>()) +
                         " % of the variance (" + shown(100.0 * least) + " to " +
                         shown(100.0 * first->at("first_order_high").get<double>()) + " %)";
     if (least == 0.0) words = "No parameter stands out from the noise of so few samples";
@@ -102,9 +101,9 @@ std::vector<std::string> sentences_of(const json& findings) {
         sentences.push_back(percentiles_in_words(quantity, statistics));
         sentences.push_back(importance_in_words(statistics));
         if (statistics.at("tornado").contains("refused"))
-            sentences.push_back("No tornado: " +
-                                statistics.at("tornado").at("refused").get<std::string>() +
-                                ". A fitted polynomial would not tell what one parameter does.");
+            sentences.push_back(
+                "No tornado: " + statistics.at("tornado").at("refused").get<std::string>() +
+                ". A fitted polynomial would not tell what one parameter does.");
     }
     const json& parameters = findings.at("parameters");
     const auto of_kind = [&](const char* kind) {

@@ -28,13 +28,6 @@ bool can_be_judged(const ResultColumn& column) {
     return column.kind == ColumnKind::number && *column.pointer != '\0';
 }
 
-std::string names_of_results() {
-    std::string names;
-    for (const ResultColumn& each : result_columns())
-        if (can_be_judged(each)) names.append(names.empty() ? "" : ", ").append(each.name);
-    return names;
-}
-
 std::optional<Quantity> of_telemetry(const std::string& text, std::size_t at) {
     const std::string name = text.substr(0, at);
     const telemetry::Column* column = telemetry::column_named(name);
@@ -44,18 +37,6 @@ std::optional<Quantity> of_telemetry(const std::string& text, std::size_t at) {
     if (column == nullptr || number.empty() || *end != '\0' || !std::isfinite(time) || time < 0.0)
         return std::nullopt;
     return Quantity{name, Reach::fem, "", column->unit, time};
-}
-
-std::optional<Quantity> quantity_named(const std::string& text, const json& scene) {
-    if (const std::size_t at = text.find('@'); at != std::string::npos)
-        return of_telemetry(text, at);
-    if (text == "factor_of_safety")
-        return Quantity{text, Reach::lem, "/factor_of_safety", "1", std::nullopt};
-    for (const ResultColumn& each : result_columns())
-        if (each.name == text && can_be_judged(each))
-            return Quantity{text, scene.contains("fem") ? Reach::chain : Reach::filled_mpm,
-                            each.pointer, each.unit, std::nullopt};
-    return std::nullopt;
 }
 
 Quantity read_quantity(const json& entry, const std::string& at, const json& scene,
@@ -196,16 +177,6 @@ std::string override_of(const char* pointer, double a, double b) {
     return text.data();
 }
 
-/// Another lattice of points; none for the first draw, which is the scene as it stands.
-std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
-    if (draw == 0) return {};
-    const auto [a, b] = place_of_draw(draw);
-    if (reach == Reach::filled_mpm) return {override_of(fill_shift, a, b)};
-    constexpr double largest_shift = 0.9;  // that the scene allows, to either side
-    return {
-        override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
-}
-
 std::string name_of_draw(const std::string& variant, std::size_t draw) {
     if (draw == 0) return variant;
     return variant + "_d" + std::to_string(draw + 1);
@@ -248,7 +219,35 @@ bool is_lattice(const std::string& pointer) {
     return pointer.starts_with(point_shift) || pointer.starts_with(fill_shift);
 }
 
+std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
+    if (draw == 0) return {};
+    const auto [a, b] = place_of_draw(draw);
+    if (reach == Reach::filled_mpm) return {override_of(fill_shift, a, b)};
+    constexpr double largest_shift = 0.9;  // that the scene allows, to either side
+    return {
+        override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
+}
+
 bool has_lattice(Reach reach) { return reach == Reach::chain || reach == Reach::filled_mpm; }
+
+std::string names_of_results() {
+    std::string names;
+    for (const ResultColumn& each : result_columns())
+        if (can_be_judged(each)) names.append(names.empty() ? "" : ", ").append(each.name);
+    return names;
+}
+
+std::optional<Quantity> quantity_named(const std::string& text, const json& scene) {
+    if (const std::size_t at = text.find('@'); at != std::string::npos)
+        return of_telemetry(text, at);
+    if (text == "factor_of_safety")
+        return Quantity{text, Reach::lem, "/factor_of_safety", "1", std::nullopt};
+    for (const ResultColumn& each : result_columns())
+        if (each.name == text && can_be_judged(each))
+            return Quantity{text, scene.contains("fem") ? Reach::chain : Reach::filled_mpm,
+                            each.pointer, each.unit, std::nullopt};
+    return std::nullopt;
+}
 
 AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fault>& faults) {
     AccuracyPlan plan;

@@ -24,6 +24,9 @@ enum class Reach { chain, filled_mpm, fem, lem };
 std::vector<phases::Phase> phases_of(Reach reach);
 /// Whether there are material points, whose lattice can be moved.
 bool has_lattice(Reach reach);
+/// Changes that move the points to another lattice; none for the first one, number 0, which is the
+/// scene's own.
+std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach);
 
 /// A number that an accuracy study judges.
 struct Quantity {
@@ -33,6 +36,12 @@ struct Quantity {
     std::string unit;            ///< "m", "1"
     std::optional<double> time;  ///< of the telemetry [s]
 };
+
+/// A number of the results; NAME@TIME of the FEM's telemetry; factor_of_safety. Nothing: none has it.
+/// scene: to know whether it has a FEM.
+std::optional<Quantity> quantity_named(const std::string& text, const nlohmann::json& scene);
+/// Those of the results, for people.
+std::string names_of_results();
 
 struct Ladder {
     std::string name;
@@ -70,10 +79,11 @@ struct BlindCheckPlan {
 struct VariantEntry {
     std::string name;
     std::vector<std::string> overrides;
-    std::string name_pointer;        ///< of the study's entry that its name comes from
-    std::string pointer;             ///< of the entry that its overrides come from
-    std::string made_by;             ///< "draws", "accuracy"; empty: it is the study's own
-    std::string draws_pointer = {};  ///< of the entry that its lattice comes from; empty: unmoved
+    std::string name_pointer;  ///< of the study's entry that its name comes from
+    std::string pointer;       ///< of the entry that its overrides come from
+    std::string made_by;       ///< "draws", "accuracy", "uncertainty"; empty: it is the study's own
+    std::string draws_pointer = {};   ///< of the entry that its lattice comes from; empty: unmoved
+    nlohmann::json sample = nullptr;  ///< what was drawn for it (sampled_variants.hpp)
 };
 
 /// A rung of a ladder and the variants that give its value. Rungs that come to the same scene, as

@@ -53,8 +53,13 @@ class TaskList {
 
     std::vector<TaskPlan> named() && {
         for (std::size_t i = 0; i < tasks_.size(); ++i) {
-            if (users_[i] == study_.variants.size()) tasks_[i].variant.clear();
+            // Of a study that may get more samples, what all share now may not be all's later: labels
+            // then go by the first that uses the task.
+            const bool for_all = users_[i] == study_.variants.size();
+            const bool may_grow = study_.uncertainty.has_value();
+            if (for_all && !may_grow) tasks_[i].variant.clear();
             tasks_[i].label = label_of(tasks_[i]);
+            if (for_all && tasks_[i].phase == phases::lem.program) tasks_[i].variant.clear();
             if (!study_.reuse) tasks_[i].recipe.clear();
         }
         return std::move(tasks_);

@@ -10,6 +10,7 @@
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/recipe.hpp"
+#include "services/orchestrator/study/sampled_variants.hpp"
 
 namespace breach::orchestrator {
 
@@ -241,6 +242,7 @@ json as_json(const std::vector<VariantEntry>& entries) {
     for (const VariantEntry& each : entries) {
         list.push_back({{"name", each.name}, {"overrides", each.overrides}});
         if (!each.made_by.empty()) list.back()["made_by"] = each.made_by;
+        if (!each.sample.is_null()) list.back()["sample"] = each.sample;
     }
     return list;
 }
@@ -372,6 +374,85 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
     }
 }
 
+// ---------------------------------------------------------------- uncertainty
+
+/// Of the phases that a sample runs; empty where a probe's scene has faults, which are told.
+std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<std::string>& probe,
+                                          const std::vector<phases::Phase>& phases,
+                                          std::vector<Fault>& found) {
+    const check::Checked changed = check_sent_scene(base.scene, probe, base.folder);
+    for (const Fault& each : changed.faults)
+        found.push_back({"/uncertainty", each.pointer + ": " + each.cause, each.remedy});
+    std::vector<std::string> recipes;
+    if (!changed.faults.empty()) return recipes;
+    const json scene = json::parse(changed.scene.completed);
+    for (const phases::Phase& each : phases)
+        recipes.push_back(recipe_of(each.program, scene, 0).hash);
+    return recipes;
+}
+
+/// A parameter that changes nothing for any phase that runs would do nothing.
+void check_parameters_are_read(const Study& study, const Base& base, std::vector<Fault>& faults) {
+    std::vector<phases::Phase> phases = phases_of(study.reach);
+    if (study.stability && study.reach != Reach::lem) phases.push_back(phases::lem);
+    std::string readers;
+    for (const phases::Phase& each : phases)
+        readers += (readers.empty() ? "" : ", ") + std::string(each.program);
+    std::vector<Fault> found;
+    for (const ParameterProbe& probe : probes_of(*study.uncertainty, base.scene, study.reach)) {
+        std::vector<std::vector<std::string>> recipes;
+        for (const auto& each : probe.overrides) {
+            recipes.push_back(recipes_of_probe(base, each, phases, found));
+            if (recipes.back().empty()) break;
+        }
+        if (recipes.back().empty() ||
+            std::ranges::adjacent_find(recipes, std::not_equal_to<>()) != recipes.end())
+            continue;
+        faults.push_back({"/uncertainty/parameters/" + std::to_string(probe.parameter),
+                          "no phase that runs reads what \"" +
+                              study.uncertainty->parameters[probe.parameter].name + "\" changes (" +
+                              readers + " would run): it would do nothing",
+                          "name an entry that one of them reads, or leave the parameter out"});
+    }
+    for (Fault& each : told_by_parameter(found, *study.uncertainty))
+        faults.push_back(std::move(each));
+}
+
+/// Each sample is one state: more would be several results of one sample.
+void check_state_of_samples(const Study& study, std::vector<Fault>& faults) {
+    const std::size_t times = study.transfer_times.size();
+    if (study.reach != Reach::chain) {
+        if (times + study.triggers.size() > 0)
+            faults.push_back({times > 0 ? "/transfer_times" : "/triggers",
+                              "nothing is transferred for this quantity", "leave it out"});
+        return;
+    }
+    const bool searches = std::ranges::any_of(
+        study.triggers, [](const TriggerPlan& each) { return each.kind == "bisect"; });
+    if (times + study.triggers.size() > 1 || searches)
+        faults.push_back({times > 1 ? "/transfer_times" : "/triggers",
+                          "each sample is transferred once, and this makes several transfers",
+                          "give one time, or one trigger that fires once"});
+}
+
+/// Reads the plan, checks it, and makes the study's variants of its samples.
+void take_samples(Study& study, json& document, const Base& base, std::vector<Fault>& faults) {
+    const std::size_t before = faults.size();
+    study.uncertainty = read_uncertainty(document["uncertainty"], base.scene, faults);
+    const UncertaintyPlan& plan = *study.uncertainty;
+    check_company_of_samples(document, plan, study.reach, faults);
+    if (faults.size() > before) return;
+    check_parameters_are_read(study, base, faults);
+    if (faults.size() > before) return;
+    const std::vector<VariantEntry> entries = variants_of(plan, base.scene, study.reach);
+    std::vector<Fault> found;
+    study.variants = checked_variants(entries, base, study.transfer_times, found);
+    for (Fault& each : told_by_parameter(found, plan)) faults.push_back(std::move(each));
+    document["variants"] = as_json(entries);
+    document["uncertainty"]["drawn"] = plan.drawn;
+    document["uncertainty"]["first_block"] = plan.first;
+}
+
 /// One fault instead of one per entry that a study lacks.
 void refuse_scene(const json& document) {
     if (!document.is_object() || !document.contains("format") || !document["format"].is_string() ||
@@ -414,6 +495,9 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
         if (sound("accuracy")) {
             accuracy = read_accuracy(document["accuracy"], base.scene, faults);
             study.reach = accuracy->quantity.reach;
+        } else if (sound("uncertainty")) {
+            study.reach =
+                reach_of_samples(document["uncertainty"], base.scene, reach_of(base.scene), faults);
         } else if (sound("check") && sound("draws")) {
             study.reach = read_blind_check(document["check"], base.scene, document["draws"], faults)
                               .quantity.reach;
@@ -431,6 +515,7 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
     const auto* fem = scene && scene->scene.fem ? &*scene->scene.fem : nullptr;
+    if (times_are_sound && sound("uncertainty")) place_transfer(document, faults);
     if (times_are_sound) {
         read_triggers(document, fem ? dynamic_duration(*fem) : unknown_span, study, faults);
         if (fem) check_times(study.transfer_times, *fem, faults);
@@ -448,10 +533,19 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     } else if (scene && times_are_sound && repeats_are_sound && sound("check")) {
         check_blind(document, study, faults);
     }
-    const bool judged = document.contains("accuracy") || document.contains("check");
+    const bool samples = document.contains("uncertainty");
+    const bool judged = samples || document.contains("accuracy") || document.contains("check");
     if (!judged && times_are_sound && sound("stability") && study.reach != Reach::chain)
         check_without_fem(document, study.reach, faults);
-    if (scene && repeats_are_sound && rungs_are_sound) {
+    if (scene && sound("stability"))
+        study.stability =
+            study.reach == Reach::lem ||
+            (!accuracy && document["stability"].get<bool>() && scene->scene.lem.has_value());
+    if (samples && times_are_sound) check_state_of_samples(study, faults);
+    if (samples && sound("uncertainty") && sound("overrides") && repeats_are_sound &&
+        faults.empty())
+        take_samples(study, document, base, faults);
+    if (!samples && scene && repeats_are_sound && rungs_are_sound) {
         const std::vector<VariantEntry> entries =
             accuracy ? variants_of(*accuracy, base.scene)
                      : wanted_variants(document, study.reach, faults);
@@ -477,9 +571,6 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     study.resources = wanted_resources(document["resources"]);
     study.priority = document["priority"];
     study.reuse = document["reuse"];
-    study.stability =
-        study.reach == Reach::lem ||
-        (!accuracy && document["stability"].get<bool>() && scene->scene.lem.has_value());
     document.erase("scene");
     study.document = std::move(document);
     return study;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/orchestrator/records/records.hpp"
+#include "services/orchestrator/sampling/plan.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
 
 namespace breach::orchestrator {
@@ -35,6 +36,8 @@ struct Study {
     std::vector<TriggerPlan> triggers;  ///< those that watch the FEM
     double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]
     Reach reach = Reach::chain;         ///< what is run of each variant
+    /// Its variants are samples, and more of them may follow.
+    std::optional<UncertaintyPlan> uncertainty;
 };
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <set>
 
+#include "services/orchestrator/sampling/rank_correlation.hpp"
+
 namespace breach::orchestrator {
 
 namespace {
@@ -36,17 +38,9 @@ std::vector<std::size_t> order_of(std::span<const double> values) {
     return order;
 }
 
-/// 1 for the smallest; equal values share the mean of their ranks.
-VectorXd ranks_of(std::span<const double> values) {
-    const std::vector<std::size_t> order = order_of(values);
-    VectorXd ranks(static_cast<Index>(values.size()));
-    for (std::size_t first = 0; first < order.size();) {
-        std::size_t end = first + 1;
-        while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
-        const double shared = 0.5 * static_cast<double>(first + 1 + end);
-        for (; first < end; ++first) ranks(static_cast<Index>(order[first])) = shared;
-    }
-    return ranks;
+VectorXd ranked(std::span<const double> values) {
+    const std::vector<double> ranks = ranks_of(values);
+    return Eigen::Map<const VectorXd>(ranks.data(), static_cast<Index>(ranks.size()));
 }
 
 /// In Fisher's z = atanh(r), with the variance of Bonett & Wright (2000); degrees: of freedom, n - 3
@@ -57,14 +51,9 @@ Interval in_fishers_z(double r, double degrees) {
     return {r, std::tanh(z - half), std::tanh(z + half)};
 }
 
-std::optional<Interval> rank_correlation(std::span<const double> a, std::span<const double> b) {
-    assert(a.size() == b.size());
+std::optional<Interval> spearman(std::span<const double> a, std::span<const double> b) {
     if (a.size() < least_samples || !varies(a) || !varies(b)) return std::nullopt;
-    VectorXd x = ranks_of(a);
-    VectorXd y = ranks_of(b);
-    x.array() -= x.mean();
-    y.array() -= y.mean();
-    return in_fishers_z(x.dot(y) / (x.norm() * y.norm()), size_of(a) - 3.0);
+    return in_fishers_z(rank_correlation(a, b), size_of(a) - 3.0);
 }
 
 /// What least squares on the columns leave.
@@ -79,7 +68,7 @@ MatrixXd all_but(std::span<const Drawn> parameters, std::size_t left_out, Index 
     for (std::size_t j = 0; j < parameters.size(); ++j) {
         if (j == left_out) continue;
         const MatrixXd more = parameters[j].is_choice ? indicators_of(parameters[j])
-                                                      : MatrixXd(ranks_of(parameters[j].values));
+                                                      : MatrixXd(ranked(parameters[j].values));
         matrix.conservativeResize(Eigen::NoChange, matrix.cols() + more.cols());
         matrix.rightCols(more.cols()) = more;
     }
@@ -93,8 +82,8 @@ std::optional<Interval> partial_rank_correlation(std::span<const Drawn> paramete
     const double degrees = static_cast<double>(n - 3 - (others.cols() - 1));
     if (degrees < 1.0) return std::nullopt;
     const Eigen::ColPivHouseholderQR<MatrixXd> solved(others);
-    const VectorXd of_ranks = ranks_of(parameters[at].values);
-    const VectorXd of_results = ranks_of(results);
+    const VectorXd of_ranks = ranked(parameters[at].values);
+    const VectorXd of_results = ranked(results);
     const VectorXd x = rest_of(of_ranks, solved, others);
     const VectorXd y = rest_of(of_results, solved, others);
     // What the others explain to the last digit leaves round-off.
@@ -231,7 +220,7 @@ std::vector<Importance> importance_of(std::span<const Drawn> parameters,
             made.first_order = share_explained(
                 each.is_choice ? options_of(each) : bins_of(each.values), each.values, results);
             if (!each.is_choice) {
-                made.rank_correlation = rank_correlation(each.values, results);
+                made.rank_correlation = spearman(each.values, results);
                 made.partial_rank_correlation = partial_rank_correlation(parameters, j, results);
             }
         }

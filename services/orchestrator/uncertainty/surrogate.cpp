@@ -208,9 +208,8 @@ Tornado tornado_of(std::span<const Drawn> parameters, std::span<const double> re
         tornado.bars.push_back(bar_of(*fit, middle, inputs.blocks[j]));
         tornado.bars.back().name = parameters[j].name;
     }
-    std::ranges::stable_sort(tornado.bars, std::greater{}, [](const TornadoBar& bar) {
-        return std::abs(bar.p90 - bar.p10);
-    });
+    std::ranges::stable_sort(tornado.bars, std::greater{},
+                             [](const TornadoBar& bar) { return std::abs(bar.p90 - bar.p10); });
     return tornado;
 }
 
