@@ -211,9 +211,10 @@ json until_of(const Ensemble& ensemble) {
     const json until = ensemble.entry.value("until", json());
     if (!until.is_object()) return nullptr;
     json made = until;
+    made["quantity"] = until.value("quantity", first_quantity(ensemble));
     made["reached"] = false;
     made["now"] = nullptr;
-    const Measured found = measured(ensemble, until.value("quantity", first_quantity(ensemble)));
+    const Measured found = measured(ensemble, made["quantity"].get<std::string>());
     const double p = until.at("percentile");
     if (found.results.size() < samples_needed(p)) return made;
     const Interval now = percentile(found.results, p);

@@ -1,0 +1,142 @@
+// Uncertainty studies over the API, with phases whose answers are known in closed form
+// (tests/faults/fake_phase.cpp). How often intervals cover them in many seeds is for the tests of the
+// pure functions; here is what comes through the whole service.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "tests/faults/service_under_test.hpp"
+
+namespace breach::testing {
+namespace {
+
+using nlohmann::json;
+
+json parameter(const char* name, const char* entry, const json& distribution) {
+    return {{"name", name}, {"sets", {entry}}, {"distribution", distribution}};
+}
+
+json uniform(double from, double to) { return {{"type", "uniform"}, {"from", from}, {"to", to}}; }
+json normal(double mean, double sd) { return {{"type", "normal"}, {"mean", mean}, {"sd", sd}}; }
+
+json uncertain_study(const std::string& title, int samples, const json& parameters) {
+    json wanted = study(title + " fem_steps=1 mpm_steps=1", {0.5});
+    wanted["uncertainty"] = {{"samples", samples}, {"seed", 7}, {"parameters", parameters}};
+    return wanted;
+}
+
+const json linear_parameters{parameter("a", "/mpm/cfl", normal(0.4, 0.05)),
+                             parameter("b", "/mpm/blending_rate", normal(2.0, 0.2)),
+                             parameter("c", "/mpm/gimp_half_size", uniform(0.1, 0.4))};
+
+json ended(Service& service, const json& study) {
+    const std::string run = service.submit(study);
+    service.wait_for_end(run, 120);
+    return service.get("/v1/runs/" + run + "/uncertainty").body;
+}
+
+bool covers(const json& found, const char* low, const char* high, double value) {
+    return found.at(low).get<double>() <= value && value <= found.at(high).get<double>();
+}
+
+TEST(Uncertainty, OfALinearModelIsItsClosedForm) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json answer = ended(service, uncertain_study("linear=1", 64, linear_parameters));
+    ASSERT_EQ(answer.at("samples").at("done"), 64) << answer.dump();
+    EXPECT_EQ(answer.at("quantity"), "runout_beyond_toe");
+    const json& found = answer.at("quantities").at("runout_beyond_toe");
+    EXPECT_EQ(found.at("count"), 64);
+    EXPECT_NEAR(found.at("mean").get<double>(), 10.0, 0.1) << "a hypercube knows the mean well";
+    EXPECT_NEAR(found.at("sd").get<double>(), std::sqrt(5.0), 0.2);
+    for (const json& each : found.at("percentiles")) {
+        const double p = each.at("p");
+        const double z = p == 5 || p == 95 ? 1.6448536 : p == 50 ? 0.0 : 1.2815516;
+        EXPECT_TRUE(covers(each, "low", "high", 10.0 + (p < 50 ? -z : z) * std::sqrt(5.0)))
+            << each.dump();
+    }
+    EXPECT_EQ(found.at("percentiles").size(), 5u);
+    const std::array shares{0.8, 0.2, 0.0};
+    for (std::size_t j = 0; j < 3; ++j)
+        EXPECT_TRUE(
+            covers(found.at("importance")[j], "first_order_low", "first_order_high", shares[j]))
+            << found.at("importance").dump();
+    EXPECT_GT(found.at("importance")[1].at("partial_rank_correlation"), 0.95)
+        << "what a does is taken out";
+    EXPECT_GT(found.at("tornado").at("q2"), 0.99);
+    EXPECT_EQ(found.at("tornado").at("bars")[0].at("parameter"), "a");
+    EXPECT_NEAR(found.at("tornado").at("bars")[0].at("p90").get<double>(), 10.0 + 2.0 * 1.2816,
+                0.3);
+    EXPECT_FALSE(answer.at("sentences").empty());
+}
+
+TEST(Uncertainty, OfIshigamisFunctionIsItsClosedFormAndItsTornadoIsRefused) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json parameters{parameter("x1", "/mpm/cfl", uniform(0.2, 0.6)),
+                          parameter("x2", "/mpm/blending_rate", uniform(1.0, 3.0)),
+                          parameter("x3", "/mpm/gimp_half_size", uniform(0.1, 0.4))};
+    const json answer = ended(service, uncertain_study("ishigami=1", 64, parameters));
+    const json& found = answer.at("quantities").at("runout_beyond_toe");
+    const std::array shares{0.3139, 0.4424, 0.0};  // Saltelli et al. 2008
+    for (std::size_t j = 0; j < 3; ++j)
+        EXPECT_TRUE(
+            covers(found.at("importance")[j], "first_order_low", "first_order_high", shares[j]))
+            << found.at("importance").dump();
+    EXPECT_LT(found.at("tornado").at("q2"), 0.7);
+    EXPECT_TRUE(found.at("tornado").contains("refused"));
+}
+
+TEST(Uncertainty, SamplesThatFailAreCountedAndSaid) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    // A cfl above 0.4 breaks the MPM: half of the samples.
+    const json answer =
+        ended(service, uncertain_study("linear=1 breaks_from=0.4", 8, linear_parameters));
+    const json& samples = answer.at("samples");
+    EXPECT_EQ(samples.at("planned"), 8);
+    EXPECT_EQ(samples.at("done"), 4);
+    EXPECT_EQ(samples.at("failed"), 4);
+    ASSERT_EQ(samples.at("left_out").size(), 4u);
+    EXPECT_EQ(samples.at("left_out")[0].at("state"), "failed");
+    EXPECT_NE(samples.at("left_out")[0].at("reason").get<std::string>().find("left the grid"),
+              std::string::npos);
+    const json& found = answer.at("quantities").at("runout_beyond_toe");
+    EXPECT_EQ(found.at("count"), 4);
+    EXPECT_EQ(found.at("of"), 8);
+    EXPECT_EQ(found.at("percentiles").at("refused"),
+              "4 samples are not enough for the 50th percentile: 5 are needed");
+    EXPECT_TRUE(
+        answer.at("sentences")[0].get<std::string>().starts_with("4 of 8 samples ended with a "
+                                                                 "result; 4 without one"))
+        << answer.at("sentences").dump();
+}
+
+TEST(Uncertainty, SamplesComeAsCsvWithDrawsAndResults) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(uncertain_study("linear=1", 3, linear_parameters));
+    service.wait_for_end(run);
+    const std::string csv = service.get("/v1/runs/" + run + "/uncertainty?format=csv").text;
+    EXPECT_TRUE(csv.starts_with("sample,state,a,b,c,runout_beyond_toe,")) << csv;
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 4);
+    const json rows = service.get("/v1/runs/" + run + "/uncertainty").body.at("rows");
+    const double a = rows[0].at("values").at("a");
+    const double b = rows[0].at("values").at("b");
+    EXPECT_NEAR(rows[0].at("results").at("runout_beyond_toe").get<double>(),
+                10.0 + 2.0 * (a - 0.4) / 0.05 + (b - 2.0) / 0.2, 1e-6)
+        << "the draws that are told are those that the phase has read";
+}
+
+TEST(Uncertainty, OfAnotherStudyThereIsNone) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(study("fem_steps=1 mpm_steps=1", {0.5}));
+    EXPECT_EQ(service.get("/v1/runs/" + run + "/uncertainty").status, 404);
+}
+
+}  // namespace
+}  // namespace breach::testing
