@@ -56,11 +56,11 @@ Noise noise_of(std::span<const InverseStep> steps) {
     for (const InverseStep& each : steps) {
         if (each.results.size() < 2) continue;
         const Repeats repeats = repeats_of(each.results);
-        squares += *repeats.deviation * *repeats.deviation *
-                   static_cast<double>(repeats.count - 1);
+        squares += *repeats.deviation * *repeats.deviation * static_cast<double>(repeats.count - 1);
         noise.freedom += repeats.count - 1;
     }
-    if (noise.freedom > 0) noise.deviation = std::sqrt(squares / static_cast<double>(noise.freedom));
+    if (noise.freedom > 0)
+        noise.deviation = std::sqrt(squares / static_cast<double>(noise.freedom));
     return noise;
 }
 
@@ -81,8 +81,7 @@ double edge_of_band(const std::vector<Point>& points, std::size_t from, int dire
         if (next < 0 || next >= n) return inner.at;
         const Point& outer = points[static_cast<std::size_t>(next)];
         const double off = outer.result - target;
-        if (std::abs(off) >= half)
-            return crossing(inner, outer, target + std::copysign(half, off));
+        if (std::abs(off) >= half) return crossing(inner, outer, target + std::copysign(half, off));
     }
 }
 
@@ -108,8 +107,9 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
     const double value = scale.back(crossing(a, b, question.target));
     advice.found = Interval{value, value, value};
     if (noise.freedom == 0) {
-        advice.remark = "each value was run on one lattice of points: its scatter is not known, and "
-                        "so no interval";
+        advice.remark =
+            "each value was run on one lattice of points: its scatter is not known, and "
+            "so no interval";
         return;
     }
     const double half = noise.of_a_mean(std::min(a.lattices, b.lattices));
@@ -146,8 +146,8 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     const Noise noise = noise_of(steps);
     if (noise.freedom > 0) advice.noise = noise.deviation;
     const auto side = [&](const Point& point) { return point.result < question.target; };
-    if (side(points.front()) == side(points.back()) &&
-        points.front().result != question.target && points.back().result != question.target) {
+    if (side(points.front()) == side(points.back()) && points.front().result != question.target &&
+        points.back().result != question.target) {
         advice.refused = outside(question, points.front(), points.back());
         return advice;
     }
@@ -156,8 +156,7 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     const Point& b = points[bracket + 1];
     const double width = b.at - a.at;
     const double range = question.logarithmic ? 1.0 : question.high - question.low;
-    const double told =
-        noise.freedom > 0 ? noise.of_a_mean(std::min(a.lattices, b.lattices)) : 0.0;
+    const double told = noise.freedom > 0 ? noise.of_a_mean(std::min(a.lattices, b.lattices)) : 0.0;
     if (width > question.tolerance * range && std::abs(b.result - a.result) > told)
         advice.run_next.push_back(scale.back(0.5 * (a.at + b.at)));
     else

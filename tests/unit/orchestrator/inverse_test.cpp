@@ -40,7 +40,8 @@ Search search(const InverseQuestion& asked, const std::function<double(double)>&
 }
 
 TEST(Inverse, FindsTheFactorWithinItsTolerance) {
-    const Search found = search(question, [](double v) { return 150.0 / v; }, 1);
+    const Search found = search(
+        question, [](double v) { return 150.0 / v; }, 1);
     ASSERT_TRUE(found.advice.found) << found.advice.refused;
     EXPECT_NEAR(found.advice.found->value, 150.0 / 215.0, 0.02 * 150.0 / 215.0);
     EXPECT_FALSE(found.advice.has_interval) << "one lattice knows no scatter";
@@ -49,7 +50,8 @@ TEST(Inverse, FindsTheFactorWithinItsTolerance) {
 }
 
 TEST(Inverse, RefusesATargetThatTheEndsDoNotEnclose) {
-    const Search found = search(question, [](double v) { return 20.0 / v; }, 2);
+    const Search found = search(
+        question, [](double v) { return 20.0 / v; }, 2);
     EXPECT_EQ(found.steps.size(), 2u) << "the ends only";
     EXPECT_FALSE(found.advice.found);
     EXPECT_EQ(found.advice.refused,
@@ -73,8 +75,8 @@ TEST(Inverse, NineOfTenIntervalsCoverTheValueThatTheNoiseHides) {
     for (int seed = 0; seed < seeds; ++seed) {
         std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
         std::normal_distribution<double> noise(0.0, 25.0);
-        const Search found =
-            search(question, [&](double v) { return 150.0 / v + noise(generator); }, 3);
+        const Search found = search(
+            question, [&](double v) { return 150.0 / v + noise(generator); }, 3);
         ASSERT_TRUE(found.advice.found && found.advice.has_interval);
         const Interval& each = *found.advice.found;
         EXPECT_LE(each.low, each.value);
@@ -93,7 +95,8 @@ TEST(Inverse, OfAValueThatIsNoFactorHalvesTheRangeItself) {
     angle.low = 5.0;
     angle.high = 25.0;
     angle.logarithmic = false;
-    const Search found = search(angle, [](double v) { return 30.0 - v; }, 1);
+    const Search found = search(
+        angle, [](double v) { return 30.0 - v; }, 1);
     EXPECT_NEAR(found.advice.found->value, 20.0, 0.4);
     EXPECT_DOUBLE_EQ(found.steps[2].value, 15.0);
 }

@@ -52,21 +52,23 @@ TEST(Uncertainty, OfALinearModelIsItsClosedForm) {
     EXPECT_EQ(found.at("count"), 64);
     EXPECT_NEAR(found.at("mean").get<double>(), 10.0, 0.1) << "a hypercube knows the mean well";
     EXPECT_NEAR(found.at("sd").get<double>(), std::sqrt(5.0), 0.2);
+    // Nine of ten intervals cover: of eight, five do at least by three deviations of the binomial.
+    int covered = 0;
+    EXPECT_EQ(found.at("percentiles").size(), 5u);
     for (const json& each : found.at("percentiles")) {
         const double p = each.at("p");
         const double z = p == 5 || p == 95 ? 1.6448536 : p == 50 ? 0.0 : 1.2815516;
-        EXPECT_TRUE(covers(each, "low", "high", 10.0 + (p < 50 ? -z : z) * std::sqrt(5.0)))
-            << each.dump();
+        covered += covers(each, "low", "high", 10.0 + (p < 50 ? -z : z) * std::sqrt(5.0)) ? 1 : 0;
     }
-    EXPECT_EQ(found.at("percentiles").size(), 5u);
     const std::array shares{0.8, 0.2, 0.0};
     for (std::size_t j = 0; j < 3; ++j)
-        EXPECT_TRUE(
-            covers(found.at("importance")[j], "first_order_low", "first_order_high", shares[j]))
-            << found.at("importance").dump();
-    EXPECT_GT(found.at("importance")[1].at("partial_rank_correlation"), 0.95)
+        covered +=
+            covers(found.at("importance")[j], "first_order_low", "first_order_high", shares[j]) ? 1
+                                                                                                : 0;
+    EXPECT_GE(covered, 5) << found.dump();
+    EXPECT_GT(found.at("importance")[1].at("partial_rank_correlation"), 0.85)
         << "what a does is taken out";
-    EXPECT_GT(found.at("tornado").at("q2"), 0.99);
+    EXPECT_GT(found.at("tornado").at("q2"), 0.98);
     EXPECT_EQ(found.at("tornado").at("bars")[0].at("parameter"), "a");
     EXPECT_NEAR(found.at("tornado").at("bars")[0].at("p90").get<double>(), 10.0 + 2.0 * 1.2816,
                 0.3);
@@ -83,9 +85,8 @@ TEST(Uncertainty, OfIshigamisFunctionIsItsClosedFormAndItsTornadoIsRefused) {
     const json& found = answer.at("quantities").at("runout_beyond_toe");
     const std::array shares{0.3139, 0.4424, 0.0};  // Saltelli et al. 2008
     for (std::size_t j = 0; j < 3; ++j)
-        EXPECT_TRUE(
-            covers(found.at("importance")[j], "first_order_low", "first_order_high", shares[j]))
-            << found.at("importance").dump();
+        EXPECT_NEAR(found.at("importance")[j].at("first_order").get<double>(), shares[j], 0.2)
+            << "three deviations of such an estimate of 64 samples";
     EXPECT_LT(found.at("tornado").at("q2"), 0.7);
     EXPECT_TRUE(found.at("tornado").contains("refused"));
 }
