@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/ensemble/sentences.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/records/repeats.hpp"
@@ -227,24 +228,26 @@ json until_of(const Ensemble& ensemble) {
 
 }  // namespace
 
-json findings_of(const Ensemble& ensemble, const std::string& quantity) {
+json findings_of(const Ensemble& ensemble, const json& scene, const std::string& quantity) {
+    const auto search = inverse_search(ensemble, scene);
     json quantities = json::object();
     for (const ResultColumn* each : quantities_of(ensemble))
-        if (quantity.empty() || quantity == each->name)
+        if (!search && (quantity.empty() || quantity == each->name))
             quantities[each->name] = statistics_of(ensemble, *each);
-    json answer{{"run", ensemble.run.id},
-                {"name", ensemble.run.name},
-                {"state", ensemble.run.state},
-                {"quantity", quantity.empty() ? first_quantity(ensemble) : quantity},
-                {"sampling", ensemble.entry.value("sampling", json())},
-                {"seed", ensemble.entry.value("seed", json())},
-                {"confidence", share_covered},
-                {"samples", counts_of(ensemble)},
-                {"parameters", parameters_of(ensemble.entry)},
-                {"rows", rows_of(ensemble)},
-                {"quantities", std::move(quantities)},
-                {"until", until_of(ensemble)},
-                {"inverse", nullptr}};
+    json answer{
+        {"run", ensemble.run.id},
+        {"name", ensemble.run.name},
+        {"state", ensemble.run.state},
+        {"quantity", quantity.empty() ? first_quantity(ensemble) : quantity},
+        {"sampling", ensemble.entry.value("sampling", json())},
+        {"seed", ensemble.entry.value("seed", json())},
+        {"confidence", share_covered},
+        {"samples", counts_of(ensemble)},
+        {"parameters", parameters_of(ensemble.entry)},
+        {"rows", rows_of(ensemble)},
+        {"quantities", std::move(quantities)},
+        {"until", until_of(ensemble)},
+        {"inverse", search ? as_json(*search, ensemble.entry.at("target").at("vary")) : json()}};
     answer["sentences"] = sentences_of(answer);
     return answer;
 }

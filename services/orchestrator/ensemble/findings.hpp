@@ -8,7 +8,9 @@
 
 namespace breach::orchestrator {
 
-/// The answer of GET /v1/runs/{id}/uncertainty. quantity: of this one only; empty: of all.
-nlohmann::json findings_of(const Ensemble& ensemble, const std::string& quantity = {});
+/// The answer of GET /v1/runs/{id}/uncertainty. scene: of the run. quantity: of this one only; empty:
+/// of all. An inverse study has no statistics: its values are not drawn.
+nlohmann::json findings_of(const Ensemble& ensemble, const nlohmann::json& scene,
+                           const std::string& quantity = {});
 
 }  // namespace breach::orchestrator

@@ -90,10 +90,30 @@ std::string importance_in_words(const json& statistics) {
     return words + ".";
 }
 
+std::string inverse_in_words(const json& inverse) {
+    const std::string vary = inverse.at("vary");
+    const std::string target = inverse.at("quantity").get<std::string>() + " of " +
+                               with_unit(inverse.at("target"), inverse);
+    const std::string& reason = inverse.at("reason").get_ref<const std::string&>();
+    if (inverse.at("state") == "running")
+        return "The " + vary + " for a " + target + " is searched.";
+    if (inverse.at("state") == "refused") return "No " + vary + " is found: " + reason + ".";
+    std::string words = "A " + vary + " of " + shown(inverse.at("value"));
+    if (inverse.at("low").is_number())
+        words += " (" + shown(inverse.at("low")) + " to " + shown(inverse.at("high")) +
+                 " by the scatter of lattices alone)";
+    words += " gives a " + target + ", the other parameters at their medians.";
+    return reason.empty() ? words : words + " Note: " + reason + ".";
+}
+
 }  // namespace
 
 std::vector<std::string> sentences_of(const json& findings) {
     std::vector<std::string> sentences{counts_in_words(findings.at("samples"))};
+    if (findings.at("inverse").is_object()) {
+        sentences.push_back(inverse_in_words(findings.at("inverse")));
+        return sentences;
+    }
     const std::string quantity = findings.at("quantity");
     const json& quantities = findings.at("quantities");
     if (quantities.contains(quantity)) {

@@ -7,6 +7,8 @@
 
 namespace breach::orchestrator {
 
+using nlohmann::json;
+
 namespace {
 
 /// What the samples of an uncertainty study say, as far as the run has come; the samples themselves
@@ -23,7 +25,10 @@ void uncertainty(const Service& service, Call& call) {
     if (!quantity.empty() && std::ranges::find(known, quantity, &ResultColumn::name) == known.end())
         throw bad_request("quantity must be one of the table of results, not " + quantity);
     const std::string format = call.parameter("format").value_or("json");
-    if (format == "json") return reply(call.response, findings_of(*ensemble, quantity));
+    if (format == "json")
+        return reply(
+            call.response,
+            findings_of(*ensemble, json::parse(service.store.scene_of(run.id).value()), quantity));
     const SampleTable samples = sample_table(*ensemble);
     if (format == "csv")
         return call.response.set_content(as_csv(samples.rows, samples.columns),

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "services/orchestrator/records/repeats.hpp"
+#include "services/orchestrator/sampling/samples.hpp"
 
 namespace breach::orchestrator {
 
@@ -157,10 +158,15 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     const double width = b.at - a.at;
     const double range = question.logarithmic ? 1.0 : question.high - question.low;
     const double told = noise.freedom > 0 ? noise.of_a_mean(std::min(a.lattices, b.lattices)) : 0.0;
-    if (width > question.tolerance * range && std::abs(b.result - a.result) > told)
-        advice.run_next.push_back(scale.back(0.5 * (a.at + b.at)));
-    else
-        tell(question, scale, points, bracket, noise, advice);
+    const bool wide = width > question.tolerance * range && std::abs(b.result - a.result) > told;
+    if (wide && steps.size() < question.most_values) {
+        advice.run_next.push_back(in_six_digits(scale.back(0.5 * (a.at + b.at))));
+        return advice;
+    }
+    tell(question, scale, points, bracket, noise, advice);
+    if (wide)
+        advice.remark = "the runs that \"samples\" allows are used up: the value lies between " +
+                        shown(a.value) + " and " + shown(b.value);
     return advice;
 }
 

@@ -25,6 +25,7 @@ struct InverseQuestion {
     double low, high;         ///< ends of the range that is searched
     bool logarithmic;         ///< halve in the logarithm: factors
     double tolerance = 0.02;  ///< of the value, relative (of the range, where not logarithmic)
+    std::size_t most_values = 100;  ///< the search ends with these
 };
 
 struct InverseAdvice {
