@@ -132,6 +132,87 @@ TEST(Uncertainty, SamplesComeAsCsvWithDrawsAndResults) {
         << "the draws that are told are those that the phase has read";
 }
 
+json inverse_study(double target, const json& more = json::object()) {
+    json a = parameter("a", "/mpm/cfl", normal(0.4, 0.05));
+    a["between"] = {0.3, 0.5};
+    json wanted = uncertain_study("linear=1", 60,
+                                  {a, parameter("b", "/mpm/blending_rate", normal(2.0, 0.2))});
+    wanted["uncertainty"]["target"] = {{"value", target}, {"vary", "a"}};
+    wanted["uncertainty"]["target"].update(more);
+    return wanted;
+}
+
+TEST(Inverse, FindsTheValueThatGivesTheTarget) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    // 10 + 2 (cfl - 0.4) / 0.05, the other at its median: 12 at 0.45. A lattice adds up to 0.1.
+    const std::string run = service.submit(inverse_study(12.0));
+    EXPECT_EQ(service.wait_for_end(run, 120).at("state"), "succeeded");
+    const json answer = service.get("/v1/runs/" + run + "/uncertainty").body;
+    const json& inverse = answer.at("inverse");
+    ASSERT_EQ(inverse.at("state"), "found") << answer.dump();
+    EXPECT_NEAR(inverse.at("value").get<double>(), 0.45, 0.004);
+    EXPECT_TRUE(covers(inverse, "low", "high", 0.45)) << inverse.dump();
+    EXPECT_LT(inverse.at("high").get<double>() - inverse.at("low").get<double>(), 0.01);
+    EXPECT_GT(inverse.at("noise").get<double>(), 0.0);
+    const json& steps = inverse.at("steps");
+    EXPECT_GT(steps.size(), 3u) << "both ends, and halves between them";
+    for (const json& each : steps) EXPECT_EQ(each.at("results").size(), 3u) << each.dump();
+    EXPECT_TRUE(answer.at("quantities").empty()) << "values that are searched have no percentiles";
+    const json tasks = service.get("/v1/runs/" + run).body.at("tasks");
+    EXPECT_EQ(std::ranges::count_if(
+                  tasks, [](const json& each) { return each.at("phase") == "fem_solver"; }),
+              1)
+        << "what only the MPM reads shares the FEM";
+}
+
+TEST(Inverse, GoesOnAfterAKill) {
+    const Sandbox sandbox;
+    const std::string run = [&] {
+        Service service(sandbox);
+        const std::string id = service.submit(inverse_study(12.0));
+        const std::string page = "/v1/runs/" + id + "/uncertainty";
+        EXPECT_TRUE(eventually(
+            [&] { return service.get(page).body.at("inverse").at("steps").size() > 2; }, 60));
+        service.kill_at_once();
+        return id;
+    }();
+    Service service(sandbox);
+    service.wait_for_end(run, 120);
+    const json inverse = service.get("/v1/runs/" + run + "/uncertainty").body.at("inverse");
+    EXPECT_EQ(inverse.at("state"), "found");
+    EXPECT_NEAR(inverse.at("value").get<double>(), 0.45, 0.004);
+}
+
+TEST(Inverse, RefusesATargetOutsideOfWhatTheEndsGive) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(inverse_study(215.0, {{"draws", 1}}));
+    service.wait_for_end(run, 60);
+    const json answer = service.get("/v1/runs/" + run + "/uncertainty").body;
+    EXPECT_EQ(answer.at("inverse").at("state"), "refused");
+    EXPECT_EQ(answer.at("inverse").at("reason"),
+              "runout_beyond_toe is 6 m at 0.3 and 14 m at 0.5: 215 m is not between them");
+    EXPECT_EQ(answer.at("inverse").at("steps").size(), 2u);
+}
+
+TEST(Inverse, FaultsAreToldWithTheirPlace) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const auto refused = [&](const json& study) {
+        const Answer answer = service.post("/v1/runs", study.dump());
+        EXPECT_EQ(answer.status, 422) << answer.text;
+        return answer.text;
+    };
+    EXPECT_NE(refused(inverse_study(12.0, {{"vary", "c"}})).find("/uncertainty/target/vary"),
+              std::string::npos);
+    EXPECT_NE(refused(inverse_study(12.0, {{"vary", "b"}})).find("has no ends to search between"),
+              std::string::npos);
+    EXPECT_NE(
+        refused(inverse_study(12.0, {{"quantity", "beauty"}})).find("/uncertainty/target/quantity"),
+        std::string::npos);
+}
+
 TEST(Uncertainty, OfAnotherStudyThereIsNone) {
     const Sandbox sandbox;
     Service service(sandbox);
