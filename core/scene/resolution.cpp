@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <string_view>
 #include <tuple>
@@ -319,11 +321,7 @@ void judge_bands(const Scene& scene, Resolved& resolved) {
     }
 }
 
-}  // namespace
-
-double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached) {
-    std::vector<Polygon> parts = attached;
-    parts.push_back(polygon);
+double measured_thickness(const Polygon& polygon, const std::vector<Polygon>& parts) {
     const Shape shape = shape_of(parts);
     const std::vector<Vec2> places = places_inside(polygon);
     std::vector<Disc> discs;
@@ -344,6 +342,44 @@ double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached
     const auto middle = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 2);
     std::ranges::nth_element(thickness, middle);
     return *middle;
+}
+
+/// What was measured lately: the variants of a study have most of their shapes in common, and are
+/// checked by several threads.
+class KnownThicknesses {
+  public:
+    template <class Measure>
+    double of(const std::vector<Polygon>& parts, Measure measure) {
+        std::vector<double> key;
+        for (const Polygon& part : parts) {
+            key.push_back(static_cast<double>(part.size()));
+            for (const Vec2& vertex : part) key.insert(key.end(), {vertex.x(), vertex.y()});
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            if (const auto known = known_.find(key); known != known_.end()) return known->second;
+        }
+        const double thickness = measure();
+        const std::lock_guard lock(mutex_);
+        if (known_.size() >= most) known_.clear();
+        known_.emplace(std::move(key), thickness);
+        return thickness;
+    }
+
+  private:
+    static constexpr std::size_t most = 256;
+    std::mutex mutex_;
+    std::map<std::vector<double>, double> known_;
+};
+
+KnownThicknesses known_thicknesses;
+
+}  // namespace
+
+double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached) {
+    std::vector<Polygon> parts = attached;
+    parts.push_back(polygon);
+    return known_thicknesses.of(parts, [&] { return measured_thickness(polygon, parts); });
 }
 
 double mobile_height(const Scene& scene, const Mpm& mpm) {

@@ -52,7 +52,9 @@ int serve(const ServeSettings& settings) {
     ProgressBoard board;
     const std::unique_ptr<Executor> executor = executor_of(settings);
     FrameReader frames;
-    Dispatcher dispatcher(store, data, *executor, board, settings.dispatch);
+    DispatchSettings dispatch = settings.dispatch;
+    dispatch.numerics = numerics;
+    Dispatcher dispatcher(store, data, *executor, board, dispatch);
     Retention retention(store, data, settings.retention);
     Service service{store,
                     data,

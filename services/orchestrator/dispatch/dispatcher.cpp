@@ -65,6 +65,7 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
       board_(board),
       settings_(std::move(settings)),
       triggers_(store, data),
+      batches_(store, data, settings_.numerics),
       registrar_(store, data,
                  [this](const std::string& task) {
                      {
@@ -162,6 +163,7 @@ void Dispatcher::look_around() {
     }
     forget_the_ended();
     triggers_.look();
+    if (batches_.look()) settle_all();
     release_retries();
     if (unsettled_.exchange(false)) {
         for (const std::string& parent : store_.parents_of_blocked()) {

@@ -19,6 +19,7 @@
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/files/folder_watch.hpp"
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/triggers/batch_watch.hpp"
 #include "services/orchestrator/triggers/trigger_watch.hpp"
 
 namespace breach::orchestrator {
@@ -31,6 +32,7 @@ struct DispatchSettings {
     double grace_seconds = 5;                   ///< between TERM and KILL
     std::int64_t most_tries = 4;
     std::chrono::milliseconds retry_delay{500};  ///< doubled with each further try
+    Numerics numerics = {};  ///< of the programs in `bin`, as they say it
 };
 
 /// Wakes the dispatcher's thread out of its poll; may be rung by any thread.
@@ -128,6 +130,7 @@ class Dispatcher {
     DispatchSettings settings_;
     FolderWatch watch_;
     TriggerWatch triggers_;
+    BatchWatch batches_;
     Bell bell_;             // before those whose threads ring it: it goes after them
     std::stop_token stop_;  ///< of the serving thread
     std::list<Live> live_;

@@ -219,20 +219,28 @@ void extend_sweep(Service& service, Call& call) {
         throw Problem{409, "/problems/cancelled", "Cancelled",
                       "the sweep was cancelled; retry it first, or submit another"};
     const json body = json::parse(call.json_body(), nullptr, false);
-    if (!body.is_object() || body.size() != 1 || !body.contains("transfer_times"))
-        throw bad_request("the body must be {\"transfer_times\": [...] or {from, to, step}}");
+    const bool samples = body.is_object() && body.contains("samples");
+    if (!body.is_object() || body.size() != 1 || !(samples || body.contains("transfer_times")))
+        throw bad_request(
+            "the body must be {\"transfer_times\": [...] or {from, to, step}} or {\"samples\": N}");
+    if (samples && (!body["samples"].is_number_unsigned() || body["samples"] < 1))
+        throw bad_request("samples must be a whole number above 0: so many in all");
     const RunSoFar so_far{.study = service.store.study_of(id).value(),
                           .scene = service.store.scene_of(id).value(),
                           .tasks = service.store.tasks_of(id)};
     const Extension extension =
-        plan_extension(so_far, service.data, service.numerics, body["transfer_times"]);
-    if (!extension.tasks.empty()) {
+        samples ? plan_more_samples(so_far, service.data, service.numerics,
+                                    body["samples"].get<std::size_t>(),
+                                    body["samples"].get<std::size_t>())
+                : plan_extension(so_far, service.data, service.numerics, body["transfer_times"]);
+    if (!extension.tasks.empty() || !extension.samples.empty()) {
         service.store.write(
             [&](Transaction& transaction) { transaction.extend_run(id, extension); });
         service.dispatcher.settle_all();
     }
     json answer = sweep_json(service, wanted_run(service, id));
     answer["added"] = extension.times;
+    answer["added_samples"] = extension.samples;
     reply(call.response, answer, 202);
 }
 

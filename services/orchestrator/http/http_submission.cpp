@@ -10,6 +10,7 @@
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
+#include "services/orchestrator/triggers/batch_watch.hpp"
 
 namespace breach::orchestrator {
 
@@ -71,10 +72,6 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
     std::vector<std::string> files;
     for (const auto& each : scene::references_in({study.scene, study.document}))
         files.push_back(each.sha256);
-    // What a FEM was asked for on its way does not follow from its scene.
-    if (!study.triggers.empty() && study.snapshot_interval <= 0.0)
-        for (TaskPlan& each : graph.tasks)
-            if (each.phase == phases::fem.program) each.recipe.clear();
     const std::size_t states = std::max<std::size_t>(1, study.transfer_times.size());
     return {.id = new_run_id(),
             .name = study.name,
@@ -85,6 +82,7 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .recipes = std::move(graph.recipes),
             .triggers = study.triggers,
             .firing_plan = std::move(graph.one_more_transfer),
+            .batches = batches_of(study),
             .priority = study.priority,
             .sweep = study.variants.size() * states > 1,
             .files = std::move(files)};

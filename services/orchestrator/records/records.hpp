@@ -67,6 +67,7 @@ struct NewRun {
     std::vector<Recipe> recipes = {};
     std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
     std::vector<TaskPlan> firing_plan = {};  ///< of one more transfer (firing_plan.hpp)
+    std::optional<TriggerPlan> batches = {};  ///< draws more samples (triggers/batch_watch.hpp)
     std::int64_t priority = 0;               ///< higher goes first
     bool sweep = false;                      ///< several points, or asked for as a sweep
     std::vector<std::string> files = {};     ///< SHA-256 of stored files that its scenes name
@@ -78,12 +79,15 @@ struct AddedTask {
     std::optional<std::string> parent;
 };
 
-/// More transfer times for a run that exists.
+/// More transfer times, or more samples, for a run that exists.
 struct Extension {
     std::vector<double> times;     ///< those that are new
+    std::vector<std::string> samples = {};  ///< likewise: variants of an uncertainty study
     std::vector<AddedTask> tasks;  ///< parents first
     std::vector<Recipe> recipes;
-    nlohmann::json study;  ///< the study's document with all times
+    nlohmann::json study;  ///< the study's document with all of them
+    std::vector<TaskPlan> firing_plan = {};  ///< with the new samples; empty: as it was
+    std::vector<TriggerPlan> triggers = {};  ///< for FEMs that are added
 };
 
 struct Run {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_rounds = 20;
 constexpr double near_enough = 1e-3;
+constexpr std::size_t most_rows_to_swap = 256;
 
 Matrix square(std::size_t n) { return Matrix(n, std::vector<double>(n, 0.0)); }
 
@@ -123,6 +124,54 @@ Matrix of_normal(const Matrix& rank) {
     return cholesky(normal) ? normal : rank;
 }
 
+/// Swaps places within a dimension while that brings the correlations nearer to the wanted ones: what
+/// Iman & Conover's order leaves where rows are few.
+class Swapping {
+  public:
+    Swapping(Columns& columns, const Matrix& wanted)
+        : columns_(columns), ranks_(ranks_of_columns(columns)), miss_(correlations(ranks_)) {
+        const double middle = 0.5 * (static_cast<double>(ranks_.front().size()) + 1.0);
+        for (const double each : ranks_.front()) scale_ += (each - middle) * (each - middle);
+        for (std::size_t a = 0; a < wanted.size(); ++a)
+            for (std::size_t b = 0; b < wanted.size(); ++b) miss_[a][b] -= wanted[a][b];
+    }
+
+    void settle() {
+        constexpr int most_sweeps = 10;
+        const std::size_t rows = ranks_.front().size();
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            bool moved = false;
+            for (std::size_t d = 1; d < columns_.size(); ++d)
+                for (std::size_t i = 0; i < rows; ++i)
+                    for (std::size_t j = 0; j < i; ++j) moved |= swap_if_nearer(d, i, j);
+            if (!moved) return;
+        }
+    }
+
+  private:
+    bool swap_if_nearer(std::size_t d, std::size_t i, std::size_t j) {
+        constexpr double worth_it = 1e-9;
+        const double step = (ranks_[d][j] - ranks_[d][i]) / scale_;
+        double gain = 0.0;
+        for (std::size_t k = 0; k < ranks_.size(); ++k) {
+            if (k == d) continue;
+            const double moved = miss_[d][k] + step * (ranks_[k][i] - ranks_[k][j]);
+            gain += miss_[d][k] * miss_[d][k] - moved * moved;
+        }
+        if (gain < worth_it) return false;
+        for (std::size_t k = 0; k < ranks_.size(); ++k)
+            if (k != d) miss_[k][d] = miss_[d][k] += step * (ranks_[k][i] - ranks_[k][j]);
+        std::swap(ranks_[d][i], ranks_[d][j]);
+        std::swap(columns_[d][i], columns_[d][j]);
+        return true;
+    }
+
+    Columns& columns_;
+    Columns ranks_;
+    Matrix miss_;         ///< reached less wanted
+    double scale_ = 0.0;  ///< sum of squares of the ranks about their mean
+};
+
 }  // namespace
 
 std::optional<Matrix> cholesky(const Matrix& matrix) {
@@ -185,6 +234,7 @@ void correlate(Points& points, std::size_t from, std::size_t to, const Matrix& w
         best_miss = miss;
         best = std::move(placed);
     }
+    if (best_miss > near_enough && to - from <= most_rows_to_swap) Swapping(best, wanted).settle();
     for (std::size_t i = from; i < to; ++i)
         for (std::size_t d = 0; d < best.size(); ++d) points[i][d] = best[d][i - from];
 }

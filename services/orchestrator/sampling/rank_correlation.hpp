@@ -24,7 +24,8 @@ Matrix rank_correlations(const Points& points, std::size_t from, std::size_t to)
 
 /// Reorders each dimension of the rows [from, to) so that their rank correlations come as near to the
 /// wanted ones as they do (Iman & Conover 1982, with van der Waerden's scores; what is left is added
-/// to the target, up to 20 times, and the best order is kept). Every dimension keeps its values. Rows
+/// to the target, up to 20 times, and the best order is kept; up to 256 rows are then swapped in pairs
+/// as long as that helps). Every dimension keeps its values. Rows
 /// that are no more than the dimensions stay as they are. wanted: positive definite.
 void correlate(Points& points, std::size_t from, std::size_t to, const Matrix& wanted);
 

@@ -94,6 +94,8 @@ class Store {
 
     /// Of FEMs that have begun.
     std::vector<Trigger> open_triggers() const;
+    /// Those that draw more samples (triggers/batch_watch.hpp).
+    std::vector<Trigger> open_batches() const;
     std::vector<Trigger> triggers_of(const std::string& run) const;
     std::vector<FiringRow> firings_of(const std::string& run) const;
     /// A bisect's transfers, ascending in time; of several variants the first counts.

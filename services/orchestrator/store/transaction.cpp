@@ -1,5 +1,6 @@
 #include "services/orchestrator/store/transaction.hpp"
 
+#include "core/phases/phases.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
@@ -75,7 +76,11 @@ void Transaction::extend_run(const std::string& run, const Extension& extension)
         if (each.plan.parent) parent = ids[*each.plan.parent];
         ids.push_back(task_id(run, static_cast<std::size_t>(next_ordinal(run))));
         insert_task(run, ids.back(), each.plan, parent, priority, first_state(each.plan));
+        if (each.plan.phase == phases::fem.program)
+            for (const TriggerPlan& trigger : extension.triggers)
+                add_trigger(run, ids.back(), trigger);
     }
+    if (!extension.samples.empty()) add_samples(run, extension);
 }
 
 void Transaction::add_recipes(const std::vector<Recipe>& recipes) {

@@ -66,6 +66,8 @@ class Transaction {
     bool cancel_run(const std::string& run, const std::string& why);
     /// More tasks for a run that exists; `study`: its document from now on.
     void extend_run(const std::string& run, const Extension& extension);
+    /// Whether it is armed or holding.
+    bool is_open(const std::string& trigger) const;
     /// False: no such run.
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
@@ -117,6 +119,7 @@ class Transaction {
                      TaskState state);
     std::int64_t next_ordinal(const std::string& run);
     void add_triggers(const NewRun& run);
+    void add_samples(const std::string& run, const Extension& extension);
     void disarm_triggers(const std::string& run, const std::string& why);
     std::vector<Trigger> triggers_to_rearm(const std::string& run,
                                            const std::set<std::string>& tasks_tried_again) const;

@@ -37,6 +37,32 @@ void Transaction::add_triggers(const NewRun& run) {
         if (run.tasks[i].phase != phases::fem.program) continue;
         for (const TriggerPlan& each : run.triggers) add_trigger(run.id, task_id(run.id, i), each);
     }
+    if (run.batches && !run.tasks.empty())
+        add_trigger(run.id, task_id(run.id, 0), *run.batches);
+}
+
+/// Their places in tables, and their tasks where triggers have fired already.
+void Transaction::add_samples(const std::string& run, const Extension& extension) {
+    database_.change(
+        "INSERT OR IGNORE INTO variants (run, name, place) SELECT ?1, json_extract(value, "
+        "'$.name'), key FROM json_each(?2, '$.variants')",
+        {run, extension.study.dump()});
+    if (extension.firing_plan.empty()) return;
+    database_.change("UPDATE firing_plans SET tasks=? WHERE run=?",
+                     {json(extension.firing_plan).dump(), run});
+    std::vector<std::pair<std::string, double>> fired;
+    database_.query(
+        "SELECT DISTINCT triggers.fem_task, firings.transfer_time FROM firings JOIN triggers ON "
+        "triggers.id = firings.trigger WHERE triggers.run=?",
+        {run}, [&](const Row& row) { fired.emplace_back(row.text(0), row.real(1)); });
+    for (const auto& [fem_task, time] : fired) add_transfer(run, fem_task, time);
+}
+
+bool Transaction::is_open(const std::string& trigger) const {
+    bool open = false;
+    database_.query("SELECT 1 FROM triggers WHERE id=? AND state IN ('armed', 'holding')",
+                    {trigger}, [&](const Row&) { open = true; });
+    return open;
 }
 
 std::string Transaction::add_trigger(const std::string& run, const std::string& fem_task,
@@ -166,8 +192,21 @@ std::vector<Trigger> Store::open_triggers() const {
     std::vector<Trigger> found;
     read([&](Connection& database) {
         database.query(std::string(trigger_columns) +
-                           "WHERE state IN ('armed', 'holding') AND fem_task IN (SELECT id FROM "
+                           "WHERE state IN ('armed', 'holding') AND "
+                           "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) "
+                           "IS NULL AND fem_task IN (SELECT id FROM "
                            "tasks WHERE state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
+                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Trigger> Store::open_batches() const {
+    std::vector<Trigger> found;
+    read([&](Connection& database) {
+        database.query(std::string(trigger_columns) +
+                           "WHERE state IN ('armed', 'holding') AND coalesce(json_extract(spec, "
+                           "'$.percentile'), json_extract(spec, '$.target')) IS NOT NULL ORDER BY id",
                        {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;

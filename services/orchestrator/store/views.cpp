@@ -73,7 +73,7 @@ const std::vector<Expression> own_columns{
      "(SELECT json_extract(lem.result, '$.factor_of_safety') FROM tasks AS lem"
      "\n        WHERE lem.run = mpm.run AND lem.phase = '" +
          std::string(phases::lem.program) +
-         "'\n        AND lem.variant IN (mpm.variant, '') LIMIT 1)"},
+         "'\n        AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1)"},
     {"questionable", "CASE WHEN mpm.result IS NULL THEN NULL WHEN " + is_questionable +
                          " THEN 1 WHEN " + is_judged + " THEN 0 END"},
     {"flags", "CASE WHEN " + is_judged +

@@ -117,6 +117,10 @@ class Planner {
         graph.tasks = std::move(tasks_).named();
         graph.one_more_transfer = std::move(open_).named();
         for (auto& [hash, each] : recipes_) graph.recipes.push_back(std::move(each));
+        // What a FEM was asked for on its way does not follow from its scene.
+        if (!study_.triggers.empty() && study_.snapshot_interval <= 0.0)
+            for (TaskPlan& each : graph.tasks)
+                if (each.phase == phases::fem.program) each.recipe.clear();
         return graph;
     }
 

@@ -105,6 +105,11 @@ void place_transfer(json& document, std::vector<Fault>& faults) {
     const json& entry = document.at("uncertainty");
     if (!entry.contains("transfer")) return;
     const json& transfer = entry.at("transfer");
+    if (transfer.size() != 1) {
+        faults.push_back({"/uncertainty/transfer", "gives a time and a trigger",
+                          "give one of \"times\" and \"trigger\""});
+        return;
+    }
     const json own = document.value("transfer_times", json());
     if (transfer.contains("times")) {
         if (!own.is_null() && own != transfer.at("times")) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <set>
+#include <thread>
 
 #include "core/check/check.hpp"
 #include "core/criteria/expression.hpp"
@@ -247,23 +250,57 @@ json as_json(const std::vector<VariantEntry>& entries) {
     return list;
 }
 
+/// One variant's scene as it was checked.
+struct CheckedVariant {
+    json scene;  ///< completed; null where it has faults
+    std::vector<Fault> faults;
+};
+
+CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
+                               const std::vector<double>& times) {
+    std::vector<std::string> overrides = base.overrides;
+    overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
+    const check::Checked changed = check_sent_scene(base.scene, overrides, base.folder);
+    CheckedVariant variant{.scene = nullptr, .faults = faults_of_variant(changed, base, times)};
+    if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
+    return variant;
+}
+
+/// All of them, on several threads where they are many: no variant's check hangs on another's.
+std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries,
+                                         const Base& base, const std::vector<double>& times) {
+    constexpr std::size_t worth_a_thread = 50;
+    const std::size_t threads = std::clamp<std::size_t>(
+        std::min<std::size_t>(std::thread::hardware_concurrency(), entries.size() / worth_a_thread),
+        1, 8);
+    std::vector<CheckedVariant> checked(entries.size());
+    const auto check_from = [&](std::size_t first) {
+        for (std::size_t i = first; i < entries.size(); i += threads)
+            checked[i] = checked_variant(entries[i], base, times);
+    };
+    std::vector<std::future<void>> others;
+    for (std::size_t first = 1; first < threads; ++first)
+        others.push_back(std::async(std::launch::async, check_from, first));
+    check_from(0);
+    for (std::future<void>& each : others) each.get();
+    return checked;
+}
+
 /// Each variant's scene, checked and completed; faults are those of its overrides.
 std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, const Base& base,
                                       const std::vector<double>& times,
                                       std::vector<Fault>& faults) {
     if (entries.empty()) return {{.name = "", .overrides = {}, .scene = base.scene}};
     std::vector<Variant> variants;
-    for (const VariantEntry& entry : entries) {
-        Variant variant{.name = entry.name, .overrides = entry.overrides, .scene = nullptr};
-        if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
-            faults.push_back({entry.name_pointer,
-                              "the name \"" + variant.name + "\" is given twice",
+    std::set<std::string> names;
+    std::vector<CheckedVariant> checked = each_checked(entries, base, times);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const VariantEntry& entry = entries[i];
+        if (!names.insert(entry.name).second) {
+            faults.push_back({entry.name_pointer, "the name \"" + entry.name + "\" is given twice",
                               "give each variant a name of its own"});
         }
-        std::vector<std::string> overrides = base.overrides;
-        overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
-        const check::Checked changed = check_sent_scene(base.scene, overrides, base.folder);
-        for (const Fault& each : faults_of_variant(changed, base, times)) {
+        for (const Fault& each : checked[i].faults) {
             const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
             const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
                               each.pointer + ": " + each.cause,
@@ -273,8 +310,9 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
             });
             if (!told) faults.push_back(fault);
         }
-        if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
-        variants.push_back(std::move(variant));
+        variants.push_back({.name = entry.name,
+                            .overrides = entry.overrides,
+                            .scene = std::move(checked[i].scene)});
     }
     return variants;
 }

@@ -33,28 +33,9 @@ std::string free_label(const std::map<std::string, Task>& present, const std::st
     return stem + "_" + std::to_string(number);
 }
 
-}  // namespace
-
-Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
-                         const json& wanted) {
-    std::map<std::string, Task> present;
-    std::vector<double> known;
-    for (const Task& each : run.tasks) {
-        if (each.phase == phases::transfer.program) known.push_back(*each.transfer_time);
-        present.emplace(each.label, each);
-    }
-    Extension extension;
-    for (const double time : study_with(run, data, wanted).transfer_times)
-        if (!contains(known, time)) extension.times.push_back(time);
-    std::vector<double> all = known;
-    all.insert(all.end(), extension.times.begin(), extension.times.end());
-    std::ranges::sort(all);
-    const auto repeated = std::ranges::unique(all);  // variants
-    all.erase(repeated.begin(), repeated.end());
-
-    const Study study = study_with(run, data, all);
-    extension.study = study.document;
-    TaskGraph graph = plan_tasks(study, numerics);
+/// Of the graph, what the run does not have; FEMs that lack a snapshot of the new times again.
+void add_missing_tasks(TaskGraph graph, const std::map<std::string, Task>& present,
+                       const DataFolder& data, Extension& extension) {
     extension.recipes = std::move(graph.recipes);
     const auto has_snapshots = [&](const Task& fem) {
         return std::ranges::all_of(extension.times, [&](double time) {
@@ -86,6 +67,64 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
         added[i] = extension.tasks.size();
         extension.tasks.push_back(std::move(task));
     }
+}
+
+}  // namespace
+
+Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                         const json& wanted) {
+    std::map<std::string, Task> present;
+    std::vector<double> known;
+    for (const Task& each : run.tasks) {
+        if (each.phase == phases::transfer.program) known.push_back(*each.transfer_time);
+        present.emplace(each.label, each);
+    }
+    Extension extension;
+    for (const double time : study_with(run, data, wanted).transfer_times)
+        if (!contains(known, time)) extension.times.push_back(time);
+    std::vector<double> all = known;
+    all.insert(all.end(), extension.times.begin(), extension.times.end());
+    std::ranges::sort(all);
+    const auto repeated = std::ranges::unique(all);  // variants
+    all.erase(repeated.begin(), repeated.end());
+
+    const Study study = study_with(run, data, all);
+    extension.study = study.document;
+    add_missing_tasks(plan_tasks(study, numerics), present, data, extension);
+    return extension;
+}
+
+Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                            std::size_t drawn, std::size_t asked) {
+    json document = run.study;
+    if (!document.contains("uncertainty"))
+        throw fault::BadInput("request", {{"/samples", "the run is of no uncertainty study",
+                                           "extend it by transfer_times, or submit a study with "
+                                           "\"uncertainty\""}});
+    json& entry = document["uncertainty"];
+    const std::size_t before = entry.at("drawn");
+    entry["samples"] = std::max<std::size_t>(asked, entry.at("samples"));
+    entry["drawn"] = std::max(drawn, before);
+    return plan_more_variants(run, data, numerics, entry);
+}
+
+Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                             const json& entry) {
+    json document = run.study;
+    const std::size_t before = document.at("variants").size();
+    document["uncertainty"] = entry;
+    document["scene"] = json::parse(run.scene);
+    const Study study = read_study(document.dump(), data.root());
+    std::map<std::string, Task> present;
+    for (const Task& each : run.tasks) present.emplace(each.label, each);
+    Extension extension;
+    extension.study = study.document;
+    for (std::size_t i = before; i < study.variants.size(); ++i)
+        extension.samples.push_back(study.variants[i].name);
+    TaskGraph graph = plan_tasks(study, numerics);
+    extension.firing_plan = std::move(graph.one_more_transfer);
+    extension.triggers = study.triggers;
+    add_missing_tasks(std::move(graph), present, data, extension);
     return extension;
 }
 

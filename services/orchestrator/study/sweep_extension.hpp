@@ -1,4 +1,5 @@
-// More transfer times for a run that exists. What was computed stays; the FEM is run again only
+// More transfer times, or more samples, for a run that exists. What was computed stays. For more times
+// the FEM is run again only
 // when a snapshot is missing, and then with all times, so that it is the FEM of the whole sweep
 // submitted at once (and is found in the cache by such a study).
 #pragma once
@@ -17,5 +18,15 @@ struct RunSoFar {
 /// `wanted`: "transfer_times" as in a study, list or range. Throws BadInput.
 Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                          const nlohmann::json& wanted);
+
+/// So many samples are drawn and so many asked for in all, of an uncertainty study: the first stay.
+/// Throws BadInput.
+Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                            std::size_t drawn, std::size_t asked);
+
+/// What the study has more with this entry "uncertainty": samples, or values of an inverse study, behind
+/// those that it has. Throws BadInput.
+Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                             const nlohmann::json& entry);
 
 }  // namespace breach::orchestrator

@@ -1,0 +1,53 @@
+// Gives uncertainty studies more variants: inverse studies the next value of the parameter, until the
+// target is met (ensemble/inverse_search.hpp); those with "until" more samples, a batch at a time, until the percentile is
+// known well enough or all samples that were asked for are drawn. Runs on the dispatcher's thread.
+//
+// In the store it is a trigger, a criterion on results (its spec has a "percentile" or a "target") that stands on the
+// run's first task: while it is armed the run is not over, and cancelling disarms it. What it decides is a function of the results that are stored:
+// after a kill -9 it comes to the same.
+#pragma once
+
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/study/study.hpp"
+
+namespace breach::orchestrator {
+
+/// The trigger of a study with "until" or "target"; nothing for others.
+std::optional<TriggerPlan> batches_of(const Study& study);
+
+/// How well a percentile is known.
+struct Narrowness {
+    std::size_t samples;                 ///< with a result
+    std::optional<double> value;         ///< of the percentile; nothing: too few samples
+    std::optional<double> half_width{};  ///< of its interval, over its value
+    bool reached = false;
+};
+/// spec: of the trigger.
+Narrowness narrowness_of(const std::vector<double>& results, const nlohmann::json& spec);
+
+class BatchWatch {
+  public:
+    BatchWatch(Store& store, const DataFolder& data, const Numerics& numerics)
+        : store_(store), data_(data), numerics_(numerics) {}
+
+    /// Looks at the runs whose samples have all ended; true: tasks were added. Cheap when nothing was
+    /// stored since the last look.
+    bool look();
+
+  private:
+    bool settle(const Trigger& trigger);
+    bool has_ended(const std::string& run) const;
+    bool draw_on(const Trigger& trigger, const nlohmann::json& study);
+    bool search_on(const Trigger& trigger);
+    bool extend(const Trigger& trigger, const nlohmann::json& study, const nlohmann::json& entry);
+    void end(const Trigger& trigger, TriggerEvent event, const nlohmann::json& result,
+             const std::string& why);
+
+    Store& store_;
+    const DataFolder& data_;
+    const Numerics& numerics_;
+    std::int64_t seen_event_ = -1;
+};
+
+}  // namespace breach::orchestrator
