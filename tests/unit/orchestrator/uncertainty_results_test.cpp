@@ -42,7 +42,7 @@ bool covers(const json& found, const char* low, const char* high, double value) 
     return found.at(low).get<double>() <= value && value <= found.at(high).get<double>();
 }
 
-TEST(Uncertainty, OfALinearModelIsItsClosedForm) {
+TEST(UncertaintyResults, OfALinearModelIsItsClosedForm) {
     const Sandbox sandbox;
     Service service(sandbox);
     const json answer = ended(service, uncertain_study("linear=1", 64, linear_parameters));
@@ -75,7 +75,7 @@ TEST(Uncertainty, OfALinearModelIsItsClosedForm) {
     EXPECT_FALSE(answer.at("sentences").empty());
 }
 
-TEST(Uncertainty, OfIshigamisFunctionIsItsClosedFormAndItsTornadoIsRefused) {
+TEST(UncertaintyResults, OfIshigamisFunctionIsItsClosedFormAndItsTornadoIsRefused) {
     const Sandbox sandbox;
     Service service(sandbox);
     const json parameters{parameter("x1", "/mpm/cfl", uniform(0.2, 0.6)),
@@ -91,7 +91,7 @@ TEST(Uncertainty, OfIshigamisFunctionIsItsClosedFormAndItsTornadoIsRefused) {
     EXPECT_TRUE(found.at("tornado").contains("refused"));
 }
 
-TEST(Uncertainty, SamplesThatFailAreCountedAndSaid) {
+TEST(UncertaintyResults, SamplesThatFailAreCountedAndSaid) {
     const Sandbox sandbox;
     Service service(sandbox);
     // A cfl above 0.4 breaks the MPM: half of the samples.
@@ -116,7 +116,7 @@ TEST(Uncertainty, SamplesThatFailAreCountedAndSaid) {
         << answer.at("sentences").dump();
 }
 
-TEST(Uncertainty, SamplesComeAsCsvWithDrawsAndResults) {
+TEST(UncertaintyResults, SamplesComeAsCsvWithDrawsAndResults) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(uncertain_study("linear=1", 3, linear_parameters));
@@ -142,7 +142,7 @@ json inverse_study(double target, const json& more = json::object()) {
     return wanted;
 }
 
-TEST(Inverse, FindsTheValueThatGivesTheTarget) {
+TEST(InverseStudy, FindsTheValueThatGivesTheTarget) {
     const Sandbox sandbox;
     Service service(sandbox);
     // 10 + 2 (cfl - 0.4) / 0.05, the other at its median: 12 at 0.45. A lattice adds up to 0.1.
@@ -166,7 +166,7 @@ TEST(Inverse, FindsTheValueThatGivesTheTarget) {
         << "what only the MPM reads shares the FEM";
 }
 
-TEST(Inverse, GoesOnAfterAKill) {
+TEST(InverseStudy, GoesOnAfterAKill) {
     const Sandbox sandbox;
     const std::string run = [&] {
         Service service(sandbox);
@@ -184,7 +184,7 @@ TEST(Inverse, GoesOnAfterAKill) {
     EXPECT_NEAR(inverse.at("value").get<double>(), 0.45, 0.004);
 }
 
-TEST(Inverse, RefusesATargetOutsideOfWhatTheEndsGive) {
+TEST(InverseStudy, RefusesATargetOutsideOfWhatTheEndsGive) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(inverse_study(215.0, {{"draws", 1}}));
@@ -196,7 +196,7 @@ TEST(Inverse, RefusesATargetOutsideOfWhatTheEndsGive) {
     EXPECT_EQ(answer.at("inverse").at("steps").size(), 2u);
 }
 
-TEST(Inverse, FaultsAreToldWithTheirPlace) {
+TEST(InverseStudy, FaultsAreToldWithTheirPlace) {
     const Sandbox sandbox;
     Service service(sandbox);
     const auto refused = [&](const json& study) {
@@ -213,7 +213,7 @@ TEST(Inverse, FaultsAreToldWithTheirPlace) {
         std::string::npos);
 }
 
-TEST(Uncertainty, OfAnotherStudyThereIsNone) {
+TEST(UncertaintyResults, OfAnotherStudyThereIsNone) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(study("fem_steps=1 mpm_steps=1", {0.5}));
