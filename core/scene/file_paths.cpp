@@ -46,6 +46,14 @@ void collect_references(const json& value, std::vector<FileReference>& found) {
         found.push_back(*reference);
 }
 
+/// Of an uncertainty study: what one of several motions changes.
+void make_options_absolute(json& uncertainty, const std::filesystem::path& folder) {
+    if (!uncertainty.contains("parameters") || !uncertainty["parameters"].is_array()) return;
+    for (json& each : uncertainty["parameters"])
+        if (each.is_object() && each.contains("one_of") && each["one_of"].is_array())
+            for (json& option : each["one_of"]) make_absolute(option, folder);
+}
+
 /// Of an accuracy study: what all rungs share, and each rung.
 void make_rungs_absolute(json& accuracy, const std::filesystem::path& folder) {
     if (accuracy.contains("base")) make_absolute(accuracy["base"], folder);
@@ -108,6 +116,8 @@ void make_override_files_absolute(json& study, const std::filesystem::path& fold
     if (study.contains("overrides")) make_absolute(study["overrides"], folder);
     if (study.contains("accuracy") && study["accuracy"].is_object())
         make_rungs_absolute(study["accuracy"], folder);
+    if (study.contains("uncertainty") && study["uncertainty"].is_object())
+        make_options_absolute(study["uncertainty"], folder);
     if (!study.contains("variants") || !study["variants"].is_array()) return;
     for (json& each : study["variants"])
         if (each.is_object() && each.contains("overrides"))

@@ -42,6 +42,8 @@ struct Arguments {
     std::string shell;
     SubmitWish submit;
     bool watch = false;
+    bool dry_run = false;
+    std::size_t samples = 0;  ///< in all; 0: it is not asked
     bool strict = false;
     ResultsWish results;
     CheckWish check;
@@ -271,21 +273,32 @@ class CommandLine {
                            return submit_and_watch(s, c);
                        }));
         CLI::App* extend_ =
-            add("extend", "more transfer times for a sweep; what was computed stays",
+            add("extend", "more transfer times, or more samples; what was computed stays",
                 "latest --times 0.75,1.25", [this](Server& s, const Console& c) {
-                    return extend(s, a_.id, a_.submit.transfer_times, c);
+                    return a_.samples > 0 ? extend_samples(s, a_.id, a_.samples, c)
+                                          : extend(s, a_.id, a_.submit.transfer_times, c);
                 });
         take_run(extend_);
-        extend_
-            ->add_option("--times", a_.submit.transfer_times,
+        CLI::Option_group* more = extend_->add_option_group("more");
+        more->add_option("--times", a_.submit.transfer_times,
                          "transfer times, separated by commas [s]")
-            ->delimiter(',')
-            ->required();
+            ->delimiter(',');
+        more->add_option("--samples", a_.samples,
+                         "so many samples in all, of an uncertainty study; the first ones stay")
+            ->check(CLI::Range(1, 10000));
+        more->require_option(1);
     }
 
     void add_run_commands() {
-        take_study(add("submit", "submit a study; prints the run's id", "study.json --watch",
-                       [this](Server& s, const Console& c) { return submit_and_watch(s, c); }));
+        CLI::App* submit_ =
+            add("submit", "submit a study; prints the run's id", "study.json --watch",
+                [this](Server& s, const Console& c) {
+                    return a_.dry_run ? show_plan(s, a_.submit, c) : submit_and_watch(s, c);
+                });
+        take_study(submit_);
+        submit_->add_flag("--dry-run", a_.dry_run,
+                          "submit nothing: what it would cost and, with \"uncertainty\", how many "
+                          "tasks of each phase it would make");
 
         CLI::App* list_ =
             add("list", "the newest runs", "-n 5",

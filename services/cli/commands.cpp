@@ -46,14 +46,39 @@ std::string run_named(Server& server, const std::string& name) {
     return runs.front().at("id");
 }
 
-std::string submit(Server& server, const SubmitWish& wish, const Console& console) {
+namespace {
+
+json post_wish(Server& server, const std::string& door, const SubmitWish& wish,
+               const Console& console) {
     json study = wish.scene.empty() ? read_study(wish.study, wish.overrides)
                                     : study_around(wish.scene, wish.overrides);
     if (!wish.transfer_times.empty()) study["transfer_times"] = wish.transfer_times;
     Headers headers;
     if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
-    const json run = post_study(server, wish.door, std::move(study), headers,
-                                wish.send_files ? Sending::always : Sending::where_needed, console);
+    return post_study(server, door, std::move(study), headers,
+                      wish.send_files ? Sending::always : Sending::where_needed, console);
+}
+
+void show_added(const json& added, const std::string& none, const Console& console) {
+    for (const json& each : added)
+        console.out << (each.is_string() ? each.get<std::string>() : each.dump()) << "\n";
+    if (added.empty()) console.notes << none << "\n";
+}
+
+}  // namespace
+
+ExitCode show_plan(Server& server, const SubmitWish& wish, const Console& console) {
+    const json cost = post_wish(server, "/v1/cost", wish, console);
+    if (console.style == Style::json) {
+        show_json(cost, console);
+    } else {
+        for (const json& each : cost.at("lines")) console.out << each.get<std::string>() << "\n";
+    }
+    return ExitCode::done;
+}
+
+std::string submit(Server& server, const SubmitWish& wish, const Console& console) {
+    const json run = post_wish(server, wish.door, wish, console);
     if (console.style == Style::json) {
         show_json(run, console);
     } else {
@@ -69,8 +94,19 @@ ExitCode extend(Server& server, const std::string& sweep, const std::vector<doub
     if (console.style == Style::json) {
         show_json(answer, console);
     } else {
-        for (const json& each : answer.at("added")) console.out << each.dump() << "\n";
-        if (answer.at("added").empty()) console.notes << "the sweep has all of them\n";
+        show_added(answer.at("added"), "the sweep has all of them", console);
+    }
+    return ExitCode::done;
+}
+
+ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
+                        const Console& console) {
+    const json answer =
+        server.post(path_of({"sweeps", run_named(server, run), "extend"}), {{"samples", samples}});
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        show_added(answer.at("added_samples"), "the run has as many", console);
     }
     return ExitCode::done;
 }

@@ -27,6 +27,14 @@ struct SubmitWish {
 /// Prints the new run's id, and returns it.
 std::string submit(Server& server, const SubmitWish& wish, const Console& console);
 
+/// What the study would cost and, of an uncertainty study, how many tasks it would make: nothing is
+/// submitted. Faults as for submitting.
+fault::ExitCode show_plan(Server& server, const SubmitWish& wish, const Console& console);
+
+/// So many samples in all for an uncertainty study; prints those that are new to it.
+fault::ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
+                               const Console& console);
+
 /// More transfer times [s] for a sweep; prints those that are new to it.
 fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
                        const Console& console);

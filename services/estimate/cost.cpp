@@ -146,6 +146,11 @@ std::string disk_of(const Range& bytes) {
 
 /// How often a study runs the phase: at least and at most, as what variants share is computed once.
 Range times_of(const std::string& phase, const Repeats& repeats) {
+    if (!repeats.tasks.empty()) {
+        const auto planned = repeats.tasks.find(phase);
+        const double count = planned == repeats.tasks.end() ? 0.0 : planned->second;
+        return {count, count};
+    }
     const bool per_runout = phase == phases::transfer.program || phase == phases::mpm.program;
     if (per_runout) return {repeats.runouts, repeats.runouts};
     return {1.0, phase == phases::fem.program ? repeats.variants : 1.0};
@@ -229,6 +234,10 @@ Repeats repeats_of(const json& document) {
         repeats.variants = std::max<double>(1.0, static_cast<double>(list->size()));
     if (const auto draws = document.find("draws"); draws != document.end() && draws->is_number())
         repeats.variants *= std::max(1.0, draws->get<double>());
+    if (const auto entry = document.find("uncertainty");
+        entry != document.end() && entry->is_object() && entry->contains("samples") &&
+        entry->at("samples").is_number())
+        repeats.variants = std::max(1.0, entry->at("samples").get<double>());
     repeats.runouts = repeats.variants;
     if (const auto times = document.find("transfer_times"); times != document.end())
         repeats.runouts *= std::max(1.0, length_of(*times));
@@ -251,7 +260,9 @@ std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Rep
     if (costs.empty()) return {"Cost: the scene asks for no phase"};
     const Sum sum = sum_of(costs, repeats);
     std::string all = "All";
-    if (repeats.runouts > 1.0) all += ", with " + counted(repeats.runouts) + " runouts";
+    if (repeats.tasks.empty() && repeats.runouts > 1.0)
+        all += ", with " + counted(repeats.runouts) + " runouts";
+    for (const auto& [phase, count] : repeats.tasks) all += ", " + counted(count) + " " + phase;
     lines.push_back(all + ": " + time_of(sum.cpu_seconds) + ", " + disk_of(sum.bytes));
     return lines;
 }
@@ -270,11 +281,13 @@ json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
                           {"basis", each.basis}});
     }
     const Sum sum = sum_of(costs, repeats);
-    return {{"phases", phases},
+    json answer{{"phases", phases},
             {"runouts", repeats.runouts},
             {"cpu_seconds", both(sum.cpu_seconds)},
             {"bytes", both(sum.bytes)},
             {"lines", lines_of(costs, repeats)}};
+    for (const auto& [phase, count] : repeats.tasks) answer["tasks"][phase] = std::llround(count);
+    return answer;
 }
 
 }  // namespace breach::estimate

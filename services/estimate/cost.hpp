@@ -2,6 +2,7 @@
 // each phase, as ranges. From the scene alone, better with its mesh, best with earlier runs of it.
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -51,11 +52,12 @@ struct Earlier {
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier);
 
-/// How often a study runs each phase as far as its document says so: draws, variants and transfer
-/// times multiplied; what triggers add is not known.
+/// How often a study runs each phase as far as its document says so: draws, variants (or samples) and
+/// transfer times multiplied; what triggers add is not known.
 struct Repeats {
     double runouts = 1.0;
     double variants = 1.0;
+    std::map<std::string, double> tasks = {};  ///< by phase, where they have been planned: exact
 };
 /// Of a study, checked or not; of anything else one.
 Repeats repeats_of(const nlohmann::json& document);

@@ -8,6 +8,7 @@
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
+#include "services/orchestrator/study/graph.hpp"
 #include "services/report/section/mesh_question.hpp"
 
 namespace breach::orchestrator {
@@ -40,6 +41,22 @@ std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::
     std::vector<estimate::PhaseCost> costs = estimate::cost_of(scene, mesh);
     estimate::learn(costs, scene.name, earlier_costs(service.store));
     return costs;
+}
+
+/// How many tasks an uncertainty study makes, with all samples that it asks for: what samples share is
+/// counted once.
+estimate::Repeats repeats_here(const Service& service, json document) {
+    estimate::Repeats repeats = estimate::repeats_of(document);
+    if (!document.is_object() || !document.contains("uncertainty")) return repeats;
+    json& entry = document["uncertainty"];
+    if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
+    const TaskGraph graph =
+        plan_tasks(sent_study(document.dump(), service.data.root()), service.numerics);
+    for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
+    if (!repeats.tasks.contains(phases::mpm.program))  // where a trigger fires
+        for (const TaskPlan& each : graph.one_more_transfer)
+            if (each.phase != phases::fem.program) ++repeats.tasks[each.phase];
+    return repeats;
 }
 
 report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) {
@@ -76,7 +93,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
     if (!draft.faults.empty()) throw refusal_of(draft);
-    return estimate::as_json(cost_here(service, draft.scene), estimate::repeats_of(document));
+    return estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
 }
 
 }  // namespace breach::orchestrator
