@@ -282,10 +282,10 @@ json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
     }
     const Sum sum = sum_of(costs, repeats);
     json answer{{"phases", phases},
-            {"runouts", repeats.runouts},
-            {"cpu_seconds", both(sum.cpu_seconds)},
-            {"bytes", both(sum.bytes)},
-            {"lines", lines_of(costs, repeats)}};
+                {"runouts", repeats.runouts},
+                {"cpu_seconds", both(sum.cpu_seconds)},
+                {"bytes", both(sum.bytes)},
+                {"lines", lines_of(costs, repeats)}};
     for (const auto& [phase, count] : repeats.tasks) answer["tasks"][phase] = std::llround(count);
     return answer;
 }

@@ -19,6 +19,7 @@
 //     linear=1, ishigami=1   the runout beyond the toe is that function of /mpm/cfl,
 //                            /mpm/blending_rate and /mpm/gimp_half_size (drawn_result)
 //     breaks_from=X          the MPM of a cfl of X or more ends with 70
+//     by_stiffness=1         the runout grows with the square of the MPM's stiffness_scale
 #include <unistd.h>
 
 #include <chrono>
@@ -306,6 +307,10 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
     const bool linear = wish(wanted, "linear", 0) > 0;
     if (linear || wish(wanted, "ishigami", 0) > 0)
         result["runout_beyond_toe"] = drawn_result(own, linear, shift);
+    if (wish(wanted, "by_stiffness", 0) > 0) {
+        const double s = own.at("mpm").at("stiffness_scale");
+        result["runout"] = result["runout"].get<double>() + s * s;
+    }
     end_well(order, result);
 }
 

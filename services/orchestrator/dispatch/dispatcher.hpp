@@ -32,7 +32,7 @@ struct DispatchSettings {
     double grace_seconds = 5;                   ///< between TERM and KILL
     std::int64_t most_tries = 4;
     std::chrono::milliseconds retry_delay{500};  ///< doubled with each further try
-    Numerics numerics = {};  ///< of the programs in `bin`, as they say it
+    Numerics numerics = {};                      ///< of the programs in `bin`, as they say it
 };
 
 /// Wakes the dispatcher's thread out of its poll; may be rung by any thread.

@@ -65,12 +65,12 @@ struct NewRun {
     std::string scene;  ///< the completed scene, JSON
     std::vector<TaskPlan> tasks;
     std::vector<Recipe> recipes = {};
-    std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
-    std::vector<TaskPlan> firing_plan = {};  ///< of one more transfer (firing_plan.hpp)
+    std::vector<TriggerPlan> triggers = {};   ///< to be watched, on each FEM of the run
+    std::vector<TaskPlan> firing_plan = {};   ///< of one more transfer (firing_plan.hpp)
     std::optional<TriggerPlan> batches = {};  ///< draws more samples (triggers/batch_watch.hpp)
-    std::int64_t priority = 0;               ///< higher goes first
-    bool sweep = false;                      ///< several points, or asked for as a sweep
-    std::vector<std::string> files = {};     ///< SHA-256 of stored files that its scenes name
+    std::int64_t priority = 0;                ///< higher goes first
+    bool sweep = false;                       ///< several points, or asked for as a sweep
+    std::vector<std::string> files = {};      ///< SHA-256 of stored files that its scenes name
 };
 
 /// A task that is added to a run: its parent is in the run already, or added before it.
@@ -81,11 +81,11 @@ struct AddedTask {
 
 /// More transfer times, or more samples, for a run that exists.
 struct Extension {
-    std::vector<double> times;     ///< those that are new
+    std::vector<double> times;              ///< those that are new
     std::vector<std::string> samples = {};  ///< likewise: variants of an uncertainty study
-    std::vector<AddedTask> tasks;  ///< parents first
+    std::vector<AddedTask> tasks;           ///< parents first
     std::vector<Recipe> recipes;
-    nlohmann::json study;  ///< the study's document with all of them
+    nlohmann::json study;                    ///< the study's document with all of them
     std::vector<TaskPlan> firing_plan = {};  ///< with the new samples; empty: as it was
     std::vector<TriggerPlan> triggers = {};  ///< for FEMs that are added
 };

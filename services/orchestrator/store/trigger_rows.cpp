@@ -37,8 +37,7 @@ void Transaction::add_triggers(const NewRun& run) {
         if (run.tasks[i].phase != phases::fem.program) continue;
         for (const TriggerPlan& each : run.triggers) add_trigger(run.id, task_id(run.id, i), each);
     }
-    if (run.batches && !run.tasks.empty())
-        add_trigger(run.id, task_id(run.id, 0), *run.batches);
+    if (run.batches && !run.tasks.empty()) add_trigger(run.id, task_id(run.id, 0), *run.batches);
 }
 
 /// Their places in tables, and their tasks where triggers have fired already.
@@ -191,12 +190,13 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
 std::vector<Trigger> Store::open_triggers() const {
     std::vector<Trigger> found;
     read([&](Connection& database) {
-        database.query(std::string(trigger_columns) +
-                           "WHERE state IN ('armed', 'holding') AND "
-                           "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) "
-                           "IS NULL AND fem_task IN (SELECT id FROM "
-                           "tasks WHERE state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
-                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+        database.query(
+            std::string(trigger_columns) +
+                "WHERE state IN ('armed', 'holding') AND "
+                "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) "
+                "IS NULL AND fem_task IN (SELECT id FROM "
+                "tasks WHERE state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
+            {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;
 }
@@ -204,10 +204,11 @@ std::vector<Trigger> Store::open_triggers() const {
 std::vector<Trigger> Store::open_batches() const {
     std::vector<Trigger> found;
     read([&](Connection& database) {
-        database.query(std::string(trigger_columns) +
-                           "WHERE state IN ('armed', 'holding') AND coalesce(json_extract(spec, "
-                           "'$.percentile'), json_extract(spec, '$.target')) IS NOT NULL ORDER BY id",
-                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+        database.query(
+            std::string(trigger_columns) +
+                "WHERE state IN ('armed', 'holding') AND coalesce(json_extract(spec, "
+                "'$.percentile'), json_extract(spec, '$.target')) IS NOT NULL ORDER BY id",
+            {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;
 }

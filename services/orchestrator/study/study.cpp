@@ -267,8 +267,8 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
 }
 
 /// All of them, on several threads where they are many: no variant's check hangs on another's.
-std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries,
-                                         const Base& base, const std::vector<double>& times) {
+std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries, const Base& base,
+                                         const std::vector<double>& times) {
     constexpr std::size_t worth_a_thread = 50;
     const std::size_t threads = std::clamp<std::size_t>(
         std::min<std::size_t>(std::thread::hardware_concurrency(), entries.size() / worth_a_thread),

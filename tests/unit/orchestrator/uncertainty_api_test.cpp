@@ -11,16 +11,16 @@ namespace {
 
 using nlohmann::json;
 
-/// The stand-in's runout is 10 + t^2 + (cell size)^2.
+/// The stand-in's runout is 10 + t^2 + (stiffness scale)^2.
 json spread(std::size_t samples) {
-    json wanted = study("by_cell=1 mpm_steps=1 fem_steps=3", {0.5});
+    json wanted = study("by_stiffness=1 mpm_steps=1 fem_steps=3", {0.5});
     wanted["uncertainty"] = {
         {"quantity", "runout"},
         {"samples", samples},
         {"seed", 5},
         {"parameters",
-         {{{"name", "cells"},
-           {"sets", {"/mpm/cell_size"}},
+         {{{"name", "stiffness"},
+           {"sets", {"/mpm/stiffness_scale"}},
            {"distribution", {{"type", "uniform"}, {"from", 0.5}, {"to", 1.0}}}}}}};
     return wanted;
 }
@@ -53,7 +53,7 @@ TEST(Samples, EachHasItsRowAndSharesTheFem) {
     for (std::size_t i = 0; i < 6; ++i) {
         const json& variant = end.at("study").at("variants").at(i);
         EXPECT_EQ(rows[i].at("variant"), variant.at("name"));
-        const double h = variant.at("sample").at("values").at("cells");
+        const double h = variant.at("sample").at("values").at("stiffness");
         EXPECT_NEAR(rows[i].at("runout").get<double>(), 10 + 0.25 + h * h, 1e-9);
     }
 }
@@ -72,9 +72,11 @@ TEST(Samples, ExtendedKeepTheFirstAndRunOnlyTheRest) {
     ASSERT_EQ(rows.size(), 8u);
     std::set<int> slices;
     for (std::size_t i = 0; i < 8; ++i) {
-        if (i < 4) EXPECT_EQ(rows[i], before[i]);
+        if (i < 4) {
+            EXPECT_EQ(rows[i], before[i]);
+        }
         const json& values = end.at("study").at("variants").at(i).at("sample").at("values");
-        slices.insert(static_cast<int>((values.at("cells").get<double>() - 0.5) / 0.5 * 8));
+        slices.insert(static_cast<int>((values.at("stiffness").get<double>() - 0.5) / 0.5 * 8));
     }
     EXPECT_EQ(slices.size(), 8u);  // together they are a Latin hypercube again
     EXPECT_EQ(count(end, "fem_solver"), 1u);
@@ -178,8 +180,8 @@ TEST(Samples, ArePlannedBeforeTheyAreSubmitted) {
     const Answer answer = service.post("/v1/cost", wanted.dump());
     ASSERT_EQ(answer.status, 200) << answer.text;
     EXPECT_EQ(answer.body.at("tasks").at("fem_solver"), 1);
-    EXPECT_EQ(answer.body.at("tasks").at("transfer_tool"), 50);  // which reads the cells
-    EXPECT_EQ(answer.body.at("tasks").at("mpm_solver"), 50);     // at most: until may stop before
+    EXPECT_EQ(answer.body.at("tasks").at("transfer_tool"), 1);
+    EXPECT_EQ(answer.body.at("tasks").at("mpm_solver"), 50);  // at most: until may stop before
     wanted["uncertainty"]["parameters"][0]["distribution"]["to"] = 0.1;
     const Answer refused = service.post("/v1/cost", wanted.dump());
     EXPECT_EQ(refused.status, 422);
