@@ -47,6 +47,7 @@ struct Arguments {
     bool strict = false;
     ResultsWish results;
     CheckWish check;
+    UncertaintyWish uncertainty;
     std::int64_t priority = 0;
     std::string title;
     std::size_t most_runs = 20;
@@ -98,6 +99,7 @@ class CommandLine {
         add_run_commands();
         add_sweep_commands();
         add_accuracy_command();
+        add_uncertainty_command();
         add_task_commands();
         add_file_commands();
         add_templates();
@@ -217,6 +219,27 @@ class CommandLine {
         what->require_option(1);
         take_changes(sub);
         take_check(sub, of);
+        take_strict(sub);
+    }
+
+    ExitCode uncertainty(Server& server, const Console& console) {
+        a_.uncertainty.run = a_.id;
+        const ExitCode end = a_.watch ? watch(server, a_.id, doubt(), console) : ExitCode::done;
+        show_uncertainty(server, a_.uncertainty, console);
+        return end;
+    }
+
+    void add_uncertainty_command() {
+        CLI::App* sub = add("uncertainty",
+                            "what the samples of an uncertainty study say: percentiles with their "
+                            "intervals, and which parameter matters",
+                            "latest --quantity runout_beyond_toe",
+                            [this](Server& s, const Console& c) { return uncertainty(s, c); });
+        take_run(sub);
+        sub->add_flag("--watch", a_.watch, "watch the run until it ends, then show");
+        sub->add_flag("--csv", a_.csv, "the samples with their draws and results");
+        sub->add_option("--quantity", a_.uncertainty.quantity,
+                        "only of this number of the results: runout_beyond_toe");
         take_strict(sub);
     }
 

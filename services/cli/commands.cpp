@@ -8,6 +8,7 @@
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
 #include "services/cli/table.hpp"
+#include "services/cli/uncertainty_view.hpp"
 #include "services/cli/views.hpp"
 
 namespace breach::cli {
@@ -212,6 +213,21 @@ ExitCode show_accuracy(Server& server, const std::string& run, const std::string
         show_json(answer, console);
     } else {
         console.out << (check ? as_check_table(answer) : as_accuracy_table(answer));
+    }
+    return ExitCode::done;
+}
+
+ExitCode show_uncertainty(Server& server, const UncertaintyWish& wish, const Console& console) {
+    const std::string path = path_of({"runs", run_named(server, wish.run), "uncertainty"});
+    if (console.style == Style::csv) {
+        console.out << server.get_text(path + "?format=csv").body;
+        return ExitCode::done;
+    }
+    const json answer = server.get(path + query_of({{"quantity", wish.quantity}}));
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        console.out << as_uncertainty_view(answer);
     }
     return ExitCode::done;
 }

@@ -73,6 +73,14 @@ fault::ExitCode results(Server& server, const ResultsWish& wish, const Console& 
 fault::ExitCode show_accuracy(Server& server, const std::string& run,
                               const std::string& asked_error, const Console& console);
 
+struct UncertaintyWish {
+    std::string run;
+    std::string quantity;  ///< only this one's statistics; empty: of all
+};
+/// What the samples of an uncertainty study say, as far as its run has come; as CSV the samples.
+fault::ExitCode show_uncertainty(Server& server, const UncertaintyWish& wish,
+                                 const Console& console);
+
 struct CheckWish {
     std::string repeats;  ///< means of new draws; empty: no check is wished
     std::string rung;     ///< "cells:2" instead of the recommended; empty: that

@@ -80,6 +80,13 @@ class Export {
         if (study.contains("accuracy"))
             keep_json("accuracy.json", server_.get(path_of({"runs", id, "accuracy"})),
                       "error against run time of each setting");
+        if (study.contains("uncertainty")) {
+            const std::string found = path_of({"runs", id, "uncertainty"});
+            keep_json("uncertainty.json", server_.get(found),
+                      "what the samples say of the results");
+            keep_text("samples.csv", server_.get_text(found + "?format=csv").body,
+                      "one row per sample: draws and results");
+        }
         for (const json& each : tasks) task(each.at("id"));
         if (study.contains("uncertainty"))
             keep_json("envelopes.json", server_.get(path_of({"runs", id, "envelopes"})),

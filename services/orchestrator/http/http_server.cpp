@@ -137,6 +137,7 @@ class HttpServer::Implementation {
     Implementation(Service& service, HttpSettings settings) : settings_(std::move(settings)) {
         add_run_routes(router_, service);
         add_accuracy_routes(router_, service);
+        add_uncertainty_routes(router_, service);
         add_trigger_routes(router_, service);
         add_output_routes(router_, service);
         add_outflow_routes(router_, service);

@@ -71,6 +71,10 @@ bool is_of_normal(DistributionKind kind) {
 
 std::string_view name_of(DistributionKind kind) { return words::name_of(kind); }
 
+DistributionKind distribution_named(std::string_view name) {
+    return words::named<DistributionKind>(name);
+}
+
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 double normal_quantile(double p) {

@@ -16,6 +16,8 @@ double normal_quantile(double p);
 
 enum class DistributionKind { uniform, log_uniform, normal, lognormal, triangular };
 std::string_view name_of(DistributionKind kind);
+/// Of a word that the schema has checked.
+DistributionKind distribution_named(std::string_view name);
 
 /// What the numbers mean hangs on the kind:
 ///     uniform, log_uniform   from, to

@@ -178,7 +178,7 @@ class ParameterReader {
         }
         const json& entry = entry_.at("distribution");
         Distribution& distribution = parameter_.distribution;
-        distribution.kind = words::word_at<DistributionKind>(entry, "type");
+        distribution.kind = distribution_named(entry.at("type").get<std::string>());
         const std::vector<std::string> keys = keys_of(distribution.kind);
         bool complete = true;
         for (std::size_t i = 0; i < keys.size(); ++i)

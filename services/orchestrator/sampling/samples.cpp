@@ -14,13 +14,6 @@ using nlohmann::json;
 
 namespace {
 
-/// As text shows it: what is stored, set and shown is one number.
-double in_six_digits(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return std::strtod(text, nullptr);
-}
-
 double place_of_choice(const std::vector<Choice>& choices, double u) {
     double all = 0.0;
     for (const Choice& each : choices) all += each.weight;
@@ -52,6 +45,12 @@ Points points_of(const UncertaintyPlan& plan, std::size_t count) {
 }
 
 }  // namespace
+
+double in_six_digits(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return std::strtod(text, nullptr);
+}
 
 double draw_at(const Parameter& parameter, double u) {
     switch (parameter.kind) {

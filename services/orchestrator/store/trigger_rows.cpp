@@ -193,7 +193,8 @@ std::vector<Trigger> Store::open_triggers() const {
         database.query(
             std::string(trigger_columns) +
                 "WHERE state IN ('armed', 'holding') AND "
-                "json_extract(spec, '$.percentile') IS NULL AND fem_task IN (SELECT id FROM "
+                "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) "
+                "IS NULL AND fem_task IN (SELECT id FROM "
                 "tasks WHERE state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
             {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
@@ -203,10 +204,11 @@ std::vector<Trigger> Store::open_triggers() const {
 std::vector<Trigger> Store::open_batches() const {
     std::vector<Trigger> found;
     read([&](Connection& database) {
-        database.query(std::string(trigger_columns) +
-                           "WHERE state IN ('armed', 'holding') AND json_extract(spec, "
-                           "'$.percentile') IS NOT NULL ORDER BY id",
-                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+        database.query(
+            std::string(trigger_columns) +
+                "WHERE state IN ('armed', 'holding') AND coalesce(json_extract(spec, "
+                "'$.percentile'), json_extract(spec, '$.target')) IS NOT NULL ORDER BY id",
+            {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;
 }

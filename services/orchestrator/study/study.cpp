@@ -482,13 +482,23 @@ void take_samples(Study& study, json& document, const Base& base, std::vector<Fa
     if (faults.size() > before) return;
     check_parameters_are_read(study, base, faults);
     if (faults.size() > before) return;
-    const std::vector<VariantEntry> entries = variants_of(plan, base.scene, study.reach);
+    json& entry = document["uncertainty"];
+    if (entry.contains("target")) study.target = read_target(entry, plan, study.reach, faults);
+    if (faults.size() > before) return;
+    const std::vector<VariantEntry> entries =
+        study.target ? variants_of(*study.target, plan, base.scene, study.reach)
+                     : variants_of(plan, base.scene, study.reach);
     std::vector<Fault> found;
     study.variants = checked_variants(entries, base, study.transfer_times, found);
     for (Fault& each : told_by_parameter(found, plan)) faults.push_back(std::move(each));
     document["variants"] = as_json(entries);
-    document["uncertainty"]["drawn"] = plan.drawn;
-    document["uncertainty"]["first_block"] = plan.first;
+    if (study.target) {
+        entry["target"]["quantity"] = study.target->question.quantity;
+        entry["target"]["draws"] = study.target->lattices;
+        entry["target"]["values"] = study.target->values;
+    }
+    entry["drawn"] = study.target ? entries.size() : plan.drawn;
+    entry["first_block"] = plan.first;
 }
 
 /// One fault instead of one per entry that a study lacks.

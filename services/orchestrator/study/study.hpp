@@ -12,6 +12,7 @@
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/sampling/plan.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
+#include "services/orchestrator/study/target.hpp"
 
 namespace breach::orchestrator {
 
@@ -38,6 +39,7 @@ struct Study {
     Reach reach = Reach::chain;         ///< what is run of each variant
     /// Its variants are samples, and more of them may follow.
     std::optional<UncertaintyPlan> uncertainty;
+    std::optional<Target> target;  ///< its variants are values of one parameter instead
 };
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").

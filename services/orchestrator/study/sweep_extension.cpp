@@ -105,6 +105,14 @@ Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const N
     const std::size_t before = entry.at("drawn");
     entry["samples"] = std::max<std::size_t>(asked, entry.at("samples"));
     entry["drawn"] = std::max(drawn, before);
+    return plan_more_variants(run, data, numerics, entry);
+}
+
+Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                             const json& entry) {
+    json document = run.study;
+    const std::size_t before = document.at("variants").size();
+    document["uncertainty"] = entry;
     document["scene"] = json::parse(run.scene);
     const Study study = read_study(document.dump(), data.root());
     std::map<std::string, Task> present;

@@ -24,4 +24,9 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
 Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                             std::size_t drawn, std::size_t asked);
 
+/// What the study has more with this entry "uncertainty": samples, or values of an inverse study, behind
+/// those that it has. Throws BadInput.
+Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                             const nlohmann::json& entry);
+
 }  // namespace breach::orchestrator

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/fault/fault.hpp"
+#include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/records/result_columns.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
@@ -55,6 +56,13 @@ json as_json(const Narrowness& narrowness, const json& spec) {
 }  // namespace
 
 std::optional<TriggerPlan> batches_of(const Study& study) {
+    if (study.target) {
+        const InverseQuestion& question = study.target->question;
+        return TriggerPlan{name_of_trigger,
+                           "criterion",
+                           {{"when", question.quantity + " = " + json(question.target).dump()},
+                            {"target", question.target}}};
+    }
     if (!study.uncertainty || !study.uncertainty->until) return std::nullopt;
     const Until& until = *study.uncertainty->until;
     return TriggerPlan{name_of_trigger,
@@ -99,6 +107,7 @@ bool BatchWatch::has_ended(const std::string& run) const {
 
 bool BatchWatch::settle(const Trigger& trigger) {
     if (!has_ended(trigger.run)) return false;
+    if (trigger.spec.contains("target")) return search_on(trigger);
     const json study = store_.study_of(trigger.run).value();
     const json& entry = study.at("uncertainty");
     const std::string quantity = trigger.spec.at("quantity");
@@ -124,21 +133,43 @@ bool BatchWatch::draw_on(const Trigger& trigger, const json& study) {
     const std::size_t asked = entry.at("samples");
     const std::size_t drawn = std::min(
         asked, entry.at("drawn").get<std::size_t>() + trigger.spec.at("batch").get<std::size_t>());
+    json wanted = entry;
+    wanted["drawn"] = drawn;
+    return extend(trigger, study, wanted);
+}
+
+/// The next value that the inverse search asks for.
+bool BatchWatch::search_on(const Trigger& trigger) {
+    const auto ensemble = ensemble_of(store_, trigger.run);
+    const json scene = json::parse(store_.scene_of(trigger.run).value());
+    const InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
+    if (advice.run_next.empty()) {
+        const TriggerEvent event = advice.found ? TriggerEvent::fire : TriggerEvent::expire;
+        end(trigger, event, {{"value", advice.found ? json(advice.found->value) : json()}},
+            advice.refused);
+        return false;
+    }
+    json wanted = ensemble->entry;
+    for (const double each : advice.run_next) wanted["target"]["values"].push_back(each);
+    return extend(trigger, store_.study_of(trigger.run).value(), wanted);
+}
+
+bool BatchWatch::extend(const Trigger& trigger, const json& study, const json& entry) {
     bool added = false;
     try {
         const RunSoFar so_far{.study = study,
                               .scene = store_.scene_of(trigger.run).value(),
                               .tasks = store_.tasks_of(trigger.run)};
-        const Extension extension = plan_more_samples(so_far, data_, numerics_, drawn, asked);
+        const Extension extension = plan_more_variants(so_far, data_, numerics_, entry);
         store_.write([&](Transaction& transaction) {
             added = transaction.is_open(trigger.id);
             if (added) transaction.extend_run(trigger.run, extension);
         });
+        if (added) spdlog::info("{}: {} more variants", trigger.run, extension.samples.size());
     } catch (const fault::BadInput& error) {
         end(trigger, TriggerEvent::expire, nullptr,
-            std::string("no more samples can be drawn: ") + error.what());
+            std::string("the study cannot go on: ") + error.what());
     }
-    if (added) spdlog::info("{}: drawn up to {} samples", trigger.run, drawn);
     return added;
 }
 

@@ -1,7 +1,8 @@
-// Draws more samples of uncertainty studies with "until", a batch at a time, until the percentile is
+// Gives uncertainty studies more variants: inverse studies the next value of the parameter, until the
+// target is met (ensemble/inverse_search.hpp); those with "until" more samples, a batch at a time, until the percentile is
 // known well enough or all samples that were asked for are drawn. Runs on the dispatcher's thread.
 //
-// In the store it is a trigger, a criterion on results (its spec has a "percentile") that stands on the
+// In the store it is a trigger, a criterion on results (its spec has a "percentile" or a "target") that stands on the
 // run's first task: while it is armed the run is not over, and cancelling disarms it. What it decides is a function of the results that are stored:
 // after a kill -9 it comes to the same.
 #pragma once
@@ -12,7 +13,7 @@
 
 namespace breach::orchestrator {
 
-/// The trigger of a study with "until"; nothing for others.
+/// The trigger of a study with "until" or "target"; nothing for others.
 std::optional<TriggerPlan> batches_of(const Study& study);
 
 /// How well a percentile is known.
@@ -38,6 +39,8 @@ class BatchWatch {
     bool settle(const Trigger& trigger);
     bool has_ended(const std::string& run) const;
     bool draw_on(const Trigger& trigger, const nlohmann::json& study);
+    bool search_on(const Trigger& trigger);
+    bool extend(const Trigger& trigger, const nlohmann::json& study, const nlohmann::json& entry);
     void end(const Trigger& trigger, TriggerEvent event, const nlohmann::json& result,
              const std::string& why);
 

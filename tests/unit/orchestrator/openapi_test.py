@@ -170,6 +170,18 @@ class Described(unittest.TestCase):
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy?asked_error=0", 400)
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{run}/accuracy", 404)
         self.wait(accurate)
+        drawn = {**study([0.5]), "uncertainty": {"samples": 6, "parameters": [
+            {"name": "strength", "sets": ["/mpm/cfl"], "distribution": {"type": "uniform", "from": 0.3, "to": 0.5}}]}}
+        uncertain = json.loads(post("/v1/runs", "/v1/runs", 202, drawn))["id"]
+        self.wait(uncertain)
+        route = "/v1/runs/{id}/uncertainty"
+        get(route, f"/v1/runs/{uncertain}/uncertainty")
+        get(route, f"/v1/runs/{uncertain}/uncertainty?quantity=runout")
+        get(route, f"/v1/runs/{uncertain}/uncertainty?format=csv")
+        get(route, f"/v1/runs/{uncertain}/uncertainty?format=hdf5")
+        get(route, f"/v1/runs/{uncertain}/uncertainty?quantity=nonsense", 400)
+        get(route, f"/v1/runs/{run}/uncertainty", 404)
+
         check = "/v1/runs/{id}/accuracy/check"
         made = post(check, f"/v1/runs/{accurate}/accuracy/check?repeats=2&ladder=cells&step=1&mean_of=2", 202)
         get(check, f"/v1/runs/{json.loads(made)['id']}/accuracy/check")

@@ -1,0 +1,104 @@
+#include "services/cli/uncertainty_view.hpp"
+
+#include "services/cli/table.hpp"
+
+namespace breach::cli {
+
+using nlohmann::json;
+
+namespace {
+
+/// "12.3 (11.1 to 13.4)"; "-" for null.
+std::string with_interval(const json& object, const char* value, const char* low,
+                          const char* high) {
+    if (!object.at(value).is_number()) return "-";
+    return cell(object, value) + " (" + cell(object, low) + " to " + cell(object, high) + ")";
+}
+
+std::string title_of(const std::string& name, const json& statistics) {
+    const std::string unit = cell(statistics, "unit");
+    return name + (unit == "1" ? "" : " [" + unit + "]") + ", " + cell(statistics, "count") +
+           " of " + cell(statistics, "of") + " samples";
+}
+
+std::string percentile_table(const std::string& name, const json& statistics) {
+    std::vector<Cells> rows{{"mean", cell(statistics, "mean"), ""},
+                            {"standard deviation", cell(statistics, "sd"), ""}};
+    const json& percentiles = statistics.at("percentiles");
+    if (percentiles.is_array())
+        for (const json& each : percentiles)
+            rows.push_back({"p" + cell(each, "p"), cell(each, "value"),
+                            cell(each, "low") + " to " + cell(each, "high")});
+    std::string text = as_table({{title_of(name, statistics), Align::left},
+                                 {"", Align::right},
+                                 {"90 % interval", Align::left}},
+                                rows);
+    if (percentiles.is_object()) text += cell(percentiles, "refused") + "\n";
+    return text;
+}
+
+/// Bars of the tornado by the parameter's name; "-": it has none.
+std::string bar_of(const json& tornado, const json& parameter) {
+    if (tornado.contains("bars"))
+        for (const json& each : tornado.at("bars"))
+            if (each.at("parameter") == parameter)
+                return cell(each, "p10") + " / " + cell(each, "p90");
+    return "-";
+}
+
+std::string importance_table(const json& statistics) {
+    std::vector<Cells> rows;
+    const json& tornado = statistics.at("tornado");
+    for (const json& each : statistics.at("importance"))
+        rows.push_back(
+            {cell(each, "parameter"), with_interval(each, "rank_correlation", "low", "high"),
+             with_interval(each, "partial_rank_correlation", "partial_low", "partial_high"),
+             with_interval(each, "first_order", "first_order_low", "first_order_high"),
+             bar_of(tornado, each.at("parameter"))});
+    std::string text = as_table({{"parameter", Align::left},
+                                 {"rank correlation", Align::left},
+                                 {"partial", Align::left},
+                                 {"share of variance", Align::left},
+                                 {"at p10 / p90", Align::left}},
+                                rows);
+    if (tornado.contains("bars"))
+        text += "at p10 / p90: by a polynomial (" + cell(tornado, "form") + ", Q2 " +
+                cell(tornado, "q2") +
+                "), the others at their medians: " + cell(tornado, "at_median") + "\n";
+    return text;
+}
+
+std::string left_out(const json& samples) {
+    std::string text;
+    for (const json& each : samples.at("left_out"))
+        text +=
+            cell(each, "sample") + " " + cell(each, "state") + ": " + cell(each, "reason") + "\n";
+    return text.empty() ? text : text + "\n";
+}
+
+std::string inverse_table(const json& inverse) {
+    if (!inverse.is_object()) return "";
+    std::vector<Cells> rows;
+    for (const json& each : inverse.at("steps"))
+        rows.push_back({cell(each, "value"), cell(each, "result"),
+                        std::to_string(each.at("results").size()), cell(each, "state")});
+    return as_table({{cell(inverse, "vary"), Align::right},
+                     {cell(inverse, "quantity"), Align::right},
+                     {"lattices", Align::right},
+                     {"state", Align::left}},
+                    rows) +
+           "\n";
+}
+
+}  // namespace
+
+std::string as_uncertainty_view(const json& answer) {
+    std::string text = inverse_table(answer.at("inverse"));
+    for (const auto& [name, statistics] : answer.at("quantities").items())
+        text += percentile_table(name, statistics) + "\n" + importance_table(statistics) + "\n";
+    text += left_out(answer.at("samples"));
+    for (const json& each : answer.at("sentences")) text += cell(each) + "\n";
+    return text;
+}
+
+}  // namespace breach::cli

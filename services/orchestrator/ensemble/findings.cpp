@@ -1,0 +1,255 @@
+#include "services/orchestrator/ensemble/findings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "services/orchestrator/ensemble/inverse_search.hpp"
+#include "services/orchestrator/ensemble/sentences.hpp"
+#include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/records/repeats.hpp"
+#include "services/orchestrator/uncertainty/percentiles.hpp"
+#include "services/orchestrator/uncertainty/surrogate.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::array shown_percentiles{5.0, 10.0, 50.0, 90.0, 95.0};
+
+std::string kind_of(const json& parameter) {
+    if (parameter.contains("one_of")) return "choice";
+    if (parameter.contains("factor_on")) return "factor";
+    return parameter.contains("sets") ? "value" : "numerical";
+}
+
+json parameters_of(const json& entry) {
+    json list = json::array();
+    for (const json& each : entry.at("parameters")) {
+        json asked = json::object();
+        for (const json& pair : entry.value("correlation", json::array())) {
+            if (pair[0] == each.at("name")) asked[pair[1].get<std::string>()] = pair[2];
+            if (pair[1] == each.at("name")) asked[pair[0].get<std::string>()] = pair[2];
+        }
+        const std::string kind = kind_of(each);
+        list.push_back(
+            {{"name", each.at("name")},
+             {"kind", kind},
+             {"distribution", each.value("distribution", json())},
+             {"between", each.value("between", json())},
+             {"entries", each.value(kind == "factor" ? "factor_on" : "sets", json::array())},
+             {"asked_correlation", asked}});
+    }
+    return list;
+}
+
+/// Those samples that have a number for one quantity.
+struct Measured {
+    std::vector<double> results;
+    std::vector<const SampleRow*> samples;
+};
+
+Measured measured(const Ensemble& ensemble, std::string_view quantity) {
+    Measured found;
+    for (const SampleRow& each : ensemble.samples) {
+        const auto value = result_of(each, quantity);
+        if (!value) continue;
+        found.results.push_back(*value);
+        found.samples.push_back(&each);
+    }
+    return found;
+}
+
+/// Options are numbered as their names sort.
+Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& samples) {
+    Drawn drawn{.name = parameter.at("name"),
+                .is_choice = kind_of(parameter) == "choice" || kind_of(parameter) == "numerical",
+                .values = {}};
+    std::set<json> options;
+    for (const SampleRow* each : samples) options.insert(each->drawn.at(drawn.name));
+    for (const SampleRow* each : samples) {
+        const json& value = each->drawn.at(drawn.name);
+        drawn.values.push_back(drawn.is_choice ? static_cast<double>(std::distance(
+                                                     options.begin(), options.find(value)))
+                                               : value.get<double>());
+    }
+    return drawn;
+}
+
+void add(json& into, const std::optional<Interval>& found, const char* name, const char* low,
+         const char* high) {
+    into[name] = found ? json(found->value) : json();
+    into[low] = found ? json(found->low) : json();
+    into[high] = found ? json(found->high) : json();
+}
+
+json as_json(const Importance& found, const json& parameter) {
+    const std::string kind = kind_of(parameter);
+    const bool ranked = kind == "factor" || kind == "value";
+    json made{{"parameter", parameter.at("name")},
+              {"measure", ranked ? "rank_correlation" : "correlation_ratio"}};
+    add(made, found.rank_correlation, "rank_correlation", "low", "high");
+    add(made, found.partial_rank_correlation, "partial_rank_correlation", "partial_low",
+        "partial_high");
+    add(made, found.first_order, "first_order", "first_order_low", "first_order_high");
+    return made;
+}
+
+json as_json(const Tornado& tornado) {
+    if (!tornado.refused.empty()) return {{"refused", tornado.refused}, {"q2", tornado.q2}};
+    json bars = json::array();
+    for (const TornadoBar& each : tornado.bars)
+        bars.push_back({{"parameter", each.name}, {"p10", each.p10}, {"p90", each.p90}});
+    return {{"q2", tornado.q2},
+            {"form", tornado.form},
+            {"at_median", tornado.at_median},
+            {"bars", std::move(bars)}};
+}
+
+/// The list, or {"refused"} where there are too few samples for any.
+json percentiles_of(const std::vector<double>& results) {
+    json list = json::array();
+    for (const double p : shown_percentiles) {
+        if (results.size() < samples_needed(p)) continue;
+        const Interval found = percentile(results, p);
+        list.push_back(
+            {{"p", p}, {"value", found.value}, {"low", found.low}, {"high", found.high}});
+    }
+    if (list.empty()) return {{"refused", not_enough(results.size(), 50.0)}};
+    return list;
+}
+
+json exceedance_of(const std::vector<double>& results) {
+    json list = json::array();
+    for (const Exceedance& each : exceedance(results))
+        list.push_back({{"value", each.value},
+                        {"probability", each.probability.value},
+                        {"low", each.probability.low},
+                        {"high", each.probability.high}});
+    return list;
+}
+
+/// The lattice is the method's own scatter: it has a share of the variance, but is no parameter that
+/// others are freed from, or that a surrogate could know.
+void add_importance(json& into, const json& parameters, const Measured& measured) {
+    std::vector<Drawn> physical;
+    json importance = json::array();
+    for (const json& each : parameters)
+        if (kind_of(each) != "numerical") physical.push_back(drawn_of(each, measured.samples));
+    const auto found = importance_of(physical, measured.results);
+    std::size_t next = 0;
+    for (const json& each : parameters) {
+        if (kind_of(each) != "numerical") {
+            importance.push_back(as_json(found[next++], each));
+            continue;
+        }
+        const std::array lattice{drawn_of(each, measured.samples)};
+        importance.push_back(as_json(importance_of(lattice, measured.results).front(), each));
+    }
+    into["importance"] = std::move(importance);
+    into["tornado"] = as_json(tornado_of(physical, measured.results));
+}
+
+json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
+    const Measured found = measured(ensemble, quantity.name);
+    const Repeats repeats = repeats_of(found.results);
+    json made{{"label", quantity.meaning},
+              {"unit", quantity.unit},
+              {"count", found.results.size()},
+              {"of", ensemble.samples.size()},
+              {"mean", repeats.mean},
+              {"sd", or_null(repeats.deviation)},
+              {"percentiles", percentiles_of(found.results)},
+              {"exceedance", exceedance_of(found.results)}};
+    json lacking = json::array();
+    for (const double p : shown_percentiles)
+        if (found.results.size() < samples_needed(p))
+            lacking.push_back({{"p", p}, {"needs", samples_needed(p)}});
+    made["percentiles_lacking"] = std::move(lacking);
+    add_importance(made, ensemble.entry.at("parameters"), found);
+    return made;
+}
+
+json counts_of(const Ensemble& ensemble) {
+    const auto count = [&](Fate fate) {
+        return std::ranges::count(ensemble.samples, fate, &SampleRow::fate);
+    };
+    json left_out = json::array();
+    std::int64_t questionable = 0;
+    for (const SampleRow& each : ensemble.samples) {
+        if (each.state == "questionable") ++questionable;
+        if (each.fate == Fate::failed)
+            left_out.push_back({{"sample", each.name},
+                                {"state", each.state},
+                                {"reason", value_of(*each.row, "reason")}});
+    }
+    return {{"planned", ensemble.samples.size()}, {"done", count(Fate::done)},
+            {"failed", count(Fate::failed)},      {"open", count(Fate::open)},
+            {"questionable", questionable},       {"left_out", std::move(left_out)}};
+}
+
+json rows_of(const Ensemble& ensemble) {
+    json rows = json::array();
+    const auto quantities = quantities_of(ensemble);
+    for (const SampleRow& each : ensemble.samples) {
+        json results = json::object();
+        for (const ResultColumn* quantity : quantities)
+            results[quantity->name] = or_null(result_of(each, quantity->name));
+        rows.push_back({{"sample", each.name},
+                        {"task", each.row ? value_of(*each.row, "mpm_task") : json()},
+                        {"state", each.state},
+                        {"values", each.drawn},
+                        {"results", std::move(results)}});
+    }
+    return rows;
+}
+
+/// What the study is to come to: how near its percentile is known now.
+json until_of(const Ensemble& ensemble) {
+    const json until = ensemble.entry.value("until", json());
+    if (!until.is_object()) return nullptr;
+    json made = until;
+    made["quantity"] = until.value("quantity", first_quantity(ensemble));
+    made["reached"] = false;
+    made["now"] = nullptr;
+    const Measured found = measured(ensemble, made["quantity"].get<std::string>());
+    const double p = until.at("percentile");
+    if (found.results.size() < samples_needed(p)) return made;
+    const Interval now = percentile(found.results, p);
+    if (now.value == 0.0) return made;
+    const double half = 0.5 * (now.high - now.low) / std::abs(now.value);
+    made["now"] = half;
+    made["reached"] = half <= until.at("half_width").get<double>();
+    return made;
+}
+
+}  // namespace
+
+json findings_of(const Ensemble& ensemble, const json& scene, const std::string& quantity) {
+    const auto search = inverse_search(ensemble, scene);
+    json quantities = json::object();
+    for (const ResultColumn* each : quantities_of(ensemble))
+        if (!search && (quantity.empty() || quantity == each->name))
+            quantities[each->name] = statistics_of(ensemble, *each);
+    json answer{
+        {"run", ensemble.run.id},
+        {"name", ensemble.run.name},
+        {"state", ensemble.run.state},
+        {"quantity", quantity.empty() ? first_quantity(ensemble) : quantity},
+        {"sampling", ensemble.entry.value("sampling", json())},
+        {"seed", ensemble.entry.value("seed", json())},
+        {"confidence", share_covered},
+        {"samples", counts_of(ensemble)},
+        {"parameters", parameters_of(ensemble.entry)},
+        {"rows", rows_of(ensemble)},
+        {"quantities", std::move(quantities)},
+        {"until", until_of(ensemble)},
+        {"inverse", search ? as_json(*search, ensemble.entry.at("target").at("vary")) : json()}};
+    answer["sentences"] = sentences_of(answer);
+    return answer;
+}
+
+}  // namespace breach::orchestrator

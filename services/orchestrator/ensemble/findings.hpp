@@ -1,0 +1,16 @@
+// What the samples of an uncertainty study say of its results: percentiles, exceedance, importance
+// and tornado of each, and the same in sentences.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "services/orchestrator/ensemble/ensemble.hpp"
+
+namespace breach::orchestrator {
+
+/// The answer of GET /v1/runs/{id}/uncertainty. scene: of the run. quantity: of this one only; empty:
+/// of all. An inverse study has no statistics: its values are not drawn.
+nlohmann::json findings_of(const Ensemble& ensemble, const nlohmann::json& scene,
+                           const std::string& quantity = {});
+
+}  // namespace breach::orchestrator

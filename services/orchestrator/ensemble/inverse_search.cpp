@@ -1,0 +1,63 @@
+#include "services/orchestrator/ensemble/inverse_search.hpp"
+
+#include <algorithm>
+
+#include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/records/repeats.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json& scene) {
+    if (!ensemble.entry.contains("target")) return std::nullopt;
+    std::vector<fault::Fault> none;  // the study was checked when it was accepted
+    const UncertaintyPlan plan = read_uncertainty(ensemble.entry, scene, none);
+    InverseSearch search{
+        .target = read_target(ensemble.entry, plan, Reach::chain, none), .steps = {}, .advice = {}};
+    const std::string& vary = plan.parameters.at(search.target.parameter).name;
+    for (const double value : search.target.values) {
+        InverseStep step{.value = value, .results = {}};
+        for (const SampleRow& each : ensemble.samples) {
+            if (each.drawn.at(vary) != value) continue;
+            step.open |= each.fate == Fate::open && !ensemble.run.finished;
+            if (const auto result = result_of(each, search.target.question.quantity))
+                step.results.push_back(*result);
+        }
+        search.steps.push_back(std::move(step));
+    }
+    std::ranges::sort(search.steps, {}, &InverseStep::value);
+    search.advice = advise_inverse(search.target.question, search.steps);
+    return search;
+}
+
+json as_json(const InverseSearch& search, const std::string& vary) {
+    const InverseAdvice& advice = search.advice;
+    json steps = json::array();
+    for (const InverseStep& each : search.steps) {
+        const bool failed = each.results.empty() && !each.open;
+        steps.push_back(
+            {{"value", each.value},
+             {"results", each.results},
+             {"result", each.results.empty() ? json() : json(repeats_of(each.results).mean)},
+             {"state", each.open ? "open"
+                       : failed  ? "failed"
+                                 : "done"}});
+    }
+    const bool interval = advice.found && advice.has_interval;
+    return {{"quantity", search.target.question.quantity},
+            {"unit", search.target.question.unit},
+            {"target", search.target.question.target},
+            {"vary", vary},
+            {"state", advice.found             ? "found"
+                      : advice.refused.empty() ? "running"
+                                               : "refused"},
+            {"value", advice.found ? json(advice.found->value) : json()},
+            {"low", interval ? json(advice.found->low) : json()},
+            {"high", interval ? json(advice.found->high) : json()},
+            {"reason", advice.refused.empty() ? advice.remark : advice.refused},
+            {"noise", or_null(advice.noise)},
+            {"steps", std::move(steps)}};
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,21 @@
+// An inverse study as far as its run has come: the values that were run, and what they say.
+#pragma once
+
+#include "services/orchestrator/ensemble/ensemble.hpp"
+#include "services/orchestrator/study/target.hpp"
+
+namespace breach::orchestrator {
+
+struct InverseSearch {
+    Target target;
+    std::vector<InverseStep> steps;  ///< ascending in the value
+    InverseAdvice advice;
+};
+
+/// Nothing: the study has no target. scene: of the run.
+std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const nlohmann::json& scene);
+
+/// "inverse" of GET /v1/runs/{id}/uncertainty
+nlohmann::json as_json(const InverseSearch& search, const std::string& vary);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,13 @@
+// What an uncertainty study found, in sentences for people.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace breach::orchestrator {
+
+/// findings: the answer of GET /v1/runs/{id}/uncertainty so far.
+std::vector<std::string> sentences_of(const nlohmann::json& findings);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,28 @@
+// The entry "target" of an uncertainty study: instead of samples, values of one parameter until a
+// result is a given number, the other parameters at their medians. How the values are chosen is in
+// uncertainty/inverse.hpp; here they become variants.
+#pragma once
+
+#include "services/orchestrator/sampling/plan.hpp"
+#include "services/orchestrator/study/accuracy.hpp"
+#include "services/orchestrator/uncertainty/inverse.hpp"
+
+namespace breach::orchestrator {
+
+struct Target {
+    InverseQuestion question;
+    std::size_t parameter;       ///< that is varied, in the plan
+    std::size_t lattices = 1;    ///< each value is run on so many lattices of points
+    std::vector<double> values;  ///< so far, in the order in which they were asked for
+};
+
+/// entry: "uncertainty", which the schema has found sound, with "target"; faults have the study's
+/// pointers.
+Target read_target(const nlohmann::json& entry, const UncertaintyPlan& plan, Reach reach,
+                   std::vector<fault::Fault>& faults);
+
+/// "v01", "v01_d2", ...: each value on each lattice. scene: completed, with the study's own overrides.
+std::vector<VariantEntry> variants_of(const Target& target, const UncertaintyPlan& plan,
+                                      const nlohmann::json& scene, Reach reach);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,173 @@
+#include "services/orchestrator/uncertainty/inverse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "services/orchestrator/records/repeats.hpp"
+#include "services/orchestrator/sampling/samples.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+std::string shown(double value, const std::string& unit = "") {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+/// A step that has a result, on the scale that is halved.
+struct Point {
+    double at;
+    double value;
+    double result;
+    std::size_t lattices;
+};
+
+struct Scale {
+    bool logarithmic;
+    double of(double value) const { return logarithmic ? std::log(value) : value; }
+    double back(double at) const { return logarithmic ? std::exp(at) : at; }
+};
+
+std::vector<Point> points_of(std::span<const InverseStep> steps, const Scale& scale) {
+    std::vector<Point> points;
+    for (const InverseStep& each : steps)
+        if (!each.results.empty())
+            points.push_back({scale.of(each.value), each.value, repeats_of(each.results).mean,
+                              each.results.size()});
+    std::ranges::sort(points, {}, &Point::at);
+    return points;
+}
+
+/// Standard deviation of one run, over all steps with several lattices, and its degrees of freedom.
+struct Noise {
+    double deviation = 0.0;
+    std::size_t freedom = 0;
+    double of_a_mean(std::size_t lattices) const {
+        return student_factor(confidence, freedom) * deviation /
+               std::sqrt(static_cast<double>(lattices));
+    }
+};
+
+Noise noise_of(std::span<const InverseStep> steps) {
+    Noise noise;
+    double squares = 0.0;
+    for (const InverseStep& each : steps) {
+        if (each.results.size() < 2) continue;
+        const Repeats repeats = repeats_of(each.results);
+        squares += *repeats.deviation * *repeats.deviation * static_cast<double>(repeats.count - 1);
+        noise.freedom += repeats.count - 1;
+    }
+    if (noise.freedom > 0)
+        noise.deviation = std::sqrt(squares / static_cast<double>(noise.freedom));
+    return noise;
+}
+
+double crossing(const Point& a, const Point& b, double level) {
+    if (a.result == b.result) return 0.5 * (a.at + b.at);
+    const double share = (level - a.result) / (b.result - a.result);
+    return a.at + std::clamp(share, 0.0, 1.0) * (b.at - a.at);
+}
+
+/// Where the way from the bracket outwards leaves the band about the target; the last point when it
+/// does not.
+double edge_of_band(const std::vector<Point>& points, std::size_t from, int direction,
+                    double target, double half) {
+    const auto n = static_cast<std::ptrdiff_t>(points.size());
+    auto here = static_cast<std::ptrdiff_t>(from);
+    for (auto next = here + direction;; here = next, next += direction) {
+        const Point& inner = points[static_cast<std::size_t>(here)];
+        if (next < 0 || next >= n) return inner.at;
+        const Point& outer = points[static_cast<std::size_t>(next)];
+        const double off = outer.result - target;
+        if (std::abs(off) >= half) return crossing(inner, outer, target + std::copysign(half, off));
+    }
+}
+
+std::string outside(const InverseQuestion& question, const Point& low, const Point& high) {
+    return question.quantity + " is " + shown(low.result, question.unit) + " at " +
+           shown(low.value) + " and " + shown(high.result, question.unit) + " at " +
+           shown(high.value) + ": " + shown(question.target, question.unit) +
+           " is not between them";
+}
+
+/// The neighbours between which the result passes the target; the ends enclose it.
+std::size_t bracket_in(const std::vector<Point>& points, double target) {
+    const bool below = points.front().result < target;
+    std::size_t k = 1;
+    while (k + 1 < points.size() && (points[k].result < target) == below) ++k;
+    return k - 1;
+}
+
+void tell(const InverseQuestion& question, const Scale& scale, const std::vector<Point>& points,
+          std::size_t bracket, const Noise& noise, InverseAdvice& advice) {
+    const Point& a = points[bracket];
+    const Point& b = points[bracket + 1];
+    const double value = scale.back(crossing(a, b, question.target));
+    advice.found = Interval{value, value, value};
+    if (noise.freedom == 0) {
+        advice.remark =
+            "each value was run on one lattice of points: its scatter is not known, and "
+            "so no interval";
+        return;
+    }
+    const double half = noise.of_a_mean(std::min(a.lattices, b.lattices));
+    const auto edge = [&](std::size_t inside, int direction) {
+        // The inner end of the band lies in the bracket itself, where the step is outside the band.
+        const Point root{scale.of(value), value, question.target, 0};
+        std::vector<Point> way = points;
+        way.insert(way.begin() + static_cast<std::ptrdiff_t>(bracket) + 1, root);
+        return scale.back(edge_of_band(way, inside, direction, question.target, half));
+    };
+    advice.found->low = edge(bracket + 1, -1);
+    advice.found->high = edge(bracket + 1, +1);
+    advice.has_interval = true;
+    const bool at_end = advice.found->low <= question.low || advice.found->high >= question.high;
+    if (at_end && half > 0.0)
+        advice.remark = "the interval reaches an end of the range, and may go on beyond it";
+}
+
+}  // namespace
+
+InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const InverseStep> steps) {
+    InverseAdvice advice;
+    for (const double end : {question.low, question.high})
+        if (std::ranges::find(steps, end, &InverseStep::value) == steps.end())
+            advice.run_next.push_back(end);
+    if (!advice.run_next.empty() || std::ranges::any_of(steps, &InverseStep::open)) return advice;
+    for (const InverseStep& each : steps)
+        if (each.results.empty()) {
+            advice.refused = "no run at " + shown(each.value) + " gave a result";
+            return advice;
+        }
+    const Scale scale{question.logarithmic};
+    const std::vector<Point> points = points_of(steps, scale);
+    const Noise noise = noise_of(steps);
+    if (noise.freedom > 0) advice.noise = noise.deviation;
+    const auto side = [&](const Point& point) { return point.result < question.target; };
+    if (side(points.front()) == side(points.back()) && points.front().result != question.target &&
+        points.back().result != question.target) {
+        advice.refused = outside(question, points.front(), points.back());
+        return advice;
+    }
+    const std::size_t bracket = bracket_in(points, question.target);
+    const Point& a = points[bracket];
+    const Point& b = points[bracket + 1];
+    const double width = b.at - a.at;
+    const double range = question.logarithmic ? 1.0 : question.high - question.low;
+    const double told = noise.freedom > 0 ? noise.of_a_mean(std::min(a.lattices, b.lattices)) : 0.0;
+    const bool wide = width > question.tolerance * range && std::abs(b.result - a.result) > told;
+    if (wide && steps.size() < question.most_values) {
+        advice.run_next.push_back(in_six_digits(scale.back(0.5 * (a.at + b.at))));
+        return advice;
+    }
+    tell(question, scale, points, bracket, noise, advice);
+    if (wide)
+        advice.remark = "the runs that \"samples\" allows are used up: the value lies between " +
+                        shown(a.value) + " and " + shown(b.value);
+    return advice;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,105 @@
+// The inverse search against functions whose answers are known.
+#include "services/orchestrator/uncertainty/inverse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace breach::orchestrator {
+namespace {
+
+const InverseQuestion question{.target = 215.0,
+                               .quantity = "runout_beyond_toe",
+                               .unit = "m",
+                               .low = 0.4,
+                               .high = 2.5,
+                               .logarithmic = true};
+
+struct Search {
+    InverseAdvice advice;
+    std::vector<InverseStep> steps;
+};
+
+/// Runs what is advised until there is nothing more.
+Search search(const InverseQuestion& asked, const std::function<double(double)>& run,
+              std::size_t lattices) {
+    Search found;
+    for (int round = 0; round < 60; ++round) {
+        found.advice = advise_inverse(asked, found.steps);
+        if (found.advice.run_next.empty()) return found;
+        for (const double value : found.advice.run_next) {
+            found.steps.push_back({.value = value, .results = {}});
+            for (std::size_t i = 0; i < lattices; ++i)
+                found.steps.back().results.push_back(run(value));
+        }
+    }
+    ADD_FAILURE() << "the search does not end";
+    return found;
+}
+
+TEST(Inverse, FindsTheFactorWithinItsTolerance) {
+    const Search found = search(
+        question, [](double v) { return 150.0 / v; }, 1);
+    ASSERT_TRUE(found.advice.found) << found.advice.refused;
+    EXPECT_NEAR(found.advice.found->value, 150.0 / 215.0, 0.02 * 150.0 / 215.0);
+    EXPECT_FALSE(found.advice.has_interval) << "one lattice knows no scatter";
+    // ln(2.5 / 0.4) / 0.02 = 92 < 2^7
+    EXPECT_EQ(found.steps.size(), 2u + 7u);
+}
+
+TEST(Inverse, RefusesATargetThatTheEndsDoNotEnclose) {
+    const Search found = search(
+        question, [](double v) { return 20.0 / v; }, 2);
+    EXPECT_EQ(found.steps.size(), 2u) << "the ends only";
+    EXPECT_FALSE(found.advice.found);
+    EXPECT_EQ(found.advice.refused,
+              "runout_beyond_toe is 50 m at 0.4 and 8 m at 2.5: 215 m is not between them");
+}
+
+TEST(Inverse, WaitsForWhatRunsAndRefusesWhatFailed) {
+    const std::vector<InverseStep> open{{.value = 0.4, .results = {300}},
+                                        {.value = 2.5, .results = {}, .open = true}};
+    EXPECT_TRUE(advise_inverse(question, open).run_next.empty());
+    EXPECT_EQ(advise_inverse(question, open).refused, "");
+    const std::vector<InverseStep> failed{{.value = 0.4, .results = {300}},
+                                          {.value = 2.5, .results = {}}};
+    EXPECT_EQ(advise_inverse(question, failed).refused, "no run at 2.5 gave a result");
+}
+
+TEST(Inverse, NineOfTenIntervalsCoverTheValueThatTheNoiseHides) {
+    constexpr int seeds = 200;
+    int covered = 0;
+    std::size_t steps = 0;
+    for (int seed = 0; seed < seeds; ++seed) {
+        std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
+        std::normal_distribution<double> noise(0.0, 25.0);
+        const Search found = search(
+            question, [&](double v) { return 150.0 / v + noise(generator); }, 3);
+        ASSERT_TRUE(found.advice.found && found.advice.has_interval);
+        const Interval& each = *found.advice.found;
+        EXPECT_LE(each.low, each.value);
+        EXPECT_GE(each.high, each.value);
+        covered += each.low <= 150.0 / 215.0 && 150.0 / 215.0 <= each.high ? 1 : 0;
+        steps += found.steps.size();
+    }
+    // 90 % less three deviations of the binomial.
+    EXPECT_GE(covered, 0.9 * seeds - 3.0 * std::sqrt(0.09 * seeds));
+    EXPECT_LT(steps, 8u * seeds) << "what noise hides is not halved on";
+}
+
+TEST(Inverse, OfAValueThatIsNoFactorHalvesTheRangeItself) {
+    InverseQuestion angle = question;
+    angle.target = 10.0;
+    angle.low = 5.0;
+    angle.high = 25.0;
+    angle.logarithmic = false;
+    const Search found = search(
+        angle, [](double v) { return 30.0 - v; }, 1);
+    EXPECT_NEAR(found.advice.found->value, 20.0, 0.4);
+    EXPECT_DOUBLE_EQ(found.steps[2].value, 15.0);
+}
+
+}  // namespace
+}  // namespace breach::orchestrator
