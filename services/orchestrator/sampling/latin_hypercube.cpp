@@ -9,7 +9,7 @@ namespace breach::orchestrator {
 namespace {
 
 /// A place in one dimension: which of the slices, and where in it. Halving a slice is exact in it.
-struct Place {
+struct SlicePlace {
     std::size_t slice;
     double within;  ///< 0 <= x < 1
 };
@@ -25,7 +25,7 @@ class Dimension {
 
     void cut(Random& random) {
         std::vector<bool> taken(2 * slices_, false);
-        for (Place& each : places_) {
+        for (SlicePlace& each : places_) {
             const bool upper = each.within >= 0.5;
             each = {2 * each.slice + (upper ? 1 : 0), 2.0 * each.within - (upper ? 1.0 : 0.0)};
             taken[each.slice] = true;
@@ -52,7 +52,7 @@ class Dimension {
     }
 
     std::size_t slices_;
-    std::vector<Place> places_;
+    std::vector<SlicePlace> places_;
     std::vector<double> values_;  ///< as they were when they were placed: no later cut moves them
 };
 

@@ -17,13 +17,6 @@ constexpr std::size_t most_rows_to_swap = 256;
 
 Matrix square(std::size_t n) { return Matrix(n, std::vector<double>(n, 0.0)); }
 
-std::vector<std::size_t> order_of(std::span<const double> values) {
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
-    return order;
-}
-
 double pearson(std::span<const double> a, std::span<const double> b) {
     const auto n = static_cast<double>(a.size());
     const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
@@ -186,6 +179,13 @@ std::optional<Matrix> cholesky(const Matrix& matrix) {
         }
     }
     return lower;
+}
+
+std::vector<std::size_t> order_of(std::span<const double> values) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
+    return order;
 }
 
 std::vector<double> ranks_of(std::span<const double> values) {

@@ -15,6 +15,8 @@ using Matrix = std::vector<std::vector<double>>;
 /// The lower triangle L with L L' = the matrix; nothing: it is not positive definite.
 std::optional<Matrix> cholesky(const Matrix& matrix);
 
+/// Places of the values, the smallest first; equal ones as they stand.
+std::vector<std::size_t> order_of(std::span<const double> values);
 /// Ranks from 1; equal values share the mean of theirs.
 std::vector<double> ranks_of(std::span<const double> values);
 /// Spearman's coefficient of two equally long lists; 0 where one of them does not vary.

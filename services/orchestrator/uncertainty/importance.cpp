@@ -30,14 +30,6 @@ bool varies(std::span<const double> values) {
     return std::ranges::any_of(values, [&](double each) { return each != values.front(); });
 }
 
-/// Places of the values, the smallest first.
-std::vector<std::size_t> order_of(std::span<const double> values) {
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
-    return order;
-}
-
 VectorXd ranked(std::span<const double> values) {
     const std::vector<double> ranks = ranks_of(values);
     return Eigen::Map<const VectorXd>(ranks.data(), static_cast<Index>(ranks.size()));

@@ -11,7 +11,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-std::string shown(double value, const std::string& unit = "") {
+std::string in_unit(double value, const std::string& unit = "") {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value);
     return text + (unit.empty() || unit == "1" ? "" : " " + unit);
@@ -87,9 +87,9 @@ double edge_of_band(const std::vector<Point>& points, std::size_t from, int dire
 }
 
 std::string outside(const InverseQuestion& question, const Point& low, const Point& high) {
-    return question.quantity + " is " + shown(low.result, question.unit) + " at " +
-           shown(low.value) + " and " + shown(high.result, question.unit) + " at " +
-           shown(high.value) + ": " + shown(question.target, question.unit) +
+    return question.quantity + " is " + in_unit(low.result, question.unit) + " at " +
+           in_unit(low.value) + " and " + in_unit(high.result, question.unit) + " at " +
+           in_unit(high.value) + ": " + in_unit(question.target, question.unit) +
            " is not between them";
 }
 
@@ -139,7 +139,7 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     if (!advice.run_next.empty() || std::ranges::any_of(steps, &InverseStep::open)) return advice;
     for (const InverseStep& each : steps)
         if (each.results.empty()) {
-            advice.refused = "no run at " + shown(each.value) + " gave a result";
+            advice.refused = "no run at " + in_unit(each.value) + " gave a result";
             return advice;
         }
     const Scale scale{question.logarithmic};
@@ -166,7 +166,7 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     tell(question, scale, points, bracket, noise, advice);
     if (wide)
         advice.remark = "the runs that \"samples\" allows are used up: the value lies between " +
-                        shown(a.value) + " and " + shown(b.value);
+                        in_unit(a.value) + " and " + in_unit(b.value);
     return advice;
 }
 

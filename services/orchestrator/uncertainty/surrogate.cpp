@@ -45,7 +45,7 @@ VectorXd normal_scores(std::span<const double> values) {
 }
 
 /// One place in the space of the parameters.
-struct Place {
+struct Coordinates {
     RowVectorXd scores;   ///< of the numbers
     RowVectorXd options;  ///< of the choices: which option, 0 or 1
 };
@@ -60,7 +60,7 @@ struct Inputs {
     MatrixXd scores;   ///< [samples][numbers]
     MatrixXd options;  ///< [samples][columns of options]
     std::vector<Block> blocks;
-    Place at(Index sample) const { return {scores.row(sample), options.row(sample)}; }
+    Coordinates at(Index sample) const { return {scores.row(sample), options.row(sample)}; }
 };
 
 Inputs inputs_of(std::span<const Drawn> parameters, Index samples) {
@@ -77,7 +77,7 @@ Inputs inputs_of(std::span<const Drawn> parameters, Index samples) {
 }
 
 /// One point's terms: 1, options, scores, squares, products.
-RowVectorXd terms_of(const Place& place, Form form) {
+RowVectorXd terms_of(const Coordinates& place, Form form) {
     const auto& [scores, options] = place;
     const Index k = scores.size();
     std::vector<double> terms{1.0};
@@ -94,7 +94,7 @@ struct Fit {
     Form form = Form::linear;
     VectorXd coefficients;
     double q2 = 0.0;
-    double at(const Place& place) const { return terms_of(place, form).dot(coefficients); }
+    double at(const Coordinates& place) const { return terms_of(place, form).dot(coefficients); }
 };
 
 /// Nothing: too many terms for so many samples, or terms that the samples do not tell apart.
@@ -129,7 +129,7 @@ std::optional<Fit> best_fit(const Inputs& inputs, const VectorXd& y) {
 }
 
 /// The place with one of a choice's options; -1: the first, which has no column.
-Place with_option(Place place, const Block& block, Index option) {
+Coordinates with_option(Coordinates place, const Block& block, Index option) {
     place.options.segment(block.first, block.count).setZero();
     if (option >= 0) place.options(block.first + option) = 1.0;
     return place;
@@ -145,15 +145,16 @@ Index most_frequent(const Inputs& inputs, const Block& block) {
 }
 
 /// Numbers at score 0, choices at their most frequent option.
-Place middle_of(const Inputs& inputs, std::span<const Drawn> parameters) {
-    Place middle{RowVectorXd::Zero(inputs.scores.cols()), RowVectorXd::Zero(inputs.options.cols())};
+Coordinates middle_of(const Inputs& inputs, std::span<const Drawn> parameters) {
+    Coordinates middle{RowVectorXd::Zero(inputs.scores.cols()),
+                       RowVectorXd::Zero(inputs.options.cols())};
     for (std::size_t j = 0; j < parameters.size(); ++j)
         if (parameters[j].is_choice)
             middle = with_option(middle, inputs.blocks[j], most_frequent(inputs, inputs.blocks[j]));
     return middle;
 }
 
-TornadoBar bar_of_number(const Fit& fit, Place place, const Block& block) {
+TornadoBar bar_of_number(const Fit& fit, Coordinates place, const Block& block) {
     const auto at = [&](double share) {
         place.scores(block.first) = normal_quantile(share);
         return fit.at(place);
@@ -161,7 +162,7 @@ TornadoBar bar_of_number(const Fit& fit, Place place, const Block& block) {
     return {.name = "", .p10 = at(0.1), .p90 = at(0.9)};
 }
 
-TornadoBar bar_of_choice(const Fit& fit, Place place, const Block& block) {
+TornadoBar bar_of_choice(const Fit& fit, Coordinates place, const Block& block) {
     TornadoBar bar{.name = "", .p10 = fit.at(with_option(place, block, -1)), .p90 = 0.0};
     bar.p90 = bar.p10;
     for (Index option = 0; option < block.count; ++option) {
@@ -172,7 +173,7 @@ TornadoBar bar_of_choice(const Fit& fit, Place place, const Block& block) {
     return bar;
 }
 
-std::string shown(double value) {
+std::string two_decimals(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2f", value);
     return text;
@@ -198,10 +199,11 @@ Tornado tornado_of(std::span<const Drawn> parameters, std::span<const double> re
     tornado.q2 = fit->q2;
     tornado.form = name_of(fit->form);
     if (fit->q2 < least_q2) {
-        tornado.refused = "Q2 is " + shown(fit->q2) + "; " + shown(least_q2) + " is needed";
+        tornado.refused =
+            "Q2 is " + two_decimals(fit->q2) + "; " + two_decimals(least_q2) + " is needed";
         return tornado;
     }
-    const Place middle = middle_of(inputs, parameters);
+    const Coordinates middle = middle_of(inputs, parameters);
     tornado.at_median = fit->at(middle);
     for (std::size_t j = 0; j < parameters.size(); ++j) {
         const auto bar_of = parameters[j].is_choice ? bar_of_choice : bar_of_number;

@@ -18,7 +18,7 @@ using namespace nlohmann::literals;
 namespace {
 
 constexpr std::size_t most_rows = 100;  // of a table that is printed
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double no_bound_yet = std::numeric_limits<double>::infinity();
 
 /// What is published of the case stands in the figure, too.
 void add_published(const Material& from, const std::string& quantity, Figure& figure) {
@@ -39,7 +39,7 @@ std::optional<double> least_moving(const Run& run, const std::string& quantity) 
     if (!grows(quantity)) return least;
     for (const PhaseFolder* each : moving_samples(run))
         if (const json value = each->result.value(quantity, json()); value.is_number())
-            least = std::min(least.value_or(never), value.get<double>());
+            least = std::min(least.value_or(no_bound_yet), value.get<double>());
     return least;
 }
 
