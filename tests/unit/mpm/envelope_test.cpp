@@ -56,7 +56,7 @@ TEST(Envelope, KeepsABoundedNumberOfRowsOfEvenTimes) {
 }
 
 /// 2.5 m deep from x = 2 to 6.
-scene::Scene layer() {
+scene::Scene low_layer() {
     return one_soil(elastic(1e6, 0.3), 2000.0, rectangle(2, 0, 6, 2.5), 1.0, 12.0, 6.0);
 }
 
@@ -65,7 +65,7 @@ void move(Points& points, double by) {
 }
 
 TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
-    const scene::Scene scene = layer();
+    const scene::Scene scene = low_layer();
     static constexpr double v = 3.0;
     Body body = filled_body(scene, [](const Vec2&) -> Vec2 { return {v, 0.0}; });
     const FlowView view = flow_view(scene, body.grid);
@@ -104,7 +104,7 @@ TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
 }
 
 TEST(Sections, SoilThatGoesBackIsNegative) {
-    const scene::Scene scene = layer();
+    const scene::Scene scene = low_layer();
     Body body = filled_body(scene);
     const FlowView view = flow_view(scene, body.grid);
     const std::vector<scene::FlowSection> sections{{"in", 4.0}};
@@ -116,7 +116,7 @@ TEST(Sections, SoilThatGoesBackIsNegative) {
     EXPECT_NEAR(records[0].discharge.back(), -1.25, 1e-12);
 }
 
-scene::Scene heap() {
+scene::Scene watched_heap() {
     scene::Scene scene =
         one_soil(sand(5e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 20.0, 6.0);
     scene.gravity = 9.81;
@@ -157,7 +157,7 @@ void expect_same(const Records& a, const Records& b) {
 }
 
 TEST(Envelope, HasTheSameBitsForAnyThreadsAndAfterAStop) {
-    const scene::Scene scene = heap();
+    const scene::Scene scene = watched_heap();
     const Simulation whole = run(scene, 300);
     expect_same(whole.records(), run(scene, 300, 2).records());
 
@@ -176,7 +176,7 @@ TEST(Envelope, HasTheSameBitsForAnyThreadsAndAfterAStop) {
 
 // What the collapse carries past a section is what lies beyond it, to 1 % at the toe.
 TEST(Sections, OfACollapseClose) {
-    scene::Scene scene = heap();
+    scene::Scene scene = watched_heap();
     scene.mpm->cell_size = 0.25;
     const Simulation simulation = run(scene, 2000);
     const SectionRecords& sections = simulation.records().sections;
