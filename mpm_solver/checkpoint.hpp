@@ -7,6 +7,8 @@
 
 namespace breach::mpm {
 
+inline constexpr int checkpoint_version = 8;
+
 void save_checkpoint(const std::filesystem::path& file, const Simulation& simulation,
                      std::int64_t telemetry_lines, const exchange::Provenance& provenance);
 

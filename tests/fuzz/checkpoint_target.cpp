@@ -84,7 +84,7 @@ class MpmPhase {
         simulation.look();
         simulation.advance();
         mpm::save_checkpoint(file(), simulation, 1, provenance());
-        sound_ = exchange::read_archive(file(), "mpm_checkpoint", 7);
+        sound_ = exchange::read_archive(file(), "mpm_checkpoint", mpm::checkpoint_version);
     }
     const Archive& sound() const { return sound_; }
     void go_on_from(const Archive& archive) {
