@@ -92,15 +92,21 @@ export class Compare {
     }
 
     async choose_run(index, id) {
-        const select = by_id(`compare-source-${index}`);
-        select.disabled = true; // its tasks are still those of the run before
-        const task = first_with_frames(picture_tasks(await api.read_run(id)));
-        if (task) this.choose(index, task.id);
-        else {
-            select.disabled = false;
-            by_id(`compare-run-${index}`).value = this.sides[index].run.id;
-            set_text(by_id(`compare-says-${index}`), "That run leaves no snapshots; this is still the one before.");
+        const side = this.sides[index];
+        side.wanted_run = id; // until its address is shown, the tasks of the run before are not offered
+        by_id(`compare-source-${index}`).disabled = true;
+        let why = "That run leaves no snapshots; this is still the one before.";
+        const run = await api.read_run(id).catch((fault) => { why = fault.message; });
+        if (side.wanted_run !== id) return;
+        const task = run && first_with_frames(picture_tasks(run));
+        if (task) {
+            this.choose(index, task.id);
+            return;
         }
+        side.wanted_run = null;
+        by_id(`compare-source-${index}`).disabled = false;
+        by_id(`compare-run-${index}`).value = side.run.id;
+        set_text(by_id(`compare-says-${index}`), why);
     }
 
     /// Tasks by id; the second one may be left out: then it is to be chosen.
@@ -109,7 +115,8 @@ export class Compare {
         const runs = await api.list_runs();
         for (const side of this.sides) await side.open(wanted[side.index]);
         if (wanted.some((task, i) => task !== this.sides[i].source?.task)) return;
-        for (const side of this.sides) this.offer(side, runs);
+        if (this.shown !== wanted.join()) for (const side of this.sides) side.wanted_run = null;
+        for (const side of this.sides) if (!side.wanted_run) this.offer(side, runs);
         const times = this.sides.flatMap(({ source }) => source.frames.map(({ time }) => time)).sort((a, b) => a - b);
         const fresh = this.shown !== wanted.join() || times.length !== this.count;
         this.shown = wanted.join();

@@ -30,7 +30,7 @@ def same(a, b):
     one, other = arrays(a), arrays(b)
     assert one.keys() == other.keys(), (a, b)
     for name in one:
-        assert np.array_equal(one[name], other[name]), f"{name} differs between {a} and {b}"
+        assert one[name].tobytes() == other[name].tobytes(), f"{name} differs between {a} and {b}"
 
 
 def telemetry(folder):
