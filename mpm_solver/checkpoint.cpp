@@ -165,8 +165,12 @@ Points load_points(const Archive& archive, const std::string& file) {
 
 void save_checkpoint(const std::filesystem::path& file, const Simulation& simulation,
                      std::int64_t telemetry_lines, const exchange::Provenance& provenance) {
-    Archive archive{
-        .kind = kind, .version = checkpoint_version, .reals = {}, .integers = {}, .texts = {}, .units = {}};
+    Archive archive{.kind = kind,
+                    .version = checkpoint_version,
+                    .reals = {},
+                    .integers = {},
+                    .texts = {},
+                    .units = {}};
     const Body& body = simulation.body();
     for_each_real(body.points, [&](const char* name, const std::vector<double>& values) {
         archive.reals[name] = values;
@@ -202,7 +206,8 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
 
 Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& scene,
                         const exchange::Provenance& provenance, const Computing& computing) {
-    const Archive archive = exchange::read_archive(file, kind, checkpoint_version, exchange::Reals::finite);
+    const Archive archive =
+        exchange::read_archive(file, kind, checkpoint_version, exchange::Reals::finite);
     refuse_other_ground(archive, scene::mpm_of(scene).shaking, file.string());
     refuse_if_different(archive, "scene", provenance.scene, file.string());
     refuse_if_different(archive, "inputs", digests(provenance), file.string());
