@@ -66,6 +66,17 @@ inline scene::Scene one_soil(const materials::Law& law, double density,
     return scene;
 }
 
+/// 4 x 4 m of sand at a wall, on a floor with friction: it collapses within 10 s.
+inline scene::Scene sand_block() {
+    scene::Scene scene =
+        one_soil(sand(5e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 20.0, 6.0);
+    scene.gravity = 9.81;
+    scene.mpm->left = scene::Wall::roller;
+    scene.mpm->floor.friction = {{0.0, 20.0, 0.5}};
+    scene.mpm->duration = 10.0;
+    return scene;
+}
+
 /// Initial velocity at a place.
 using Velocity = std::function<mechanics::Vec2(const mechanics::Vec2&)>;
 

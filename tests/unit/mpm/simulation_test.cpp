@@ -13,13 +13,8 @@ namespace breach::mpm::test {
 namespace {
 
 scene::Scene heap() {
-    scene::Scene scene =
-        one_soil(sand(5e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 20.0, 6.0);
-    scene.gravity = 9.81;
-    scene.mpm->left = scene::Wall::roller;
-    scene.mpm->floor.friction = {{0.0, 20.0, 0.5}};
+    scene::Scene scene = sand_block();
     scene.mpm->snapshot_interval = 0.25;
-    scene.mpm->duration = 10.0;
     scene.mpm->runout.toe = {4.0, 0.0};
     return scene;
 }

@@ -4,34 +4,12 @@
 #include <fstream>
 #include <set>
 
-#include "core/fault/fault.hpp"
-#include "services/orchestrator/study/graph.hpp"
+#include "tests/unit/orchestrator/column_study.hpp"
 
 namespace breach::orchestrator {
 namespace {
 
 using nlohmann::json;
-
-const Numerics numerics{
-    {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}, {"lem_tool", 1}};
-
-json column_scene() {
-    return json::parse(R"({
-      "format": "breachline-scene/1", "name": "column",
-      "materials": {"sand": {"density": 1800, "viscosity": 100, "law": {"type": "mohr_coulomb",
-        "E_MPa": 20, "nu": 0.3, "c_kPa": 1, "phi_deg": 30}}},
-      "section": {"regions": [{"name": "column", "material": "sand",
-        "polygon": [[0, 0], [10, 0], [10, 20], [0, 20], [0, 0]],
-        "mesh": {"type": "block", "divisions": [10, 20]}}]},
-      "fem": {"supports": [{"name": "base", "from": [0, 0], "to": [10, 0], "fixes": "xy"}],
-        "stages": [{"type": "static", "name": "geostatic"},
-          {"type": "dynamic", "name": "failure", "duration": 0.75, "time_step": 0.005}],
-        "crest": [10, 20]},
-      "transfer": {},
-      "mpm": {"cell_size": 1.0, "domain_x": [0, 60], "domain_y": [0, 24],
-        "floor": {"level": 0, "friction": [{"from": 0, "to": 60, "coefficient": 0.5}]},
-        "duration": "until_rest", "runout": {"toe": [10, 0]}}})");
-}
 
 const char* const friction = "/mpm/floor/friction/0/coefficient";
 
@@ -47,6 +25,7 @@ json wanted() {
 
 json with_scene(json study) {
     study["scene"] = column_scene();
+    study["scene"]["materials"]["sand"]["viscosity"] = 100;
     return study;
 }
 
@@ -55,25 +34,6 @@ json runout_only() {
     json study = with_scene(wanted());
     study["uncertainty"]["parameters"].erase(1);
     return study;
-}
-
-std::size_t count(const TaskGraph& graph, const std::string& phase) {
-    return static_cast<std::size_t>(std::ranges::count(graph.tasks, phase, &TaskPlan::phase));
-}
-
-/// The fault with this pointer; fails when there is none.
-fault::Fault refusal(const json& study, const std::string& pointer) {
-    std::string found;
-    try {
-        read_study(study.dump());
-    } catch (const fault::BadInput& error) {
-        for (const fault::Fault& each : error.faults()) {
-            if (each.pointer == pointer) return each;
-            found += each.pointer + ": " + each.cause + "\n";
-        }
-    }
-    ADD_FAILURE() << "no fault at " << pointer << ", but\n" << found;
-    return {};
 }
 
 TEST(UncertaintyStudy, SamplesAreVariantsWithTheirDraws) {
