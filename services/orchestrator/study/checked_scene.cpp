@@ -34,9 +34,17 @@ void need_absolute_files(json scene, const std::vector<std::string>& overrides,
 
 check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
                                 const std::filesystem::path& folder) {
+    check::Recordings recordings;
+    return check_sent_scene(document, overrides, folder, recordings);
+}
+
+check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
+                                const std::filesystem::path& folder,
+                                check::Recordings& recordings) {
     std::vector<Fault> faults;
     need_absolute_files(document, overrides, faults);
-    check::Checked checked = check::checked_text(document.dump(), "scene", folder, overrides);
+    check::Checked checked =
+        check::checked_document(document, "scene", folder, overrides, recordings);
     // A relative path was looked for below the root: one fault is enough.
     std::erase_if(checked.faults, [&](const Fault& each) {
         return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
