@@ -98,7 +98,12 @@ std::string inverse_in_words(const json& inverse) {
     if (inverse.at("state") == "running")
         return "The " + vary + " for a " + target + " is searched.";
     if (inverse.at("state") == "refused") return "No " + vary + " is found: " + reason + ".";
-    std::string words = "A " + vary + " of " + shown(inverse.at("value"));
+    const json& bound = inverse.at("bound");
+    std::string words = "A " + vary + " of " +
+                        (bound == "at_least"  ? "at least "
+                         : bound == "at_most" ? "at most "
+                                              : "") +
+                        shown(inverse.at("value"));
     if (inverse.at("low").is_number())
         words += " (" + shown(inverse.at("low")) + " to " + shown(inverse.at("high")) +
                  " by the scatter of lattices alone)";
