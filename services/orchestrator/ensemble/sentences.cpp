@@ -130,6 +130,16 @@ std::vector<std::string> sentences_of(const json& findings) {
                 "No tornado: " + statistics.at("tornado").at("refused").get<std::string>() +
                 ". A fitted polynomial would not tell what one parameter does.");
     }
+    if (quantities.contains("factor_of_safety")) {
+        const json& stability = quantities.at("factor_of_safety");
+        const json& failed = stability.at("probability_of_failure");
+        sentences.push_back(
+            "Probability of failure (factor of safety below 1), by the same draws as " +
+            std::string("the other results: ") + shown(100.0 * failed.at("value").get<double>()) +
+            " % (" + shown(100.0 * failed.at("low").get<double>()) + " to " +
+            shown(100.0 * failed.at("high").get<double>()) + " %), of " +
+            counted(stability.at("count"), "sample") + ".");
+    }
     const json& parameters = findings.at("parameters");
     const auto of_kind = [&](const char* kind) {
         return std::ranges::any_of(parameters,

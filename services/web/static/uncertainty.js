@@ -175,7 +175,7 @@ export class Uncertainty {
     draw_search({ vary, quantity, unit, target, value, low, high, steps, bound }) {
         const done = steps.filter(({ result }) => Number.isFinite(result));
         const what = labelled({ name: measures[quantity] ?? quantity, unit });
-        const found = Number.isFinite(value) ? [{ x: value, text: `${{ at_least: "≥ ", at_most: "≤ " }[bound] ?? ""}${number(value)}` }] : [];
+        const found = Number.isFinite(value) ? [{ x: value, text: `${{ at_least: "≥ ", at_most: "≤ " }[bound] ?? ""}${number(value, 3)}` }] : [];
         Object.assign(this.search.labels, { title: `${what} against ${vary}`, y: what, x_name: vary });
         this.search.show({
             series: [{ name: "mean of the lattices", unit, points: true, x: done.map((each) => each.value), y: done.map(({ result }) => result),
