@@ -44,6 +44,7 @@ struct Arguments {
     bool watch = false;
     bool dry_run = false;
     std::size_t samples = 0;  ///< in all; 0: it is not asked
+    std::string budget;       ///< CPU seconds or "none"; empty: it is not asked
     bool strict = false;
     ResultsWish results;
     CheckWish check;
@@ -95,7 +96,8 @@ class CommandLine {
         app_.footer(
             "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed "
             "(with\n"
-            "--strict: or is questionable), 74 file fault, 75 the server does not answer.");
+            "--strict: or is questionable), 74 file fault, 75 the server does not answer, or the budget "
+            "of the run that was watched is spent.");
         add_run_commands();
         add_sweep_commands();
         add_accuracy_command();
@@ -274,8 +276,11 @@ class CommandLine {
                            return submit_and_watch(s, c);
                        }));
         CLI::App* extend_ =
-            add("extend", "more transfer times, or more samples; what was computed stays",
-                "latest --times 0.75,1.25", [this](Server& s, const Console& c) {
+            add("extend",
+                "more transfer times, more samples or a larger budget; what was computed stays",
+                "latest --times 0.75,1.25\n  breach extend latest --budget 7200",
+                [this](Server& s, const Console& c) {
+                    if (!a_.budget.empty()) return extend_budget(s, a_.id, a_.budget, c);
                     return a_.samples > 0 ? extend_samples(s, a_.id, a_.samples, c)
                                           : extend(s, a_.id, a_.submit.transfer_times, c);
                 });
@@ -287,6 +292,14 @@ class CommandLine {
         more->add_option("--samples", a_.samples,
                          "so many samples in all, of an uncertainty study; the first ones stay")
             ->check(CLI::Range(1, 10000));
+        more->add_option("--budget", a_.budget,
+                         "CPU seconds that the run may spend in all, or none: no limit")
+            ->check([](const std::string& budget) {
+                double seconds = 0.0;
+                const bool sound = budget == "none" ||
+                                   (CLI::detail::lexical_cast(budget, seconds) && seconds > 0.0);
+                return sound ? "" : budget + " is neither a number of seconds above 0 nor none";
+            });
         more->require_option(1);
     }
 
