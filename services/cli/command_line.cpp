@@ -15,7 +15,9 @@
 #include "services/cli/export_run.hpp"
 #include "services/cli/import.hpp"
 #include "services/cli/logs.hpp"
+#include "services/cli/machinery.hpp"
 #include "services/cli/new_scene.hpp"
+#include "services/cli/scenes.hpp"
 #include "services/cli/stored.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/watch.hpp"
@@ -61,6 +63,9 @@ struct Arguments {
     DrawWish draw;
     NewWish make;
     ImportWish import;
+    ScenesWish scenes;
+    TransfersWish transfers;
+    std::string sha256;
 };
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
@@ -108,6 +113,8 @@ class CommandLine {
         add_drawing();
         add_import();
         add_storage_commands();
+        add_scenes();
+        add_machinery();
         add_completion();
     }
 
@@ -519,6 +526,48 @@ class CommandLine {
         files->add_option("FILE", a_.files, "send these, print how a scene names them");
         take_run(add("open", "print the dashboard's address of a run", "latest",
                      [this](Server& s, const Console& c) { return open_page(s, a_.id, c); }));
+    }
+
+    void add_scenes() {
+        CLI::App* sub = app_.add_subcommand(
+            "scenes", "scenes that the server keeps; a study refers to one as \"scene:NAME\"");
+        sub->footer(
+            "Example:\n  breach scenes add scene.json --name dam\nThen in a study: \"scene\": "
+            "\"scene:dam\" (the newest version when it is submitted), \"scene:dam@2\" or "
+            "\"scene:sha256/<64 digits>\".");
+        const auto choose = [this](ScenesCommand command) {
+            command_ = [this, command](Server& s, const Console& c) {
+                return command(s, a_.scenes, c);
+            };
+        };
+        take_scene_words(*sub, a_.scenes, choose);
+        sub->callback([sub, choose] {
+            if (sub->get_subcommands().empty()) choose(list_scenes);
+        });
+    }
+
+    void add_machinery() {
+        add("workers", "what runs where, and the queue", "--json",
+            [](Server& s, const Console& c) { return workers(s, c); });
+        CLI::App* transfers_ =
+            add("transfers", "why each transfer was made, how long it waited, what came of it",
+                "latest --why criterion",
+                [this](Server& s, const Console& c) { return transfers(s, a_.transfers, c); });
+        transfers_->add_option("RUN", a_.transfers.run, "only of this run");
+        transfers_
+            ->add_option("--why", a_.transfers.why, "only at_time, manual, criterion, window, bisect")
+            ->check(CLI::IsMember({"at_time", "manual", "criterion", "window", "bisect"}));
+        transfers_->add_option("-n,--most", a_.transfers.most, "how many")
+            ->check(CLI::Range(1, 500))
+            ->capture_default_str();
+        CLI::App* provenance_ = add(
+            "provenance",
+            "how a file came to be: tasks, programs, inputs, up to scene and study; --json: PROV-JSON",
+            "SHA256 --json > provenance.json",
+            [this](Server& s, const Console& c) { return provenance(s, a_.sha256, c); });
+        provenance_
+            ->add_option("SHA256", a_.sha256, "of an artifact; `show TASK` lists them")
+            ->required();
     }
 
     void add_completion() {

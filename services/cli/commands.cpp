@@ -18,10 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-void show_json(const json& answer, const Console& console) {
-    console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
-}
-
 /// Tasks are named after their run: "<run>-00007".
 bool names_task(const std::string& id) { return id.find('-') != std::string::npos; }
 

@@ -1,6 +1,8 @@
 // Transfers with what made them.
+#include <algorithm>
 #include <array>
 
+#include "core/words/number.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
 #include "services/orchestrator/records/or_null.hpp"
@@ -17,18 +19,17 @@ constexpr std::array reasons{"at_time", "manual", "criterion", "window", "bisect
 json condition_of(const TransferRow& row) {
     if (!row.spec) return nullptr;
     const json& spec = *row.spec;
-    const auto text = [&](const char* key) {
-        return spec.contains(key) && spec[key].is_string() ? spec[key].get<std::string>() : "";
-    };
-    const std::string hold = spec.contains("hold") && spec["hold"] != 0
-                                 ? ", held for " + spec["hold"].dump() + " s"
-                                 : std::string();
+    const auto text = [&](const char* key) { return spec.value(key, std::string()); };
+    const auto amount = [&](const char* key) { return words::text_of(spec.value(key, 0.0)); };
+    const std::string hold =
+        spec.value("hold_s", 0.0) > 0.0 ? ", held for " + amount("hold_s") + " s" : "";
     if (row.why == "criterion") return text("when") + hold;
     if (row.why == "window")
-        return "from " + text("lower") + " to " + text("upper") +
-               (spec.contains("pick") ? ", " + text("pick") : "") + hold;
-    if (row.why == "manual") return "asked for at " + spec.value("after", json(0)).dump() + " s";
-    return spec.dump();
+        return "from " + text("lower") + " to " + (text("upper").empty() ? "the end" : text("upper")) +
+               ", " + text("pick") + hold;
+    if (row.why == "manual") return "asked for at " + amount("after") + " s";
+    return "runout at least " + amount("share") + " of the largest, edges to " +
+           amount("tolerance_s") + " s";
 }
 
 json as_json(const TransferRow& row) {
