@@ -120,13 +120,21 @@ class Told {
             used_[each.at("prov:activity")].push_back(each.at("prov:entity"));
         for (const auto& [id, each] : all("wasAssociatedWith"))
             agent_[each.at("prov:activity")] = each.at("prov:agent");
+        for (const auto& [id, each] : all("wasDerivedFrom"))
+            if (!each.contains("prov:activity"))
+                source_[each.at("prov:generatedEntity")].push_back(each.at("prov:usedEntity"));
     }
 
     std::string lines_from(const std::string& entity, std::size_t depth = 0) {
         const std::string indent(2 * depth, ' ');
         std::string text = indent + named(entity) + "\n";
         const auto maker = maker_.find(entity);
-        if (maker == maker_.end()) return text;
+        if (maker == maker_.end()) {
+            if (!seen_.insert(entity).second) return text;
+            for (const std::string& each : source_[entity])
+                text += indent + "  from " + named(each) + "\n";
+            return text;
+        }
         text += indent + "  made by " + activity(maker->second) + "\n";
         if (!seen_.insert(maker->second).second) return text + indent + "    (as above)\n";
         for (const std::string& each : used_[maker->second]) text += lines_from(each, depth + 2);
@@ -163,8 +171,9 @@ class Told {
     const json& document_;
     std::map<std::string, std::string> maker_;
     std::map<std::string, std::vector<std::string>> used_;
+    std::map<std::string, std::vector<std::string>> source_;  ///< without an activity between
     std::map<std::string, std::string> agent_;
-    std::set<std::string> seen_;
+    std::set<std::string> seen_;  ///< told once
 };
 
 }  // namespace

@@ -91,7 +91,7 @@ class RealService(unittest.TestCase):
         tasks = json.loads(self.breach("show", run, "--json").stdout)["tasks"]
         result = next(each for each in tasks[-1]["artifacts"] if each["name"] == "result.json")
         told = self.breach("provenance", result["sha256"]).stdout
-        for part in ("mpm_solver", "transfer_tool", "fem_solver", "particles.vtkhdf", "study column", "scene column"):
+        for part in ("mpm_solver", "transfer_tool", "fem_solver", "particles.vtkhdf", "study column", "scene column", "scene column@1"):
             self.assertIn(part, told)
         self.breach("scenes", "rm", "column", code=65)
         self.breach("rm", run)

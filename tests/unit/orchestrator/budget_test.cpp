@@ -47,7 +47,9 @@ TEST(Budget, StopsNewWorkAndSaysWhatIsMissingAndHowToGoOn) {
         EXPECT_TRUE(each.at("state") == "ready" || each.at("state") == "blocked" ||
                     each.at("state") == "succeeded")
             << each.at("state");
-        if (each.at("phase") == "mpm_solver") EXPECT_TRUE(each.at("attempts").empty());
+        if (each.at("phase") == "mpm_solver") {
+            EXPECT_TRUE(each.at("attempts").empty());
+        }
     }
     const json listed = service.get("/v1/runs?state=budget_exhausted").body.at("runs");
     ASSERT_EQ(listed.size(), 1u);

@@ -27,7 +27,7 @@ TEST(Workers, AreWhatRunsWithItsProcess) {
     EXPECT_EQ(workers.at("executor"), "local");
     EXPECT_TRUE(workers.at("slurm").is_null());
     EXPECT_GE(workers.at("slots_used"), 1);
-    EXPECT_EQ(workers.at("queue").at("blocked"), 2);
+    EXPECT_GE(workers.at("queue").at("blocked"), 1);  // the MPM, and the transfer until its snapshot
     for (const json& each : workers.at("workers")) {
         if (each.at("phase") != "fem_solver") continue;
         EXPECT_EQ(each.at("run"), run);
@@ -88,9 +88,10 @@ void expect_closed(const json& prov) {
             continue;
         for (const json& each : all)
             for (const auto& [role, id] : each.items())
-                if (kinds.contains(role))
+                if (kinds.contains(role)) {
                     EXPECT_TRUE(prov.at(kinds.at(role)).contains(id.get<std::string>()))
                         << relation << ": " << id;
+                }
     }
 }
 
