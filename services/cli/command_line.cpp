@@ -101,7 +101,8 @@ class CommandLine {
         app_.footer(
             "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed "
             "(with\n"
-            "--strict: or is questionable), 74 file fault, 75 the server does not answer, or the budget "
+            "--strict: or is questionable), 74 file fault, 75 the server does not answer, or the "
+            "budget "
             "of the run that was watched is spent.");
         add_run_commands();
         add_sweep_commands();
@@ -555,18 +556,19 @@ class CommandLine {
                 [this](Server& s, const Console& c) { return transfers(s, a_.transfers, c); });
         transfers_->add_option("RUN", a_.transfers.run, "only of this run");
         transfers_
-            ->add_option("--why", a_.transfers.why, "only at_time, manual, criterion, window, bisect")
+            ->add_option("--why", a_.transfers.why,
+                         "only at_time, manual, criterion, window, bisect")
             ->check(CLI::IsMember({"at_time", "manual", "criterion", "window", "bisect"}));
         transfers_->add_option("-n,--most", a_.transfers.most, "how many")
             ->check(CLI::Range(1, 500))
             ->capture_default_str();
-        CLI::App* provenance_ = add(
-            "provenance",
-            "how a file came to be: tasks, programs, inputs, up to scene and study; --json: PROV-JSON",
-            "SHA256 --json > provenance.json",
-            [this](Server& s, const Console& c) { return provenance(s, a_.sha256, c); });
-        provenance_
-            ->add_option("SHA256", a_.sha256, "of an artifact; `show TASK` lists them")
+        CLI::App* provenance_ =
+            add("provenance",
+                "how a file came to be: tasks, programs, inputs, up to scene and study; --json: "
+                "PROV-JSON",
+                "SHA256 --json > provenance.json",
+                [this](Server& s, const Console& c) { return provenance(s, a_.sha256, c); });
+        provenance_->add_option("SHA256", a_.sha256, "of an artifact; `show TASK` lists them")
             ->required();
     }
 

@@ -119,8 +119,7 @@ ExitCode extend_samples(Server& server, const std::string& run, std::size_t samp
 
 ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
                        const Console& console) {
-    const json wanted =
-        budget == "none" ? json(nullptr) : json{{"cpu_seconds", std::stod(budget)}};
+    const json wanted = budget == "none" ? json(nullptr) : json{{"cpu_seconds", std::stod(budget)}};
     return show_order(
         server.post(path_of({"sweeps", run_named(server, run), "extend"}), {{"budget", wanted}}),
         console);

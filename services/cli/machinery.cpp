@@ -65,8 +65,8 @@ ExitCode workers(Server& server, const Console& console) {
                     << "\n";
     const json& queue = answer.at("queue");
     console.out << cell(answer, "slots_used") << " of " << cell(answer, "slots") << " cores taken"
-                << (answer.at("executor") == "slurm" ? " in Slurm" : "") << "; waiting: "
-                << cell(queue, "ready") << " ready, " << cell(queue, "blocked")
+                << (answer.at("executor") == "slurm" ? " in Slurm" : "")
+                << "; waiting: " << cell(queue, "ready") << " ready, " << cell(queue, "blocked")
                 << " for an input, " << cell(queue, "retry_wait") << " for another try\n";
     if (const json& slurm = answer.at("slurm"); slurm.is_object())
         console.out << "Slurm: " << counts_of(slurm.at("states"))

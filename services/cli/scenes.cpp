@@ -46,7 +46,8 @@ ExitCode list_scenes(Server& server, const ScenesWish& wish, const Console& cons
     std::vector<Cells> rows;
     for (const json& each : scenes)
         rows.push_back({names_of(each), cell(each, "sha256").substr(0, 12),
-                        in_bytes(each.at("bytes").get<double>()), cell(each, "created").substr(0, 10),
+                        in_bytes(each.at("bytes").get<double>()),
+                        cell(each, "created").substr(0, 10),
                         std::to_string(each.at("runs").size())});
     if (rows.empty())
         console.notes << "no scenes are stored\n";
@@ -68,10 +69,9 @@ ExitCode show_scene(Server& server, const ScenesWish& wish, const Console& conso
 }
 
 ExitCode add_scene(Server& server, const ScenesWish& wish, const Console& console) {
-    const json stored = post_scene(server, "/v1/scenes" + query_of({{"name", wish.name}}),
-                                   read_scene_document(wish.file),
-                                   wish.send_files ? Sending::always : Sending::where_needed,
-                                   console);
+    const json stored = post_scene(
+        server, "/v1/scenes" + query_of({{"name", wish.name}}), read_scene_document(wish.file),
+        wish.send_files ? Sending::always : Sending::where_needed, console);
     if (console.style == Style::json) {
         show_json(stored, console);
         return ExitCode::done;

@@ -104,9 +104,8 @@ json post_study(Server& server, const std::string& door, json study, const Heade
 
 json post_scene(Server& server, const std::string& door, const json& scene, Sending sending,
                 const Console& console) {
-    return post_with_files(server, {{"scene", scene}}, sending, console, [&](const json& sent) {
-        return server.post(door, sent.at("scene"));
-    });
+    return post_with_files(server, {{"scene", scene}}, sending, console,
+                           [&](const json& sent) { return server.post(door, sent.at("scene")); });
 }
 
 }  // namespace breach::cli

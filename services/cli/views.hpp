@@ -8,8 +8,8 @@ namespace breach::cli {
 
 enum class RunEnd {
     not_yet,
-    good,   ///< succeeded, perhaps questionable; or partial: some transfer times have no runout
-    bad,    ///< failed or cancelled
+    good,  ///< succeeded, perhaps questionable; or partial: some transfer times have no runout
+    bad,   ///< failed or cancelled
     short_of_budget,  ///< it goes on when its budget is raised, and not before
 };
 

@@ -79,8 +79,8 @@ Usage usage_of(pid_t pid) {
     fields >> pages;
     if (!fields) return {};
     return {.cpu_seconds = (user + kernel) / static_cast<double>(sysconf(_SC_CLK_TCK)),
-            .memory_mb = static_cast<std::int64_t>(
-                1e-6 * pages * static_cast<double>(sysconf(_SC_PAGESIZE)))};
+            .memory_mb = static_cast<std::int64_t>(1e-6 * pages *
+                                                   static_cast<double>(sysconf(_SC_PAGESIZE)))};
 }
 
 std::string host_name() {

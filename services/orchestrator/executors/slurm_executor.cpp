@@ -69,7 +69,8 @@ std::optional<std::vector<QueuedJob>> SlurmExecutor::jobs() {
     const std::lock_guard lock(mutex_);
     std::vector<QueuedJob> list;
     for (const auto& [root, job] : jobs_)
-        if (!job.given_up) list.push_back({root, job.number, job.number.empty() ? "" : job.state, job.reason});
+        if (!job.given_up)
+            list.push_back({root, job.number, job.number.empty() ? "" : job.state, job.reason});
     return list;
 }
 

@@ -60,8 +60,9 @@ class Chain {
     std::string add_task(const Task& task) {
         const auto attempts = service_.store.attempts_of(task.id);
         // A result that was taken from a run which is gone has no attempt here any more.
-        const std::string last =
-            name_of("activity", attempts.empty() ? task.id : task.id + "/" + std::to_string(attempts.back().number));
+        const std::string last = name_of(
+            "activity",
+            attempts.empty() ? task.id : task.id + "/" + std::to_string(attempts.back().number));
         if (!sources_.emplace(last, std::vector<std::string>{}).second) return last;
         const json result = result_of(task);
         const std::string agent = add_program(task, result);
@@ -116,8 +117,7 @@ class Chain {
     }
 
     void use(const std::string& activity, const std::string& entity, const char* role) {
-        relate("used",
-               {{"prov:activity", activity}, {"prov:entity", entity}, {"prov:role", role}});
+        relate("used", {{"prov:activity", activity}, {"prov:entity", entity}, {"prov:role", role}});
         sources_[activity].push_back(entity);
     }
 
@@ -206,8 +206,7 @@ void provenance(const Service& service, Call& call) {
 }  // namespace
 
 void add_provenance_routes(Router& router, Service& service) {
-    router.get("/v1/artifacts/{sha256}/provenance",
-               [&](Call& call) { provenance(service, call); });
+    router.get("/v1/artifacts/{sha256}/provenance", [&](Call& call) { provenance(service, call); });
 }
 
 }  // namespace breach::orchestrator

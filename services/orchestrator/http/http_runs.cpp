@@ -220,12 +220,11 @@ void change_budget(Service& service, const Run& run, const json& wanted) {
         budget = checked_budget(wanted);
         if (*budget <= run.spent)
             throw fault::BadInput(
-                "budget", {{"/budget/cpu_seconds",
-                            words::text_of(run.spent) + " CPU s are spent already",
-                            "give more than that, or null for no limit"}});
+                "budget",
+                {{"/budget/cpu_seconds", words::text_of(run.spent) + " CPU s are spent already",
+                  "give more than that, or null for no limit"}});
     }
-    service.store.write(
-        [&](Transaction& transaction) { transaction.set_budget(run.id, budget); });
+    service.store.write([&](Transaction& transaction) { transaction.set_budget(run.id, budget); });
     service.dispatcher.wake();
 }
 

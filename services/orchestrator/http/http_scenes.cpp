@@ -43,7 +43,8 @@ void keep_scene(Service& service, Call& call) {
     const auto name = call.parameter("name");
     if (name && !is_scene_name(*name))
         throw bad_request(
-            "name must be 1 to 64 of a-z, 0-9, _ and -, beginning with a letter or a digit, and not "
+            "name must be 1 to 64 of a-z, 0-9, _ and -, beginning with a letter or a digit, and "
+            "not "
             "the digits of a hash");
     const json scene = sent_scene(call.json_body(), service.data.root());
     NewScene kept{.sha256 = {}, .document = scene.dump(), .files = {}};
@@ -91,7 +92,8 @@ void remove_scene(Service& service, Call& call) {
     const std::string& address = call.parts[0];
     if (address.find('@') != std::string::npos)
         throw bad_request(
-            "versions are not removed one by one: a run may be told by its number; remove the whole "
+            "versions are not removed one by one: a run may be told by its number; remove the "
+            "whole "
             "name, or a content by its SHA-256");
     const bool content = is_sha256(address);
     Removal outcome = Removal::unknown;
@@ -104,12 +106,13 @@ void remove_scene(Service& service, Call& call) {
     });
     if (outcome == Removal::needed)
         throw Problem{409, "/problems/needed", "Needed",
-                      content ? "a name stands for this scene, or a run was made of it: remove them "
-                                "first (GET /v1/scenes/" +
-                                    address + " lists them)"
-                              : "runs were made of the scene by this name: remove them first (GET "
-                                "/v1/scenes/" +
-                                    address + " lists them)"};
+                      content
+                          ? "a name stands for this scene, or a run was made of it: remove them "
+                            "first (GET /v1/scenes/" +
+                                address + " lists them)"
+                          : "runs were made of the scene by this name: remove them first (GET "
+                            "/v1/scenes/" +
+                                address + " lists them)"};
     if (outcome == Removal::unknown) throw not_found("stored scene " + address);
     reply(call.response, {{"id", address}, {"freed_bytes", bytes}}, 202);
 }

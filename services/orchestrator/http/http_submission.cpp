@@ -19,8 +19,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array run_states{"queued",  "running", "budget_exhausted", "succeeded", "questionable",
-                                "partial", "failed",  "cancelled"};
+constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
+                                "questionable", "partial", "failed",           "cancelled"};
 constexpr std::array sweep_states{"planning", "refining"};  // besides those
 
 /// The keys of requests that are being stored now. What is stored already is in the database.

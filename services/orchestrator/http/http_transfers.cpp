@@ -25,8 +25,8 @@ json condition_of(const TransferRow& row) {
         spec.value("hold_s", 0.0) > 0.0 ? ", held for " + amount("hold_s") + " s" : "";
     if (row.why == "criterion") return text("when") + hold;
     if (row.why == "window")
-        return "from " + text("lower") + " to " + (text("upper").empty() ? "the end" : text("upper")) +
-               ", " + text("pick") + hold;
+        return "from " + text("lower") + " to " +
+               (text("upper").empty() ? "the end" : text("upper")) + ", " + text("pick") + hold;
     if (row.why == "manual") return "asked for at " + amount("after") + " s";
     return "runout at least " + amount("share") + " of the largest, edges to " +
            amount("tolerance_s") + " s";

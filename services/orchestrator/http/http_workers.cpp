@@ -13,9 +13,7 @@ namespace {
 
 constexpr auto all = static_cast<std::size_t>(1) << 30;
 
-json memory_json(std::int64_t megabytes) {
-    return megabytes > 0 ? json(megabytes) : json(nullptr);
-}
+json memory_json(std::int64_t megabytes) { return megabytes > 0 ? json(megabytes) : json(nullptr); }
 
 /// A task that occupies its share, with the attempt that does. What only its supervisor can know is
 /// null until it has said it.
@@ -76,8 +74,8 @@ void workers(const Service& service, Call& call) {
             if (attempts.empty()) continue;
             cores += task.resources.cores;
             memory += task.resources.memory_mb;
-            running.push_back(
-                worker_json(service, task, attempts.back(), jobs.value_or(std::vector<QueuedJob>{})));
+            running.push_back(worker_json(service, task, attempts.back(),
+                                          jobs.value_or(std::vector<QueuedJob>{})));
         }
     }
     const auto waiting = [&](TaskState state) {

@@ -9,8 +9,8 @@
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/http/stored_scene.hpp"
-#include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/budget.hpp"
+#include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/graph.hpp"
 #include "services/report/section/mesh_question.hpp"
 
@@ -71,9 +71,10 @@ void hold_against(double budget, json& cost) {
     if (exceeds == "no")
         line += ", enough for all of it";
     else
-        line += std::string(exceeds == "yes" ? " will not" : " may not") +
-                " be enough: the run would stop unfinished with the state budget_exhausted (`breach "
-                "extend RUN --budget N` goes on)";
+        line +=
+            std::string(exceeds == "yes" ? " will not" : " may not") +
+            " be enough: the run would stop unfinished with the state budget_exhausted (`breach "
+            "extend RUN --budget N` goes on)";
     cost["budget"] = {{"cpu_seconds", budget}, {"exceeded", exceeds}};
     cost["lines"].push_back(line);
 }
@@ -112,8 +113,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
     if (!draft.faults.empty()) throw refusal_of(draft);
-    json cost =
-        estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
+    json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
     if (document.is_object() && document.contains("budget"))
         hold_against(checked_budget(document["budget"]), cost);
     return cost;

@@ -69,9 +69,10 @@ ResolvedStudy resolved_study(const Store& store, const std::string& text) {
     auto found = find_scene(store, reference.substr(scene::stored_scene.size()));
     if (!found)
         throw fault::BadInput(
-            "study", {{"/scene", "there is no stored scene " + reference,
-                       "store it (POST /v1/scenes?name=...; breach scenes add) or give one of GET "
-                       "/v1/scenes as scene:NAME, scene:NAME@VERSION or scene:sha256/<64 digits>"}});
+            "study",
+            {{"/scene", "there is no stored scene " + reference,
+              "store it (POST /v1/scenes?name=...; breach scenes add) or give one of GET "
+              "/v1/scenes as scene:NAME, scene:NAME@VERSION or scene:sha256/<64 digits>"}});
     study["scene"] = json::parse(found->scene.document);
     return {study.dump(), std::move(found->source)};
 }

@@ -141,15 +141,15 @@ struct Run {
     std::optional<std::string> started;
     std::optional<std::string> finished;
     std::int64_t tasks_total = 0;
-    std::int64_t tasks_done = 0;    ///< succeeded or cached
-    std::int64_t tasks_ended = 0;   ///< in a final state, good or bad
-    std::int64_t tasks_failed = 0;  ///< failed or skipped
-    std::string message;            ///< why it is not simply fine
-    bool paused = false;            ///< nothing new of it is started
-    std::int64_t questionable = 0;  ///< results not to rely on
-    bool pinned = false;            ///< not to be removed
+    std::int64_t tasks_done = 0;        ///< succeeded or cached
+    std::int64_t tasks_ended = 0;       ///< in a final state, good or bad
+    std::int64_t tasks_failed = 0;      ///< failed or skipped
+    std::string message;                ///< why it is not simply fine
+    bool paused = false;                ///< nothing new of it is started
+    std::int64_t questionable = 0;      ///< results not to rely on
+    bool pinned = false;                ///< not to be removed
     std::optional<double> budget = {};  ///< [CPU s]
-    double spent = 0.0;             ///< by all attempts that have ended [CPU s]
+    double spent = 0.0;                 ///< by all attempts that have ended [CPU s]
     std::vector<FlagTally> flags = {};
 };
 
@@ -284,15 +284,15 @@ struct TransferRow {
     bool not_reached;
     std::string snapshot;  ///< file name
     std::optional<std::string> fault;
-    std::optional<std::string> trigger;         ///< its name; nothing: a time of the study
-    std::string why;                            ///< "at_time" or the trigger's kind
-    std::optional<nlohmann::json> spec;         ///< of the trigger
-    std::optional<double> wanted_time;          ///< when it was met [s]
-    std::optional<nlohmann::json> crossed;      ///< values on the line that met it
-    std::optional<std::int64_t> fem_step;       ///< of that line
-    std::optional<std::int64_t> snapshot_ms;    ///< from that line to the snapshot
-    std::optional<std::int64_t> start_ms;       ///< from the snapshot, as it was seen, to the start
-    nlohmann::json runouts;                     ///< [{task, variant, state, runout}] of its MPM tasks
+    std::optional<std::string> trigger;       ///< its name; nothing: a time of the study
+    std::string why;                          ///< "at_time" or the trigger's kind
+    std::optional<nlohmann::json> spec;       ///< of the trigger
+    std::optional<double> wanted_time;        ///< when it was met [s]
+    std::optional<nlohmann::json> crossed;    ///< values on the line that met it
+    std::optional<std::int64_t> fem_step;     ///< of that line
+    std::optional<std::int64_t> snapshot_ms;  ///< from that line to the snapshot
+    std::optional<std::int64_t> start_ms;     ///< from the snapshot, as it was seen, to the start
+    nlohmann::json runouts;                   ///< [{task, variant, state, runout}] of its MPM tasks
     std::optional<std::string> started;
     std::optional<std::string> same_as;
 };

@@ -69,9 +69,8 @@ std::string what_is_missing(const Run& run, const std::map<std::string, MissingT
     }
     const double wanted = rounded_up(std::max(run.spent + more, 1.1 * run.spent));
     std::string text = "budget exhausted: " + words::text_of(run.spent, 4) + " of " +
-                       words::text_of(*run.budget, 4) + " CPU s spent, " +
-                       std::to_string(waiting) + " of " + std::to_string(run.tasks_total) +
-                       " tasks not done";
+                       words::text_of(*run.budget, 4) + " CPU s spent, " + std::to_string(waiting) +
+                       " of " + std::to_string(run.tasks_total) + " tasks not done";
     if (waiting > 0) text += " (" + phases + ")";
     if (more > 0.0)
         text += "; by what such tasks took here they need about " + words::text_of(more, 2) +

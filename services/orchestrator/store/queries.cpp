@@ -34,13 +34,16 @@ std::string sweep_state() {
 }
 
 std::string run_columns(const std::string& state = "r.state") {
-    return "SELECT r.id, r.name, r.title, " + state + " AS shown, r.created, r.started, r.finished, r.tasks_total, "
-    "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
-    "t.fault_summary FROM tasks t WHERE t.run "
-    "= r.id AND "
-    "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable, "
-    "r.pinned, r.budget_cpu_seconds, r.spent_cpu_seconds FROM "
-    "run_summaries r ";
+    return "SELECT r.id, r.name, r.title, " + state +
+           " AS shown, r.created, r.started, r.finished, r.tasks_total, "
+           "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': "
+           "' || "
+           "t.fault_summary FROM tasks t WHERE t.run "
+           "= r.id AND "
+           "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), "
+           "r.questionable, "
+           "r.pinned, r.budget_cpu_seconds, r.spent_cpu_seconds FROM "
+           "run_summaries r ";
 }
 
 Run run_from(const Row& row) {
@@ -143,9 +146,9 @@ std::vector<Run> Store::runs(std::size_t most) const { return runs(RunFilter{}, 
 std::vector<Run> Store::runs_that_may_go() const {
     std::vector<Run> found;
     read([&](Connection& database) {
-        database.query(run_columns() +
-                           "WHERE r.finished IS NOT NULL AND r.pinned=0 ORDER BY r.finished, r.id",
-                       {}, [&](const Row& row) { found.push_back(run_from(row)); });
+        database.query(
+            run_columns() + "WHERE r.finished IS NOT NULL AND r.pinned=0 ORDER BY r.finished, r.id",
+            {}, [&](const Row& row) { found.push_back(run_from(row)); });
     });
     return found;
 }

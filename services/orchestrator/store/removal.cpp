@@ -85,7 +85,8 @@ StoredFile file_from(const Row& row) {
 }
 
 constexpr const char* unneeded =
-    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256) AND NOT EXISTS "
+    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256) AND NOT "
+    "EXISTS "
     "(SELECT 1 FROM files_of_scenes WHERE files_of_scenes.sha256=files.sha256)";
 
 }  // namespace
@@ -116,7 +117,9 @@ void Transaction::touch_file(const std::string& sha256) {
 
 Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
     if (!any(database_, "SELECT 1 FROM files WHERE sha256=?", sha256)) return Removal::unknown;
-    if (any(database_, "SELECT 1 FROM files_of_runs WHERE sha256=?1 UNION ALL SELECT 1 FROM files_of_scenes WHERE "
+    if (any(database_,
+            "SELECT 1 FROM files_of_runs WHERE sha256=?1 UNION ALL SELECT 1 FROM files_of_scenes "
+            "WHERE "
             "sha256=?1 LIMIT 1",
             sha256))
         return Removal::needed;

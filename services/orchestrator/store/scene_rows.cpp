@@ -53,17 +53,16 @@ void Transaction::add_scene_source(const NewRun& run) {
     if (!any(database_, "SELECT 1 FROM scenes WHERE sha256=?", source.sha256))
         throw fault::BadInput("study", {{"/scene", "this stored scene was removed meanwhile",
                                          "store it again (POST /v1/scenes; breach scenes add)"}});
-    database_.change("INSERT INTO scenes_of_runs (run, sha256, name, version) VALUES (?,?,?,?)",
-                     {run.id, source.sha256, value_or_null(source.name),
-                      value_or_null(source.version)});
+    database_.change(
+        "INSERT INTO scenes_of_runs (run, sha256, name, version) VALUES (?,?,?,?)",
+        {run.id, source.sha256, value_or_null(source.name), value_or_null(source.version)});
 }
 
 bool Transaction::keep_scene(const NewScene& scene, const std::optional<std::string>& name) {
     const std::string now = utc_now();
     bool is_new =
-        database_.change(
-            "INSERT OR IGNORE INTO scenes (sha256, document, created) VALUES (?,?,?)",
-            {scene.sha256, scene.document, now}) > 0;
+        database_.change("INSERT OR IGNORE INTO scenes (sha256, document, created) VALUES (?,?,?)",
+                         {scene.sha256, scene.document, now}) > 0;
     for (const std::string& each : scene.files) {
         if (database_.change("UPDATE files SET used=? WHERE sha256=?", {now, each}) == 0)
             throw fault::BadInput("scene",

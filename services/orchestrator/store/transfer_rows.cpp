@@ -22,7 +22,8 @@ constexpr const char* transfers =
     "json_group_array(json_object('task', m.id, 'variant', m.variant, 'state', m.state, 'runout', "
     "json_extract(m.result, '$.runout'))) FROM tasks AS m WHERE m.parent=t.id ORDER BY m.id), "
     "t.started, t.same_as FROM tasks AS t LEFT JOIN triggers AS g ON g.id=(SELECT firings.trigger "
-    "FROM firings JOIN triggers ON triggers.id=firings.trigger WHERE triggers.fem_task=t.parent AND "
+    "FROM firings JOIN triggers ON triggers.id=firings.trigger WHERE triggers.fem_task=t.parent "
+    "AND "
     "firings.snapshot=t.input ORDER BY firings.noticed_at LIMIT 1) LEFT JOIN firings AS f ON "
     "f.trigger=g.id AND f.snapshot=t.input WHERE t.phase='transfer_tool' AND (?1 IS NULL OR "
     "t.run=?1) AND (?2 IS NULL OR coalesce(g.kind, 'at_time')=?2) AND (?3 IS NULL OR t.state=?3) "
@@ -33,32 +34,32 @@ constexpr const char* transfers =
 std::vector<TransferRow> Store::transfers_of(const TransferFilter& filter, std::size_t most) const {
     std::vector<TransferRow> found;
     read([&](Connection& database) {
-        database.query(transfers,
-                       {value_or_null(filter.run), value_or_null(filter.why),
-                        value_or_null(filter.state), value_or_null(filter.before),
-                        static_cast<std::int64_t>(most)},
-                       [&](const Row& row) {
-                           found.push_back({.task = row.text(0),
-                                            .run = row.text(1),
-                                            .fem_task = row.text(2),
-                                            .transfer_time = row.optional_real(3),
-                                            .variant = row.text(4),
-                                            .state = row.text(5),
-                                            .not_reached = row.integer(6) != 0,
-                                            .snapshot = row.text(7),
-                                            .fault = row.optional_text(8),
-                                            .trigger = row.optional_text(9),
-                                            .why = row.optional_text(10).value_or("at_time"),
-                                            .spec = optional_json(row, 11),
-                                            .wanted_time = row.optional_real(12),
-                                            .crossed = optional_json(row, 13),
-                                            .fem_step = row.optional_integer(14),
-                                            .snapshot_ms = row.optional_integer(15),
-                                            .start_ms = row.optional_integer(16),
-                                            .runouts = json::parse(row.text(17)),
-                                            .started = row.optional_text(18),
-                                            .same_as = row.optional_text(19)});
-                       });
+        database.query(
+            transfers,
+            {value_or_null(filter.run), value_or_null(filter.why), value_or_null(filter.state),
+             value_or_null(filter.before), static_cast<std::int64_t>(most)},
+            [&](const Row& row) {
+                found.push_back({.task = row.text(0),
+                                 .run = row.text(1),
+                                 .fem_task = row.text(2),
+                                 .transfer_time = row.optional_real(3),
+                                 .variant = row.text(4),
+                                 .state = row.text(5),
+                                 .not_reached = row.integer(6) != 0,
+                                 .snapshot = row.text(7),
+                                 .fault = row.optional_text(8),
+                                 .trigger = row.optional_text(9),
+                                 .why = row.optional_text(10).value_or("at_time"),
+                                 .spec = optional_json(row, 11),
+                                 .wanted_time = row.optional_real(12),
+                                 .crossed = optional_json(row, 13),
+                                 .fem_step = row.optional_integer(14),
+                                 .snapshot_ms = row.optional_integer(15),
+                                 .start_ms = row.optional_integer(16),
+                                 .runouts = json::parse(row.text(17)),
+                                 .started = row.optional_text(18),
+                                 .same_as = row.optional_text(19)});
+            });
     });
     return found;
 }

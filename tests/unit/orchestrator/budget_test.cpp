@@ -16,9 +16,8 @@ json with_budget(double cpu_seconds) {
 }
 
 bool is_exhausted(Service& service, const std::string& run) {
-    return eventually([&] {
-        return service.get("/v1/runs/" + run).body.at("state") == "budget_exhausted";
-    });
+    return eventually(
+        [&] { return service.get("/v1/runs/" + run).body.at("state") == "budget_exhausted"; });
 }
 
 std::size_t attempts_in(const json& run) {

@@ -27,7 +27,8 @@ TEST(Workers, AreWhatRunsWithItsProcess) {
     EXPECT_EQ(workers.at("executor"), "local");
     EXPECT_TRUE(workers.at("slurm").is_null());
     EXPECT_GE(workers.at("slots_used"), 1);
-    EXPECT_GE(workers.at("queue").at("blocked"), 1);  // the MPM, and the transfer until its snapshot
+    EXPECT_GE(workers.at("queue").at("blocked"),
+              1);  // the MPM, and the transfer until its snapshot
     for (const json& each : workers.at("workers")) {
         if (each.at("phase") != "fem_solver") continue;
         EXPECT_EQ(each.at("run"), run);
@@ -75,13 +76,11 @@ TEST(Transfers, SayWhyTheyWereMadeAndWhatCameOfThem) {
 
 /// Everything that a document's relations name is described in it.
 void expect_closed(const json& prov) {
-    const std::map<std::string, const char*> kinds{{"prov:entity", "entity"},
-                                                   {"prov:activity", "activity"},
-                                                   {"prov:agent", "agent"},
-                                                   {"prov:generatedEntity", "entity"},
-                                                   {"prov:usedEntity", "entity"},
-                                                   {"prov:informed", "activity"},
-                                                   {"prov:informant", "activity"}};
+    const std::map<std::string, const char*> kinds{
+        {"prov:entity", "entity"},     {"prov:activity", "activity"},
+        {"prov:agent", "agent"},       {"prov:generatedEntity", "entity"},
+        {"prov:usedEntity", "entity"}, {"prov:informed", "activity"},
+        {"prov:informant", "activity"}};
     for (const auto& [relation, all] : prov.items()) {
         if (relation == "prefix" || relation == "entity" || relation == "activity" ||
             relation == "agent")

@@ -66,8 +66,9 @@ TEST(StoredScenes, AreRefusedAsAStudysSceneWouldBe) {
     for (const std::string name : {"Dam", "a/b", "", "-a", "a@1"})
         EXPECT_EQ(service.post("/v1/scenes?name=" + name, scene_with(0.3).dump()).status, 400)
             << name;
-    EXPECT_EQ(service.post("/v1/scenes?name=" + std::string(64, 'a'), scene_with(0.3).dump()).status,
-              400);
+    EXPECT_EQ(
+        service.post("/v1/scenes?name=" + std::string(64, 'a'), scene_with(0.3).dump()).status,
+        400);
 }
 
 TEST(StoredScenes, AreWhatAStudyRefersToAndLaterVersionsChangeNothing) {
@@ -109,7 +110,8 @@ TEST(StoredScenes, AreRemovedWhenNothingNeedsThem) {
     EXPECT_EQ(service.ask("DELETE", "/v1/scenes/dam").status, 409);
     EXPECT_EQ(service.ask("DELETE", "/v1/scenes/" + sha256).status, 409);
     EXPECT_EQ(service.ask("DELETE", "/v1/runs/" + run).status, 202);
-    EXPECT_EQ(service.ask("DELETE", "/v1/scenes/" + sha256).status, 409) << "its name stands for it";
+    EXPECT_EQ(service.ask("DELETE", "/v1/scenes/" + sha256).status, 409)
+        << "its name stands for it";
     EXPECT_EQ(service.ask("DELETE", "/v1/scenes/dam").status, 202);
     EXPECT_EQ(service.get("/v1/scenes/" + sha256).status, 404);
     EXPECT_EQ(service.ask("DELETE", "/v1/scenes/dam").status, 404);
