@@ -144,6 +144,14 @@ TEST_F(SlurmFaults, WhatIsWaitedForIsSaid) {
         });
     };
     EXPECT_TRUE(says("in Slurm's queue: PENDING"));
+    const json workers = service->get("/v1/workers").body;
+    EXPECT_EQ(workers.at("executor"), "slurm");
+    EXPECT_GE(workers.at("slurm").at("states").at("PENDING"), 1);
+    EXPECT_GE(workers.at("slurm").at("reasons").at("Resources"), 1);
+    const json& waiting = workers.at("workers").at(0);
+    EXPECT_EQ(waiting.at("job_state"), "PENDING");
+    EXPECT_EQ(waiting.at("job_reason"), "Resources");
+    EXPECT_TRUE(waiting.at("job").is_string() && waiting.at("pid").is_null()) << waiting;
     begin("down");
     EXPECT_TRUE(says("squeue does not answer"));
     end("down");

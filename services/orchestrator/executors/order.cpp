@@ -85,16 +85,15 @@ std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
 void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat) {
     const int file = open(folder.heartbeat().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
     if (file < 0) return;
-    const std::string text = json{
-        {"host", beat.host},
-        {"pid", beat.pid},
-        {"cpu_seconds", beat.cpu_seconds},
-        {"memory_MB",
-         beat.memory_mb}}.dump();
-    const auto written = pwrite(file, text.data(), text.size(), 0);
-    if (written > 0 &&
-        ftruncate(file, written) != 0) {  // what is left of an earlier one is no JSON
-    }
+    const json document{{"host", beat.host},
+                        {"pid", beat.pid},
+                        {"cpu_seconds", beat.cpu_seconds},
+                        {"memory_MB", beat.memory_mb}};
+    const std::string text = document.dump();
+    // Else it is no JSON, and says nothing.
+    [[maybe_unused]] const bool whole =
+        pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()) &&
+        ftruncate(file, static_cast<off_t>(text.size())) == 0;
     futimens(file, nullptr);
     close(file);
 }

@@ -26,7 +26,7 @@ class Chain {
 
     /// The file, the task that made it and all before that.
     void add_artifact(const Artifact& artifact) {
-        const Task maker = service_.store.task(artifact.task).value();
+        const Task maker = wanted_task(service_, artifact.task);
         const std::string file = add_file(artifact.sha256, artifact.name, artifact.bytes);
         const std::string activity = add_task(maker);
         relate("wasGeneratedBy", {{"prov:entity", file}, {"prov:activity", activity}});
@@ -131,7 +131,7 @@ class Chain {
                 use(activity, id, "file");
             }
         if (!task.parent || task.input.empty()) return;
-        const Task parent = service_.store.task(*task.parent).value();
+        const Task parent = wanted_task(service_, *task.parent);
         for (const Artifact& each : service_.store.artifacts_of(parent.id)) {
             if (each.name != task.input) continue;
             use(activity, name_of("file", each.sha256), "input");
@@ -146,7 +146,7 @@ class Chain {
     }
 
     std::vector<StoredFile> files_read_by(const Task& task) const {
-        const json scene = json::parse(service_.store.scene_of(task.run).value());
+        const json scene = json::parse(service_.store.scene_of(task.run).value_or("{}"));
         std::vector<StoredFile> found;
         for (const auto& each : scene::references_in({scene, json(task.overrides)}))
             if (auto file = service_.store.file(each.sha256)) found.push_back(std::move(*file));
@@ -155,13 +155,14 @@ class Chain {
 
     /// The run's scene, the study that it stands in and, where it was a stored one, that.
     std::string add_scene(const std::string& run) {
-        const std::string text = service_.store.scene_of(run).value();
-        const std::string id = name_of("scene", exchange::sha256_of_text(text));
+        const std::string text = service_.store.scene_of(run).value_or("{}");
+        const std::string sha256 = exchange::sha256_of_text(text);
+        const std::string id = name_of("scene", sha256);
         if (!runs_.insert(run).second) return id;
         document_["entity"][id] = {{"prov:type", "scene"},
                                    {"prov:label", json::parse(text).value("name", "scene")},
-                                   {"breach:sha256", exchange::sha256_of_text(text)}};
-        const Run about = service_.store.run(run).value();
+                                   {"breach:sha256", sha256}};
+        const Run about = wanted_run(service_, run);
         const std::string study = name_of("study", run);
         document_["entity"][study] = {{"prov:type", "study"},
                                       {"prov:label", about.name},
