@@ -45,6 +45,10 @@ class AuditTest : public ::testing::Test {
                            outputs.emplace_back(
                                data_.output(row.text(0), row.text(1)) / row.text(2), row.text(3));
                        });
+        fs::create_directories(data_.files());
+        database.query("SELECT file FROM files", {}, [&](const Row& row) {
+            exchange::publish_text(data_.files() / row.text(0), "record");
+        });
         for (const auto& [file, task] : outputs) {
             fs::create_directories(file.parent_path());
             exchange::publish_text(file, task);

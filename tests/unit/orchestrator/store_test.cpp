@@ -52,6 +52,7 @@ TEST_F(StoreTest, SweepsRefineWhenMoreIsDrawnThanAtFirst) {
     Extension more{.times = {}, .tasks = {}, .recipes = {}, .study = json::object()};
     more.tasks.push_back({run.tasks[2], task_id(run.id, 1)});
     more.tasks[0].plan.parent.reset();
+    more.tasks[0].plan.label = "mpm_0.500000_s0002";
     store.write([&](Transaction& t) { t.extend_run(run.id, more); });
     EXPECT_EQ(store.sweep(run.id)->state, "refining");
     EXPECT_EQ(store.run(run.id)->state, "queued");

@@ -229,13 +229,13 @@ CREATE TABLE files (
     created TEXT NOT NULL,
     used TEXT NOT NULL
 ) STRICT;
-INSERT INTO "files" VALUES('abababababababababababababababababababababababababababababababab','abababababababababababababababababababababababababababababababab.csv','record.csv','motion','100 values',2000,'2026-01-01T00:03:00.000Z','2026-01-01T00:03:00.000Z');
+INSERT INTO "files" VALUES('70ce871f8a3d3fb449bc3c3ace6547cef02dfc74ffe48d912532a724bfdbe5b9','70ce871f8a3d3fb449bc3c3ace6547cef02dfc74ffe48d912532a724bfdbe5b9.csv','record.csv','motion','100 values',6,'2026-01-01T00:03:00.000Z','2026-01-01T00:03:00.000Z');
 CREATE TABLE files_of_runs (
     run TEXT NOT NULL REFERENCES runs(id),
     sha256 TEXT NOT NULL REFERENCES files(sha256),
     PRIMARY KEY (run, sha256)
 ) STRICT;
-INSERT INTO "files_of_runs" VALUES('r9','abababababababababababababababababababababababababababababababab');
+INSERT INTO "files_of_runs" VALUES('r9','70ce871f8a3d3fb449bc3c3ace6547cef02dfc74ffe48d912532a724bfdbe5b9');
 CREATE TABLE firing_plans (
     run TEXT PRIMARY KEY REFERENCES runs(id),
     tasks TEXT NOT NULL CHECK (json_valid(tasks))
