@@ -24,6 +24,10 @@ struct FileReference {
 };
 inline constexpr const char* folder_of_references = "files";
 
+/// A study's "scene" that is one which the service keeps begins so: "scene:NAME", "scene:NAME@3",
+/// "scene:sha256/<64 hex digits>".
+inline constexpr std::string_view stored_scene = "scene:";
+
 /// Nothing: the text is no such reference, but a path.
 std::optional<FileReference> file_reference(std::string_view text);
 /// name: of the file in its folder.

@@ -15,7 +15,9 @@
 #include "services/cli/export_run.hpp"
 #include "services/cli/import.hpp"
 #include "services/cli/logs.hpp"
+#include "services/cli/machinery.hpp"
 #include "services/cli/new_scene.hpp"
+#include "services/cli/scenes.hpp"
 #include "services/cli/stored.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/watch.hpp"
@@ -44,6 +46,7 @@ struct Arguments {
     bool watch = false;
     bool dry_run = false;
     std::size_t samples = 0;  ///< in all; 0: it is not asked
+    std::string budget;       ///< CPU seconds or "none"; empty: it is not asked
     bool strict = false;
     ResultsWish results;
     CheckWish check;
@@ -60,6 +63,9 @@ struct Arguments {
     DrawWish draw;
     NewWish make;
     ImportWish import;
+    ScenesWish scenes;
+    TransfersWish transfers;
+    std::string sha256;
 };
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
@@ -95,7 +101,9 @@ class CommandLine {
         app_.footer(
             "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed "
             "(with\n"
-            "--strict: or is questionable), 74 file fault, 75 the server does not answer.");
+            "--strict: or is questionable), 74 file fault, 75 the server does not answer, or the "
+            "budget "
+            "of the run that was watched is spent.");
         add_run_commands();
         add_sweep_commands();
         add_accuracy_command();
@@ -106,6 +114,8 @@ class CommandLine {
         add_drawing();
         add_import();
         add_storage_commands();
+        add_scenes();
+        add_machinery();
         add_completion();
     }
 
@@ -274,8 +284,11 @@ class CommandLine {
                            return submit_and_watch(s, c);
                        }));
         CLI::App* extend_ =
-            add("extend", "more transfer times, or more samples; what was computed stays",
-                "latest --times 0.75,1.25", [this](Server& s, const Console& c) {
+            add("extend",
+                "more transfer times, more samples or a larger budget; what was computed stays",
+                "latest --times 0.75,1.25\n  breach extend latest --budget 7200",
+                [this](Server& s, const Console& c) {
+                    if (!a_.budget.empty()) return extend_budget(s, a_.id, a_.budget, c);
                     return a_.samples > 0 ? extend_samples(s, a_.id, a_.samples, c)
                                           : extend(s, a_.id, a_.submit.transfer_times, c);
                 });
@@ -287,6 +300,14 @@ class CommandLine {
         more->add_option("--samples", a_.samples,
                          "so many samples in all, of an uncertainty study; the first ones stay")
             ->check(CLI::Range(1, 10000));
+        more->add_option("--budget", a_.budget,
+                         "CPU seconds that the run may spend in all, or none: no limit")
+            ->check([](const std::string& budget) {
+                double seconds = 0.0;
+                const bool sound = budget == "none" ||
+                                   (CLI::detail::lexical_cast(budget, seconds) && seconds > 0.0);
+                return sound ? "" : budget + " is neither a number of seconds above 0 nor none";
+            });
         more->require_option(1);
     }
 
@@ -506,6 +527,49 @@ class CommandLine {
         files->add_option("FILE", a_.files, "send these, print how a scene names them");
         take_run(add("open", "print the dashboard's address of a run", "latest",
                      [this](Server& s, const Console& c) { return open_page(s, a_.id, c); }));
+    }
+
+    void add_scenes() {
+        CLI::App* sub = app_.add_subcommand(
+            "scenes", "scenes that the server keeps; a study refers to one as \"scene:NAME\"");
+        sub->footer(
+            "Example:\n  breach scenes add scene.json --name dam\nThen in a study: \"scene\": "
+            "\"scene:dam\" (the newest version when it is submitted), \"scene:dam@2\" or "
+            "\"scene:sha256/<64 digits>\".");
+        const auto choose = [this](ScenesCommand command) {
+            command_ = [this, command](Server& s, const Console& c) {
+                return command(s, a_.scenes, c);
+            };
+        };
+        take_scene_words(*sub, a_.scenes, choose);
+        sub->callback([sub, choose] {
+            if (sub->get_subcommands().empty()) choose(list_scenes);
+        });
+    }
+
+    void add_machinery() {
+        add("workers", "what runs where, and the queue", "--json",
+            [](Server& s, const Console& c) { return workers(s, c); });
+        CLI::App* transfers_ =
+            add("transfers", "why each transfer was made, how long it waited, what came of it",
+                "latest --why criterion",
+                [this](Server& s, const Console& c) { return transfers(s, a_.transfers, c); });
+        transfers_->add_option("RUN", a_.transfers.run, "only of this run");
+        transfers_
+            ->add_option("--why", a_.transfers.why,
+                         "only at_time, manual, criterion, window, bisect")
+            ->check(CLI::IsMember({"at_time", "manual", "criterion", "window", "bisect"}));
+        transfers_->add_option("-n,--most", a_.transfers.most, "how many")
+            ->check(CLI::Range(1, 500))
+            ->capture_default_str();
+        CLI::App* provenance_ =
+            add("provenance",
+                "how a file came to be: tasks, programs, inputs, up to scene and study; --json: "
+                "PROV-JSON",
+                "SHA256 --json > provenance.json",
+                [this](Server& s, const Console& c) { return provenance(s, a_.sha256, c); });
+        provenance_->add_option("SHA256", a_.sha256, "of an artifact; `show TASK` lists them")
+            ->required();
     }
 
     void add_completion() {

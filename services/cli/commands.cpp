@@ -18,10 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-void show_json(const json& answer, const Console& console) {
-    console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
-}
-
 /// Tasks are named after their run: "<run>-00007".
 bool names_task(const std::string& id) { return id.find('-') != std::string::npos; }
 
@@ -58,6 +54,15 @@ json post_wish(Server& server, const std::string& door, const SubmitWish& wish,
     if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
     return post_study(server, door, std::move(study), headers,
                       wish.send_files ? Sending::always : Sending::where_needed, console);
+}
+
+ExitCode show_order(const json& answer, const Console& console) {
+    if (console.style == Style::json) {
+        show_json(answer, console);
+    } else {
+        console.out << as_progress_line(answer) << "\n";
+    }
+    return ExitCode::done;
 }
 
 void show_added(const json& added, const std::string& none, const Console& console) {
@@ -112,6 +117,14 @@ ExitCode extend_samples(Server& server, const std::string& run, std::size_t samp
     return ExitCode::done;
 }
 
+ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
+                       const Console& console) {
+    const json wanted = budget == "none" ? json(nullptr) : json{{"cpu_seconds", std::stod(budget)}};
+    return show_order(
+        server.post(path_of({"sweeps", run_named(server, run), "extend"}), {{"budget", wanted}}),
+        console);
+}
+
 ExitCode list_runs(Server& server, std::size_t most, const Console& console) {
     const json runs =
         server.get("/v1/runs" + query_of({{"limit", std::to_string(most)}})).at("runs");
@@ -137,19 +150,6 @@ ExitCode show(Server& server, const std::string& id, const Console& console) {
     return ExitCode::done;
 }
 
-namespace {
-
-ExitCode show_order(const json& answer, const Console& console) {
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
-        console.out << as_progress_line(answer) << "\n";
-    }
-    return ExitCode::done;
-}
-
-}  // namespace
-
 ExitCode order(Server& server, const std::string& run, const std::string& word,
                const Console& console) {
     return show_order(server.post(path_of({"runs", run_named(server, run), word}), json::object()),
@@ -172,6 +172,10 @@ ExitCode rename(Server& server, const std::string& run, const std::string& title
 
 ExitCode code_of_end(const json& run, Doubt doubt, const Console& console) {
     if (end_of(run) == RunEnd::bad) return ExitCode::breakdown;
+    if (end_of(run) == RunEnd::short_of_budget) {
+        console.notes << cell(run, "message") << "\n";
+        return ExitCode::try_again;
+    }
     if (!is_questionable(run)) return ExitCode::done;
     console.notes << "questionable: " << cell(run, "message") << " (`breach results "
                   << cell(run, "id") << "` says what to do)\n";

@@ -39,6 +39,10 @@ fault::ExitCode extend_samples(Server& server, const std::string& run, std::size
 fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
                        const Console& console);
 
+/// "600" CPU seconds for a run to spend in all, or "none": no limit.
+fault::ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
+                              const Console& console);
+
 fault::ExitCode list_runs(Server& server, std::size_t most, const Console& console);
 /// `id`: of a run or of a task
 fault::ExitCode show(Server& server, const std::string& id, const Console& console);
@@ -54,7 +58,7 @@ fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_
 enum class Doubt { accepted, fails };
 
 /// breakdown (70) when the run, which has ended, failed or was cancelled, or when a result of it is
-/// questionable and that counts. Says on the side why it is not simply fine.
+/// questionable and that counts; try_again (75) when it stopped for its budget. Says on the side why it is not simply fine.
 fault::ExitCode code_of_end(const nlohmann::json& run, Doubt doubt, const Console& console);
 
 struct ResultsWish {

@@ -76,18 +76,36 @@ std::string send_file(Server& server, const fs::path& file, const Console& conso
     }
 }
 
-json post_study(Server& server, const std::string& door, json study, const Headers& headers,
-                Sending sending, const Console& console) {
+namespace {
+
+/// `post` may be called twice: files are sent between where that helps.
+template <class Post>
+json post_with_files(Server& server, json study, Sending sending, const Console& console,
+                     Post post) {
     if (sending == Sending::always || !is_this_machine(server.origin()))
         send_files_of(server, study, console);
     try {
-        return server.post(door, study, headers);
+        return post(study);
     } catch (const Refused& refused) {
         const bool helps = std::ranges::any_of(refused.faults(), is_about_a_file) &&
                            send_files_of(server, study, console) > 0;
         if (!helps) throw;
     }
-    return server.post(door, study, headers);
+    return post(study);
+}
+
+}  // namespace
+
+json post_study(Server& server, const std::string& door, json study, const Headers& headers,
+                Sending sending, const Console& console) {
+    return post_with_files(server, std::move(study), sending, console,
+                           [&](const json& sent) { return server.post(door, sent, headers); });
+}
+
+json post_scene(Server& server, const std::string& door, const json& scene, Sending sending,
+                const Console& console) {
+    return post_with_files(server, {{"scene", scene}}, sending, console,
+                           [&](const json& sent) { return server.post(door, sent.at("scene")); });
 }
 
 }  // namespace breach::cli

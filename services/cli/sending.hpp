@@ -21,4 +21,8 @@ enum class Sending { where_needed, always };
 nlohmann::json post_study(Server& server, const std::string& door, nlohmann::json study,
                           const Headers& headers, Sending sending, const Console& console);
 
+/// The same for a scene alone.
+nlohmann::json post_scene(Server& server, const std::string& door, const nlohmann::json& scene,
+                          Sending sending, const Console& console);
+
 }  // namespace breach::cli

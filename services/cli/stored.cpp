@@ -16,10 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void show_json(const json& answer, const Console& console) {
-    console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
-}
-
 void wait_for_the_end(Server& server, const std::string& run) {
     constexpr auto pause = std::chrono::milliseconds(200);
     while (server.get(path_of({"runs", run})).at("finished").is_null())

@@ -49,7 +49,10 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
     json study = read_json(file);
     if (!study.is_object()) return study;
     std::filesystem::path scene_folder = file.parent_path();
-    if (study.contains("scene") && study["scene"].is_string()) {
+    const bool named = study.contains("scene") && study["scene"].is_string();
+    if (named && study["scene"].get_ref<const std::string&>().starts_with(scene::stored_scene)) {
+        // The server has it.
+    } else if (named) {
         const auto scene = file.parent_path() / study["scene"].get<std::string>();
         scene_folder = scene.parent_path();
         study["scene"] = read_scene_document(scene);

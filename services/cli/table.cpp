@@ -65,6 +65,10 @@ std::string cell(const json& object, const char* key) {
     return found == object.end() ? "-" : cell(*found);
 }
 
+void show_json(const json& answer, const Console& console) {
+    console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
+}
+
 std::string harmless(std::string_view text) {
     std::string safe(text);
     for (char& each : safe) {

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "services/cli/console.hpp"
+
 namespace breach::cli {
 
 enum class Align { left, right };
@@ -25,6 +27,9 @@ std::string as_table(const std::vector<Column>& columns, const std::vector<Cells
 std::string cell(const nlohmann::json& value);
 /// The member's cell; "-" when there is none.
 std::string cell(const nlohmann::json& object, const char* key);
+
+/// The server's answer as it is.
+void show_json(const nlohmann::json& answer, const Console& console);
 
 /// Without control characters, so that a text from the server cannot move the cursor.
 std::string harmless(std::string_view text);

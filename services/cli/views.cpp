@@ -159,6 +159,7 @@ RunEnd end_of(const json& run) {
     const std::string state = state_of(run);
     if (is_one_of(state, {"succeeded", "questionable", "partial"})) return RunEnd::good;
     if (is_one_of(state, {"failed", "cancelled"})) return RunEnd::bad;
+    if (state == "budget_exhausted") return RunEnd::short_of_budget;
     return RunEnd::not_yet;
 }
 
@@ -192,6 +193,9 @@ std::string as_run_page(const json& run) {
     text += "created   " + moment(run, "created") + "\n";
     text += "started   " + moment(run, "started") + "\n";
     text += "finished  " + moment(run, "finished") + "\n";
+    if (const json budget = run.value("budget_cpu_seconds", json()); budget.is_number())
+        text += "budget    " + cell(run, "spent_cpu_seconds") + " of " + cell(budget) +
+                " CPU s spent\n";
     if (!run.value("message", "").empty()) text += "message   " + cell(run, "message") + "\n";
     text += "\n" + as_task_table(run.at("tasks"));
     for (const json& task : run.at("tasks")) {

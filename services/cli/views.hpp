@@ -10,6 +10,7 @@ enum class RunEnd {
     not_yet,
     good,  ///< succeeded, perhaps questionable; or partial: some transfer times have no runout
     bad,   ///< failed or cancelled
+    short_of_budget,  ///< it goes on when its budget is raised, and not before
 };
 
 RunEnd end_of(const nlohmann::json& run);

@@ -144,6 +144,14 @@ TEST_F(SlurmFaults, WhatIsWaitedForIsSaid) {
         });
     };
     EXPECT_TRUE(says("in Slurm's queue: PENDING"));
+    const json workers = service->get("/v1/workers").body;
+    EXPECT_EQ(workers.at("executor"), "slurm");
+    EXPECT_GE(workers.at("slurm").at("states").at("PENDING"), 1);
+    EXPECT_GE(workers.at("slurm").at("reasons").at("Resources"), 1);
+    EXPECT_TRUE(std::ranges::any_of(workers.at("workers"), [](const json& each) {
+        return each.at("job_state") == "PENDING" && each.at("job_reason") == "Resources" &&
+               each.at("job").is_string() && each.at("pid").is_null();
+    })) << workers;
     begin("down");
     EXPECT_TRUE(says("squeue does not answer"));
     end("down");

@@ -77,6 +77,17 @@ TEST(Trigger, CriterionFiresWhileTheFemRunsOnASnapshotItWasAskedFor) {
     EXPECT_EQ(rows[0].at("trigger"), "flat");
     EXPECT_EQ(rows[0].at("transfer_time"), firing.at("transfer_time"));
     EXPECT_EQ(rows[0].at("state"), "succeeded");
+
+    const json transfers = service.get("/v1/transfers?why=criterion").body.at("transfers");
+    ASSERT_EQ(transfers.size(), 1u);
+    EXPECT_EQ(transfers[0].at("trigger"), "flat");
+    EXPECT_EQ(transfers[0].at("condition"), "jacobian_least_avg < 0.97");
+    EXPECT_EQ(transfers[0].at("crossed"), firing.at("crossed"));
+    EXPECT_EQ(transfers[0].at("wanted_time"), firing.at("wanted_time"));
+    EXPECT_EQ(transfers[0].at("snapshot_ms"), firing.at("snapshot_ms"));
+    EXPECT_TRUE(transfers[0].at("start_ms").is_number()) << transfers[0];
+    EXPECT_EQ(transfers[0].at("runouts")[0].at("runout"), rows[0].at("runout"));
+    EXPECT_TRUE(service.get("/v1/transfers?why=at_time").body.at("transfers").empty());
 }
 
 TEST(Trigger, CrossedAndUncrossedInsideTheHoldDoesNotFire) {

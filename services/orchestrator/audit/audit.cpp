@@ -110,6 +110,16 @@ class Auditor {
                 find({"counts", "run " + row.text(0), "its counts are not those of its tasks",
                       "--repair counts them anew", true});
             });
+        database_.query(
+            "SELECT run FROM (SELECT run, total(attempts.cpu_seconds) AS now, (SELECT cpu_seconds "
+            "FROM spendings WHERE spendings.run=tasks.run) AS kept FROM tasks LEFT JOIN attempts "
+            "ON attempts.task=tasks.id GROUP BY run) WHERE abs(now - coalesce(kept, 0)) > 1e-6 * "
+            "max(1, now)",
+            {}, [&](const Row& row) {
+                find({"counts", "run " + row.text(0),
+                      "the CPU time that it has spent is not that of its attempts",
+                      "--repair counts it anew", true});
+            });
     }
 
     void look_at_outputs() {
@@ -217,6 +227,9 @@ void mend(const DataFolder& data, const std::vector<Finding>& findings) {
         "sum(phase='mpm_solver' AND state IN ('succeeded', 'cached')) FROM tasks WHERE "
         "tasks.run=run_counts.run) WHERE EXISTS (SELECT 1 FROM tasks WHERE "
         "tasks.run=run_counts.run)");
+    database.script(
+        "DELETE FROM spendings; INSERT INTO spendings SELECT run, sum(cpu_seconds) FROM attempts "
+        "JOIN tasks ON tasks.id=task WHERE cpu_seconds IS NOT NULL GROUP BY run");
 }
 
 }  // namespace breach::orchestrator

@@ -63,6 +63,9 @@ class Dispatcher {
     void wake();
     /// Look at every blocked task again: some were set back.
     void settle_all();
+    const DispatchSettings& settings() const { return settings_; }
+    /// Of the executor; nothing: it has no queue of its own.
+    std::optional<std::vector<QueuedJob>> jobs() const { return executor_.jobs(); }
     /// Seconds from ready to given to the executor; from the snapshot's appearance on its disk to
     /// the start of what waited for it.
     const Histogram& queue_wait() const { return queue_wait_; }

@@ -156,9 +156,11 @@ bool Dispatcher::is_over(const std::string& task) const {
 
 void Dispatcher::note_loss(Live& live, const std::string& why) {
     const std::string& task = live.task.id;
+    AttemptEnd end;  // it cost what it had used when it was last heard of
+    if (const auto beat = read_heartbeat(live.folder)) end.cpu_seconds = beat->cpu_seconds;
     executor_.clear_away(live.folder, attempt_id(task, live.number));
     store_.write([&](Transaction& transaction) {
-        transaction.move_attempt(task, live.number, AttemptEvent::vanish);
+        transaction.move_attempt(task, live.number, AttemptEvent::vanish, end);
         if (transaction.try_move_task(task, TaskEvent::stopped)) return;
         transaction.move_task(task, TaskEvent::vanish, {{"why", why}});
         retry_or_give_up(transaction, live, TaskEvent::retry, TaskEvent::give_up,

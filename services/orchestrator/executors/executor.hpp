@@ -22,6 +22,14 @@ struct Vitals {
 /// What becomes of running attempts when the service stops.
 enum class AtStop { ends_them, leaves_them };
 
+/// An attempt in a cluster's queue.
+struct QueuedJob {
+    std::filesystem::path folder;  ///< the attempt's
+    std::string number;            ///< the cluster's; empty: not known
+    std::string state;             ///< the cluster's word
+    std::string reason;            ///< why it waits, the cluster's word; empty: it does not
+};
+
 class Executor {
   public:
     virtual ~Executor() = default;
@@ -35,6 +43,8 @@ class Executor {
     /// The attempt was given up: nothing of it may run on, or begin to run.
     virtual void clear_away(const AttemptFolder& folder, const std::string& attempt) = 0;
     virtual AtStop at_stop() const = 0;
+    /// As the cluster listed them last; nothing: there is no queue but ours. From any thread.
+    virtual std::optional<std::vector<QueuedJob>> jobs() { return std::nullopt; }
 };
 
 }  // namespace breach::orchestrator

@@ -1,5 +1,9 @@
 #include "services/orchestrator/executors/order.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -76,6 +80,31 @@ std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
     if (document.contains("exit_code")) record.exit_code = document["exit_code"].get<int>();
     if (document.contains("signal")) record.signal = document["signal"].get<int>();
     return record;
+}
+
+void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat) {
+    const int file = open(folder.heartbeat().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+    if (file < 0) return;
+    const json document{{"host", beat.host},
+                        {"pid", beat.pid},
+                        {"cpu_seconds", beat.cpu_seconds},
+                        {"memory_MB", beat.memory_mb}};
+    const std::string text = document.dump();
+    // Else it is no JSON, and says nothing.
+    [[maybe_unused]] const bool whole =
+        pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()) &&
+        ftruncate(file, static_cast<off_t>(text.size())) == 0;
+    futimens(file, nullptr);
+    close(file);
+}
+
+std::optional<Heartbeat> read_heartbeat(const AttemptFolder& folder) {
+    const json said = json::parse(text_of(folder.heartbeat()).value_or(""), nullptr, false);
+    if (!said.is_object()) return std::nullopt;
+    return Heartbeat{.host = said.value("host", ""),
+                     .pid = said.value("pid", std::int64_t{0}),
+                     .cpu_seconds = said.value("cpu_seconds", 0.0),
+                     .memory_mb = said.value("memory_MB", std::int64_t{0})};
 }
 
 void write_stop(const AttemptFolder& folder, StopReason reason) {

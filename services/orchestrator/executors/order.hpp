@@ -37,6 +37,14 @@ struct ExitRecord {
     double cpu_seconds = 0.0;
 };
 
+/// What a supervisor says of its phase while it runs, every two seconds.
+struct Heartbeat {
+    std::string host;
+    std::int64_t pid = 0;        ///< of the phase; 0: it has not begun
+    double cpu_seconds = 0.0;    ///< so far
+    std::int64_t memory_mb = 0;  ///< that it holds now
+};
+
 /// The environment variable that marks every process of an attempt.
 constexpr const char* attempt_mark = "BREACHLINE_ATTEMPT";
 
@@ -46,6 +54,11 @@ Order read_order(const AttemptFolder& folder);
 void write_exit_record(const AttemptFolder& folder, const ExitRecord& record);
 /// Nothing while there is none.
 std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder);
+
+/// Its time is a sign of life even where its text cannot be written (a full disk).
+void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat);
+/// Nothing: there is none, or its text was being written.
+std::optional<Heartbeat> read_heartbeat(const AttemptFolder& folder);
 
 /// Asks the supervisor to stop the attempt; a second asking keeps the first reason.
 void write_stop(const AttemptFolder& folder, StopReason reason);

@@ -1,6 +1,9 @@
 #include "services/orchestrator/executors/process_tree.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -26,14 +29,18 @@ std::vector<pid_t> all_processes() {
     return found;
 }
 
-/// Parent of a living process; 0 when it is gone or only a zombie.
-pid_t parent_of(pid_t pid) {
+/// What stands behind the name in /proc/PID/stat; nothing when it is gone.
+std::istringstream stat_of(pid_t pid) {
     std::ifstream stream("/proc/" + std::to_string(pid) + "/stat");
     std::string line;
-    if (!std::getline(stream, line)) return 0;
+    std::getline(stream, line);
     const std::size_t after_name = line.rfind(')');  // the name may hold anything, even ")"
-    if (after_name == std::string::npos) return 0;
-    std::istringstream fields(line.substr(after_name + 1));
+    return std::istringstream(after_name == std::string::npos ? "" : line.substr(after_name + 1));
+}
+
+/// Parent of a living process; 0 when it is gone or only a zombie.
+pid_t parent_of(pid_t pid) {
+    std::istringstream fields = stat_of(pid);
     char state = 'Z';
     pid_t parent = 0;
     fields >> state >> parent;
@@ -56,6 +63,30 @@ std::vector<pid_t> descendants(pid_t root) {
         }
     }
     return found;
+}
+
+Usage usage_of(pid_t pid) {
+    constexpr int before_utime = 11;  // of what stands behind the name (proc(5))
+    constexpr int before_rss = 8;     // between stime and rss
+    std::istringstream fields = stat_of(pid);
+    std::string skipped;
+    double user = 0.0;
+    double kernel = 0.0;
+    double pages = 0.0;
+    for (int i = 0; i < before_utime; ++i) fields >> skipped;
+    fields >> user >> kernel;
+    for (int i = 0; i < before_rss; ++i) fields >> skipped;
+    fields >> pages;
+    if (!fields) return {};
+    return {.cpu_seconds = (user + kernel) / static_cast<double>(sysconf(_SC_CLK_TCK)),
+            .memory_mb = static_cast<std::int64_t>(1e-6 * pages *
+                                                   static_cast<double>(sysconf(_SC_PAGESIZE)))};
+}
+
+std::string host_name() {
+    std::array<char, 256> name{};
+    if (gethostname(name.data(), name.size() - 1) != 0) return "";
+    return name.data();
 }
 
 std::vector<pid_t> marked_processes(const std::string& attempt) {

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,15 @@ namespace breach::orchestrator {
 
 /// All living descendants of `root`, without `root` itself.
 std::vector<pid_t> descendants(pid_t root);
+
+struct Usage {
+    double cpu_seconds = 0.0;    ///< of all its threads, without its children
+    std::int64_t memory_mb = 0;  ///< resident [1e6 bytes]
+};
+/// Zeros when it is gone.
+Usage usage_of(pid_t pid);
+
+std::string host_name();
 
 /// Processes whose environment says that they were started for this attempt, wherever they hang in
 /// the tree.

@@ -13,7 +13,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr const char* squeue_format = "%F %K %T %j";
+constexpr const char* squeue_format = "%F %K %T %j %r";
 constexpr std::int64_t highest_priority = 100;
 
 /// A word for /bin/sh that means itself.
@@ -121,7 +121,10 @@ std::optional<std::pair<JobName, ListedJob>> job_in(const std::string& line) {
     std::string number, index, state;
     JobName job;
     if (!(words >> number >> index >> state >> job.name)) return std::nullopt;
-    ListedJob listed{number, state};
+    std::string reason;
+    std::getline(words >> std::ws, reason);
+    if (reason == "None" || state != "PENDING") reason.clear();
+    ListedJob listed{number, state, reason};
     const auto parsed = std::from_chars(index.data(), index.data() + index.size(), job.index);
     if (parsed.ec == std::errc{}) {
         listed.number.append(1, '_').append(index);

@@ -23,6 +23,7 @@ struct JobName {
 struct ListedJob {
     std::string number;  ///< for scancel: "123", or "123_4" in an array
     std::string state;   ///< Slurm's word: "PENDING", ...
+    std::string reason;  ///< why it waits: "Priority"; empty: it does not
 };
 
 /// Attempts that go to Slurm as one job.
@@ -65,7 +66,7 @@ class SlurmCommands {
     std::chrono::milliseconds longest_;
 };
 
-/// One line of our squeue format: "<array job id> <array index> <state> <name>".
+/// One line of our squeue format: "<array job id> <array index> <state> <name> <reason>".
 std::optional<std::pair<JobName, ListedJob>> job_in(const std::string& line);
 
 }  // namespace breach::orchestrator

@@ -65,6 +65,15 @@ SlurmExecutor::Clock::duration SlurmExecutor::grace() const {
     return in_milliseconds(settings_.grace_seconds);
 }
 
+std::optional<std::vector<QueuedJob>> SlurmExecutor::jobs() {
+    const std::lock_guard lock(mutex_);
+    std::vector<QueuedJob> list;
+    for (const auto& [root, job] : jobs_)
+        if (!job.given_up)
+            list.push_back({root, job.number, job.number.empty() ? "" : job.state, job.reason});
+    return list;
+}
+
 // ---------------------------------------------------------------- asked by the dispatcher
 
 void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
@@ -383,6 +392,7 @@ void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed
         job.stage = Stage::submitted;
         job.state = found->second.state;
         job.number = found->second.number;
+        job.reason = found->second.reason;
         return;
     }
     if (asked <= job.since) return;

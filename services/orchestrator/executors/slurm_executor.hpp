@@ -38,6 +38,8 @@ class SlurmExecutor final : public Executor {
     /// The cluster goes on without us; the next service finds the jobs again.
     AtStop at_stop() const override { return AtStop::leaves_them; }
 
+    std::optional<std::vector<QueuedJob>> jobs() override;
+
   private:
     using Clock = std::chrono::steady_clock;
 
@@ -56,6 +58,7 @@ class SlurmExecutor final : public Executor {
         JobName name = {};
         Stage stage = Stage::waiting;
         std::string state = {};     ///< Slurm's word when it was last listed
+        std::string reason = {};    ///< Slurm's word for why it waits
         std::string number = {};    ///< Slurm's number for it when it was last listed
         std::string why = {};       ///< it was refused, or is in doubt
         int asked = 0;              ///< how often sbatch was called for it

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -90,14 +91,16 @@ class Supervision {
         if (record_.stopped != StopReason::revoked) record_exit();
     }
 
-    /// For a service on another machine, where locks may not be seen.
+    /// For a service on another machine, where locks may not be seen; and so that what a lost
+    /// attempt has cost is known.
     void beat() {
         if (Clock::now() < next_beat_) return;
         next_beat_ = Clock::now() + heartbeat_interval;
-        const int file = open(folder_.heartbeat().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-        if (file < 0) return;
-        futimens(file, nullptr);
-        close(file);
+        const Usage usage = phase_ > 0 ? usage_of(phase_) : Usage{};
+        write_heartbeat(folder_, {.host = host_name(),
+                                  .pid = std::max<std::int64_t>(phase_, 0),
+                                  .cpu_seconds = usage.cpu_seconds,
+                                  .memory_mb = usage.memory_mb});
     }
 
     void start() {

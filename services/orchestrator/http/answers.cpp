@@ -31,7 +31,9 @@ json of_result(const Task& task, const char* key) {
 /// As if the rest went like what has been done since the start; null until that says something.
 json seconds_left(const Run& run, double progress) {
     constexpr double too_early = 0.02;
-    if (run.finished || !run.started || run.paused || progress < too_early) return nullptr;
+    if (run.finished || !run.started || run.paused || run.state == "budget_exhausted" ||
+        progress < too_early)
+        return nullptr;
     std::tm begin{};
     if (strptime(run.started->c_str(), "%Y-%m-%dT%H:%M:%S", &begin) == nullptr) return nullptr;
     const double elapsed = std::difftime(std::time(nullptr), timegm(&begin));
@@ -74,6 +76,8 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"tasks_failed", run.tasks_failed},
             {"paused", run.paused},
             {"pinned", run.pinned},
+            {"budget_cpu_seconds", or_null(run.budget)},
+            {"spent_cpu_seconds", run.spent},
             {"seconds_left", seconds_left(run, progress)},
             {"questionable", run.questionable},
             {"flag_counts", counts_of(run.flags)},

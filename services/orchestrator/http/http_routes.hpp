@@ -37,6 +37,17 @@ void add_page_routes(Router& router, Service& service);
 void add_file_routes(Router& router, Service& service);
 /// Keeps a motion that was made here like one that was sent; how a scene names it.
 std::string keep_motion(Service& service, const std::string& name, const std::string& text);
+/// Scenes that were stored, by name and by hash.
+void add_scene_routes(Router& router, Service& service);
+/// The stored scene that the run was made of, or null.
+nlohmann::json scene_source_json(const Service& service, const std::string& run);
+/// Transfers of one run or all, with what made them.
+void add_transfer_routes(Router& router, Service& service);
+/// How a file came to be: PROV-JSON.
+void add_provenance_routes(Router& router, Service& service);
+/// What runs where.
+void add_worker_routes(Router& router, Service& service);
+
 /// Those that the run's scenes name.
 nlohmann::json files_json(const Service& service, const std::string& run);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/words/number.hpp"
 #include "services/orchestrator/accuracy/runout_error.hpp"
 #include "services/orchestrator/dispatch/why.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -8,6 +9,7 @@
 #include "services/orchestrator/http/http_submission.hpp"
 #include "services/orchestrator/http/results_file.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
+#include "services/orchestrator/study/budget.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
@@ -60,6 +62,7 @@ void show_run(const Service& service, Call& call) {
     body["study"]["scene"] = json::parse(service.store.scene_of(id).value());
     body["tasks"] = tasks_json(service, service.store.tasks_of(id));
     body["files"] = files_json(service, id);
+    body["scene_from"] = scene_source_json(service, id);
     reply(call.response, body);
 }
 
@@ -198,7 +201,7 @@ json sweep_json(const Service& service, const Run& run) {
 }
 
 Run wanted_sweep(const Service& service, const std::string& id) {
-    auto run = service.store.run(id);
+    auto run = service.store.sweep(id);
     if (!run) throw not_found("sweep " + id);
     return std::move(*run);
 }
@@ -207,7 +210,22 @@ void submit_sweep(Service& service, Call& call) {
     call.allow_parameters({});
     const Accepted accepted = accept_study(service, call, Ask::sweep);
     call.response.set_header("Location", "/v1/sweeps/" + accepted.run);
-    reply(call.response, sweep_json(service, wanted_run(service, accepted.run)), 202);
+    reply(call.response, sweep_json(service, wanted_sweep(service, accepted.run)), 202);
+}
+
+/// Another budget, or none: null. What is spent already would stop it at once.
+void change_budget(Service& service, const Run& run, const json& wanted) {
+    std::optional<double> budget;
+    if (!wanted.is_null()) {
+        budget = checked_budget(wanted);
+        if (*budget <= run.spent)
+            throw fault::BadInput(
+                "budget",
+                {{"/budget/cpu_seconds", words::text_of(run.spent) + " CPU s are spent already",
+                  "give more than that, or null for no limit"}});
+    }
+    service.store.write([&](Transaction& transaction) { transaction.set_budget(run.id, budget); });
+    service.dispatcher.wake();
 }
 
 /// More transfer times; 202 when they are stored. What was computed is not computed again.
@@ -220,9 +238,18 @@ void extend_sweep(Service& service, Call& call) {
                       "the sweep was cancelled; retry it first, or submit another"};
     const json body = json::parse(call.json_body(), nullptr, false);
     const bool samples = body.is_object() && body.contains("samples");
-    if (!body.is_object() || body.size() != 1 || !(samples || body.contains("transfer_times")))
+    const bool budget = body.is_object() && body.contains("budget");
+    if (!body.is_object() || body.size() != 1 ||
+        !(samples || budget || body.contains("transfer_times")))
         throw bad_request(
-            "the body must be {\"transfer_times\": [...] or {from, to, step}} or {\"samples\": N}");
+            "the body must be {\"transfer_times\": [...] or {from, to, step}}, {\"samples\": N} or "
+            "{\"budget\": {\"cpu_seconds\": N} or null}");
+    if (budget) {
+        change_budget(service, run, body["budget"]);
+        json answer = sweep_json(service, wanted_sweep(service, id));
+        answer["added"] = answer["added_samples"] = json::array();
+        return reply(call.response, answer, 202);
+    }
     if (samples && (!body["samples"].is_number_unsigned() || body["samples"] < 1))
         throw bad_request("samples must be a whole number above 0: so many in all");
     const RunSoFar so_far{.study = service.store.study_of(id).value(),
@@ -238,7 +265,7 @@ void extend_sweep(Service& service, Call& call) {
             [&](Transaction& transaction) { transaction.extend_run(id, extension); });
         service.dispatcher.settle_all();
     }
-    json answer = sweep_json(service, wanted_run(service, id));
+    json answer = sweep_json(service, wanted_sweep(service, id));
     answer["added"] = extension.times;
     answer["added_samples"] = extension.samples;
     reply(call.response, answer, 202);

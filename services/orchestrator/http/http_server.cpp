@@ -143,6 +143,10 @@ class HttpServer::Implementation {
         add_outflow_routes(router_, service);
         add_storage_routes(router_, service);
         add_file_routes(router_, service);
+        add_scene_routes(router_, service);
+        add_provenance_routes(router_, service);
+        add_transfer_routes(router_, service);
+        add_worker_routes(router_, service);
         add_event_routes(router_, service, stopping_);
         add_example_routes(router_, service);
         add_template_routes(router_, service);

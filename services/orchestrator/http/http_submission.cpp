@@ -8,6 +8,7 @@
 #include "core/phases/phases.hpp"
 #include "core/scene/file_paths.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
+#include "services/orchestrator/http/stored_scene.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
 #include "services/orchestrator/triggers/batch_watch.hpp"
@@ -18,9 +19,9 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::int64_t longest_list = 500;
-constexpr std::array run_states{"queued",  "running", "succeeded", "questionable",
-                                "partial", "failed",  "cancelled"};
+constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
+                                "questionable", "partial", "failed",           "cancelled"};
+constexpr std::array sweep_states{"planning", "refining"};  // besides those
 
 /// The keys of requests that are being stored now. What is stored already is in the database.
 class KeysInProgress {
@@ -85,12 +86,15 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .batches = batches_of(study),
             .priority = study.priority,
             .sweep = study.variants.size() * states > 1,
+            .budget = study.budget,
             .files = std::move(files)};
 }
 
 std::string stored(Service& service, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    NewRun run = run_from(sent_study(body, service.data.root()), service.numerics);
+    ResolvedStudy sent = resolved_study(service.store, body);
+    NewRun run = run_from(sent_study(sent.text, service.data.root()), service.numerics);
+    run.made_of = std::move(sent.made_of);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write([&](Transaction& transaction) {
         transaction.add_run(run);
@@ -100,14 +104,14 @@ std::string stored(Service& service, const std::string& body, Ask ask,
     return run.id;
 }
 
+}  // namespace
+
 std::pair<std::string, std::string> place_of(const std::string& cursor) {
     const std::size_t split = cursor.find('~');
     if (split == std::string::npos)
         throw bad_request("cursor must be the \"next\" of an earlier page");
     return {cursor.substr(0, split), cursor.substr(split + 1)};
 }
-
-}  // namespace
 
 Accepted accept_study(Service& service, Call& call, Ask ask) {
     const std::string& body = call.json_body();
@@ -136,9 +140,14 @@ RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) 
     filter.state = call.parameter("state");
     filter.name = call.parameter("name");
     filter.search = call.parameter("search");
-    if (filter.state && std::ranges::find(run_states, *filter.state) == run_states.end())
+    const auto is_one_of = [&](const auto& states) {
+        return std::ranges::find(states, *filter.state) != states.end();
+    };
+    if (filter.state && !is_one_of(run_states) && !(filter.sweeps_only && is_one_of(sweep_states)))
         throw bad_request(
-            "state must be queued, running, succeeded, questionable, partial, failed or cancelled");
+            std::string("state must be queued, ") +
+            (filter.sweeps_only ? "planning, refining, " : "") +
+            "running, budget_exhausted, succeeded, questionable, partial, failed or cancelled");
     if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
     RunPage page{service.store.runs(filter, limit + 1), nullptr};
     if (page.runs.size() > limit) {

@@ -5,6 +5,10 @@
 
 namespace breach::orchestrator {
 
+constexpr std::int64_t longest_list = 500;  ///< entries of one page
+/// (created, id) of a cursor "created~id", the "next" of an earlier page.
+std::pair<std::string, std::string> place_of(const std::string& cursor);
+
 enum class Ask { run, sweep };
 
 struct Accepted {

@@ -4,9 +4,12 @@
 
 #include "core/phases/phases.hpp"
 #include "core/scene/schema.hpp"
+#include "core/words/number.hpp"
 #include "services/estimate/cost.hpp"
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
+#include "services/orchestrator/http/stored_scene.hpp"
+#include "services/orchestrator/study/budget.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/graph.hpp"
 #include "services/report/section/mesh_question.hpp"
@@ -23,7 +26,7 @@ struct Sent {
 };
 
 Sent sent(const Service& service, const std::string& body) {
-    json document = scene::parse_json(body, "document");
+    json document = scene::parse_json(resolved_study(service.store, body).text, "document");
     report::BaseScene base = report::base_scene_of(document);
     check::Checked checked = check_sent_scene(base.scene, base.overrides, service.data.root());
     checked.faults = seen_from_here(std::move(checked.faults));
@@ -57,6 +60,23 @@ estimate::Repeats repeats_here(const Service& service, json document) {
         for (const TaskPlan& each : graph.one_more_transfer)
             if (each.phase != phases::fem.program) ++repeats.tasks[each.phase];
     return repeats;
+}
+
+/// Whether what is expected stays below the study's budget: said beforehand.
+void hold_against(double budget, json& cost) {
+    const double low = cost["cpu_seconds"][0];
+    const double high = cost["cpu_seconds"][1];
+    const std::string exceeds = low > budget ? "yes" : high > budget ? "perhaps" : "no";
+    std::string line = "Budget: " + words::text_of(budget) + " CPU s";
+    if (exceeds == "no")
+        line += ", enough for all of it";
+    else
+        line +=
+            std::string(exceeds == "yes" ? " will not" : " may not") +
+            " be enough: the run would stop unfinished with the state budget_exhausted (`breach "
+            "extend RUN --budget N` goes on)";
+    cost["budget"] = {{"cpu_seconds", budget}, {"exceeded", exceeds}};
+    cost["lines"].push_back(line);
 }
 
 report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) {
@@ -93,7 +113,10 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
     if (!draft.faults.empty()) throw refusal_of(draft);
-    return estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
+    json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
+    if (document.is_object() && document.contains("budget"))
+        hold_against(checked_budget(document["budget"]), cost);
+    return cost;
 }
 
 }  // namespace breach::orchestrator

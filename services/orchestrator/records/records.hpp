@@ -57,6 +57,43 @@ void from_json(const nlohmann::json& json, TaskPlan& task);
 /// "fem", "transfer_0.500000_soft": its phase, its transfer time and its variant.
 std::string label_of(const TaskPlan& task);
 
+/// The stored scene that a run was made of.
+struct SceneSource {
+    std::string sha256;
+    std::optional<std::string> name;      ///< by which the study referred to it
+    std::optional<std::int64_t> version;  ///< that the name stood for then
+};
+
+/// A scene to be stored.
+struct NewScene {
+    std::string sha256;              ///< of the document
+    std::string document;            ///< completed, JSON
+    std::vector<std::string> files;  ///< SHA-256 of stored files that it names
+};
+
+struct SceneName {
+    std::string name;
+    std::int64_t version;  ///< from 1; the highest is what the name stands for
+    std::string created;
+    std::string sha256;
+};
+
+struct StoredScene {
+    std::string sha256;
+    std::string document;  ///< left out in lists
+    std::int64_t bytes = 0;
+    std::string created = {};
+    std::vector<SceneName> names = {};
+    std::vector<std::string> runs = {};  ///< that were made of it
+};
+
+/// Which scenes a list shows: newest first, after the place where the last page ended.
+struct SceneFilter {
+    std::optional<std::string> name = {};
+    std::optional<std::string> search = {};  ///< a part of a name or of the SHA-256
+    std::optional<std::pair<std::string, std::string>> before = {};  ///< (created, sha256)
+};
+
 struct NewRun {
     std::string id;
     std::string name;
@@ -70,6 +107,8 @@ struct NewRun {
     std::optional<TriggerPlan> batches = {};  ///< draws more samples (triggers/batch_watch.hpp)
     std::int64_t priority = 0;                ///< higher goes first
     bool sweep = false;                       ///< several points, or asked for as a sweep
+    std::optional<SceneSource> made_of = {};  ///< a stored scene
+    std::optional<double> budget = {};        ///< no task is started once so much is spent [CPU s]
     std::vector<std::string> files = {};      ///< SHA-256 of stored files that its scenes name
 };
 
@@ -94,20 +133,23 @@ struct Run {
     std::string id;
     std::string name;
     std::string title;
-    /// Derived: queued running succeeded questionable partial failed cancelled. questionable: all
-    /// succeeded, but a result carries a flag that forbids to rely on it.
+    /// Derived: queued running budget_exhausted succeeded questionable partial failed cancelled.
+    /// questionable: all succeeded, but a result carries a flag that forbids to rely on it.
+    /// budget_exhausted: tasks wait, and none is started until the budget is raised.
     std::string state;
     std::string created;
     std::optional<std::string> started;
     std::optional<std::string> finished;
     std::int64_t tasks_total = 0;
-    std::int64_t tasks_done = 0;    ///< succeeded or cached
-    std::int64_t tasks_ended = 0;   ///< in a final state, good or bad
-    std::int64_t tasks_failed = 0;  ///< failed or skipped
-    std::string message;            ///< why it is not simply fine
-    bool paused = false;            ///< nothing new of it is started
-    std::int64_t questionable = 0;  ///< results not to rely on
-    bool pinned = false;            ///< not to be removed
+    std::int64_t tasks_done = 0;        ///< succeeded or cached
+    std::int64_t tasks_ended = 0;       ///< in a final state, good or bad
+    std::int64_t tasks_failed = 0;      ///< failed or skipped
+    std::string message;                ///< why it is not simply fine
+    bool paused = false;                ///< nothing new of it is started
+    std::int64_t questionable = 0;      ///< results not to rely on
+    bool pinned = false;                ///< not to be removed
+    std::optional<double> budget = {};  ///< [CPU s]
+    double spent = 0.0;                 ///< by all attempts that have ended [CPU s]
     std::vector<FlagTally> flags = {};
 };
 
@@ -134,6 +176,8 @@ struct RunFilter {
     /// A part of its name, title or id; letters of ASCII are alike in both cases.
     std::optional<std::string> search{};
     std::optional<std::pair<std::string, std::string>> before;  ///< (created, id)
+    /// With their states as sweeps: while they go on also planning (it is not known yet when they
+    /// transfer: triggers will say) and refining (points are added by what the first ones gave).
     bool sweeps_only = false;
 };
 
@@ -227,6 +271,37 @@ struct FiringRow {
     Firing firing;
     std::int64_t fired_ms;                 ///< to the stored firing
     std::optional<std::int64_t> start_ms;  ///< to the start of the transfer's process
+};
+
+/// A transfer with why it was made and what came of it.
+struct TransferRow {
+    std::string task;
+    std::string run;
+    std::string fem_task;
+    std::optional<double> transfer_time;  ///< [s]
+    std::string variant;
+    std::string state;
+    bool not_reached;
+    std::string snapshot;  ///< file name
+    std::optional<std::string> fault;
+    std::optional<std::string> trigger;       ///< its name; nothing: a time of the study
+    std::string why;                          ///< "at_time" or the trigger's kind
+    std::optional<nlohmann::json> spec;       ///< of the trigger
+    std::optional<double> wanted_time;        ///< when it was met [s]
+    std::optional<nlohmann::json> crossed;    ///< values on the line that met it
+    std::optional<std::int64_t> fem_step;     ///< of that line
+    std::optional<std::int64_t> snapshot_ms;  ///< from that line to the snapshot
+    std::optional<std::int64_t> start_ms;     ///< from the snapshot, as it was seen, to the start
+    nlohmann::json runouts;                   ///< [{task, variant, state, runout}] of its MPM tasks
+    std::optional<std::string> started;
+    std::optional<std::string> same_as;
+};
+
+struct TransferFilter {
+    std::optional<std::string> run;
+    std::optional<std::string> why;
+    std::optional<std::string> state;
+    std::optional<std::string> before;  ///< the task where the last page ended
 };
 
 /// What a bisect knows of one of its transfers: of the first variant, on each of its lattices.

@@ -12,8 +12,8 @@ namespace breach::orchestrator {
 
 namespace {
 
-const std::array versions{version_1, version_2, version_3, version_4, version_5,
-                          version_6, version_7, version_8, version_9, version_10};
+const std::array versions{version_1, version_2, version_3, version_4,  version_5, version_6,
+                          version_7, version_8, version_9, version_10, version_11};
 
 std::int64_t number_in(Connection& database, const std::string& pragma) {
     std::int64_t number = 0;

@@ -12,14 +12,39 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* run_columns =
-    "SELECT r.id, r.name, r.title, r.state, r.created, r.started, r.finished, r.tasks_total, "
-    "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
-    "t.fault_summary FROM tasks t WHERE t.run "
-    "= r.id AND "
-    "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable, "
-    "r.pinned FROM "
-    "run_summaries r ";
+/// Every open state of a run or a sweep.
+bool is_open_state(const std::string& state) {
+    return state == "queued" || state == "running" || state == "budget_exhausted" ||
+           state == "planning" || state == "refining";
+}
+
+/// A bisect refines as soon as its seeds are placed, samples as soon as more are drawn than at first.
+std::string sweep_state() {
+    return "CASE WHEN r.state NOT IN ('queued', 'running') THEN r.state WHEN NOT EXISTS (SELECT 1 "
+           "FROM tasks AS t WHERE t.run=r.id AND " +
+           makes_a_row("t") +
+           ") THEN 'planning' WHEN EXISTS (SELECT 1 FROM triggers AS g WHERE g.run=r.id AND "
+           "g.state IN ('armed', 'holding') AND (g.kind='bisect' AND (SELECT count(*) FROM firings "
+           "WHERE firings.trigger=g.id) > json_extract(g.spec, '$.seeds') OR "
+           "coalesce(json_extract(g.spec, '$.percentile'), json_extract(g.spec, '$.target')) IS "
+           "NOT NULL AND (SELECT last_task FROM runs WHERE runs.id=r.id) > (SELECT "
+           "json_extract(detail, '$.tasks') FROM events WHERE events.run=r.id AND "
+           "json_extract(detail, '$.event')='submit' ORDER BY seq LIMIT 1))) THEN 'refining' ELSE "
+           "r.state END";
+}
+
+std::string run_columns(const std::string& state = "r.state") {
+    return "SELECT r.id, r.name, r.title, " + state +
+           " AS shown, r.created, r.started, r.finished, r.tasks_total, "
+           "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': "
+           "' || "
+           "t.fault_summary FROM tasks t WHERE t.run "
+           "= r.id AND "
+           "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), "
+           "r.questionable, "
+           "r.pinned, r.budget_cpu_seconds, r.spent_cpu_seconds FROM "
+           "run_summaries r ";
+}
 
 Run run_from(const Row& row) {
     return {.id = row.text(0),
@@ -36,7 +61,9 @@ Run run_from(const Row& row) {
             .message = row.text(12),
             .paused = row.integer(10) != 0,
             .questionable = row.integer(13),
-            .pinned = row.integer(14) != 0};
+            .pinned = row.integer(14) != 0,
+            .budget = row.optional_real(15),
+            .spent = row.real(16)};
 }
 
 constexpr const char* task_columns =
@@ -80,14 +107,14 @@ Value as_value(TaskState state) { return std::string(name_of(state)); }
 }  // namespace
 
 std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
-    std::string sql = std::string(run_columns) + "WHERE 1";
+    std::string sql = run_columns(filter.sweeps_only ? sweep_state() : "r.state") + "WHERE 1";
     std::vector<Value> values;
     if (filter.state) {
-        sql += " AND r.state=?";
+        sql += " AND shown=?";
         values.emplace_back(*filter.state);
     }
     // The unfinished are few: found by their tasks, not by asking every run there ever was.
-    if (filter.state == "queued" || filter.state == "running")
+    if (filter.state && is_open_state(*filter.state))
         sql += " AND r.id IN (SELECT run FROM tasks WHERE finished IS NULL)";
     if (filter.name) {
         sql += " AND r.name=?";
@@ -109,6 +136,7 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
     read([&](Connection& database) {
         database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
+        tell_what_is_missing(database, found);
     });
     return found;
 }
@@ -118,9 +146,9 @@ std::vector<Run> Store::runs(std::size_t most) const { return runs(RunFilter{}, 
 std::vector<Run> Store::runs_that_may_go() const {
     std::vector<Run> found;
     read([&](Connection& database) {
-        database.query(std::string(run_columns) +
-                           "WHERE r.finished IS NOT NULL AND r.pinned=0 ORDER BY r.finished, r.id",
-                       {}, [&](const Row& row) { found.push_back(run_from(row)); });
+        database.query(
+            run_columns() + "WHERE r.finished IS NOT NULL AND r.pinned=0 ORDER BY r.finished, r.id",
+            {}, [&](const Row& row) { found.push_back(run_from(row)); });
     });
     return found;
 }
@@ -136,12 +164,17 @@ std::optional<IdempotentRun> Store::run_of_key(const std::string& key) const {
     return found;
 }
 
-std::optional<Run> Store::run(const std::string& id) const {
+std::optional<Run> Store::run(const std::string& id) const { return one_run(id, "r.state"); }
+
+std::optional<Run> Store::sweep(const std::string& id) const { return one_run(id, sweep_state()); }
+
+std::optional<Run> Store::one_run(const std::string& id, const std::string& state) const {
     std::vector<Run> found;
     read([&](Connection& database) {
-        database.query(std::string(run_columns) + "WHERE r.id=?", {id},
+        database.query(run_columns(state) + "WHERE r.id=?", {id},
                        [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
+        tell_what_is_missing(database, found);
     });
     if (found.empty()) return std::nullopt;
     return std::move(found.front());
@@ -237,7 +270,9 @@ std::vector<Task> Store::tasks_to_start(const std::vector<std::string>& full_que
         database.query(std::string(task_columns) +
                            "INDEXED BY tasks_to_start WHERE state='ready' AND phase NOT IN (SELECT "
                            "value FROM json_each(?)) AND run NOT IN (SELECT id FROM runs WHERE "
-                           "paused=1) ORDER BY priority DESC, id LIMIT ?",
+                           "paused=1 UNION ALL SELECT id FROM runs JOIN spendings ON "
+                           "spendings.run=id WHERE spendings.cpu_seconds>=budget_cpu_seconds) "
+                           "ORDER BY priority DESC, id LIMIT ?",
                        {json(full_queues).dump(), as_value(most)},
                        [&](const Row& row) { found.push_back(task_from(row)); });
     });
@@ -369,6 +404,17 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
                        {sha256}, [&](const Row& row) {
                            found = Artifact{row.text(0), row.text(1), row.text(2), row.integer(3)};
                        });
+    });
+    return found;
+}
+
+std::optional<Artifact> Store::maker_of(const std::string& sha256) const {
+    std::optional<Artifact> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT task, name, sha256, bytes FROM artifacts JOIN tasks ON tasks.id=task WHERE "
+            "sha256=? ORDER BY same_as IS NOT NULL, state='cached', task LIMIT 1",
+            {sha256}, [&](const Row& row) { found = artifact_from(row); });
     });
     return found;
 }

@@ -30,7 +30,9 @@ constexpr std::array rows_of_run{
     "UPDATE tasks SET same_as=NULL WHERE same_as IN (SELECT id FROM tasks WHERE run=?)",
     "DELETE FROM tasks WHERE run=?",
     "DELETE FROM run_counts WHERE run=?",
+    "DELETE FROM spendings WHERE run=?",
     "DELETE FROM files_of_runs WHERE run=?",
+    "DELETE FROM scenes_of_runs WHERE run=?",
     "DELETE FROM runs WHERE id=?",
 };
 
@@ -83,7 +85,9 @@ StoredFile file_from(const Row& row) {
 }
 
 constexpr const char* unneeded =
-    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256)";
+    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256) AND NOT "
+    "EXISTS "
+    "(SELECT 1 FROM files_of_scenes WHERE files_of_scenes.sha256=files.sha256)";
 
 }  // namespace
 
@@ -113,7 +117,11 @@ void Transaction::touch_file(const std::string& sha256) {
 
 Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
     if (!any(database_, "SELECT 1 FROM files WHERE sha256=?", sha256)) return Removal::unknown;
-    if (any(database_, "SELECT 1 FROM files_of_runs WHERE sha256=? LIMIT 1", sha256))
+    if (any(database_,
+            "SELECT 1 FROM files_of_runs WHERE sha256=?1 UNION ALL SELECT 1 FROM files_of_scenes "
+            "WHERE "
+            "sha256=?1 LIMIT 1",
+            sha256))
         return Removal::needed;
     database_.change("DELETE FROM files WHERE sha256=?", {sha256});
     erase();

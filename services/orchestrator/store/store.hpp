@@ -40,6 +40,8 @@ class Store {
     std::vector<Run> runs(const RunFilter& filter, std::size_t most) const;
     std::optional<IdempotentRun> run_of_key(const std::string& key) const;
     std::optional<Run> run(const std::string& id) const;
+    /// The same with the state of a sweep (RunFilter::sweeps_only).
+    std::optional<Run> sweep(const std::string& id) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 
@@ -83,6 +85,10 @@ class Store {
     std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
                                                                    const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
+    /// The same as the task left it that computed it; where that is gone, the first that took it.
+    std::optional<Artifact> maker_of(const std::string& sha256) const;
+    /// Newest first.
+    std::vector<TransferRow> transfers_of(const TransferFilter& filter, std::size_t most) const;
     /// In the study's order of variants, each ascending in the transfer time.
     std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
     /// Of a study with draws, their means in the same order: one value for each of mean_columns().
@@ -113,6 +119,12 @@ class Store {
     /// Files that no run names and that nobody asked for since.
     std::vector<StoredFile> unused_files(const std::string& before) const;
 
+    std::optional<StoredScene> scene(const std::string& sha256) const;
+    std::vector<StoredScene> scenes(const SceneFilter& filter, std::size_t most) const;
+    /// Newest first; none: there is no such name.
+    std::vector<SceneName> versions_of_scene(const std::string& name) const;
+    std::optional<SceneSource> scene_source_of(const std::string& run) const;
+
     std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
     std::vector<Event> events_of_run(const std::string& run, std::int64_t after,
                                      std::size_t most) const;
@@ -133,7 +145,9 @@ class Store {
     void commit(std::deque<Job>& jobs);
     /// A reading connection for the duration of `read`.
     void read(const std::function<void(Connection&)>& read) const;
+    std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void add_flags(Connection& database, std::vector<Run>& runs);
+    static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;

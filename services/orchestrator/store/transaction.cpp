@@ -26,12 +26,13 @@ std::string run_of(const std::string& task) { return task.substr(0, task.find('-
 void Transaction::add_run(const NewRun& run) {
     const std::string now = utc_now();
     database_.change(
-        "INSERT INTO runs (id, name, title, created, study, scene, sweep, last_task) VALUES "
-        "(?,?,?,?,?,?,?,?)",
+        "INSERT INTO runs (id, name, title, created, study, scene, sweep, last_task, "
+        "budget_cpu_seconds) VALUES (?,?,?,?,?,?,?,?,?)",
         {run.id, run.name, run.title, now, run.study, run.scene, std::int64_t{run.sweep ? 1 : 0},
-         static_cast<std::int64_t>(run.tasks.size())});
+         static_cast<std::int64_t>(run.tasks.size()), value_or_null(run.budget)});
     add_recipes(run.recipes);
     add_files(run);
+    add_scene_source(run);
     add_event(run.id, std::nullopt, "run", {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
@@ -243,10 +244,11 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     const std::string now = utc_now();
     const Value started = event == AttemptEvent::submit ? Value(now) : Value(nullptr);
     const Value finished = is_live(*to) ? Value(nullptr) : Value(now);
+    const bool was_exhausted = !end.cpu_seconds || is_exhausted(run_of(task));
     database_.change(
         "UPDATE attempts SET state=?, started=coalesce(started, ?), finished=?, exit_code=?, "
         "signal=?, "
-        "wall_seconds=?, cpu_seconds=? WHERE task=? AND number=?",
+        "wall_seconds=?, cpu_seconds=coalesce(?, cpu_seconds) WHERE task=? AND number=?",
         {std::string(name_of(*to)), started, finished, value_or_null(end.exit_code),
          value_or_null(end.signal), value_or_null(end.wall_seconds), value_or_null(end.cpu_seconds),
          task, number});
@@ -258,6 +260,8 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     if (end.signal) detail["signal"] = *end.signal;
     if (!end.reason.empty()) detail["stopped_for"] = end.reason;
     add_event(run_of(task), task, "attempt", detail);
+    if (!was_exhausted && is_exhausted(run_of(task)))
+        add_event(run_of(task), std::nullopt, "run", {{"event", "budget_exhausted"}});
 }
 
 std::int64_t Transaction::count_try(const std::string& task) {

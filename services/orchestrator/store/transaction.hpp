@@ -72,6 +72,8 @@ class Transaction {
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
+    /// Of a run that is there; nothing: no limit. Its study says the same from now on.
+    void set_budget(const std::string& run, std::optional<double> cpu_seconds);
     bool pin_run(const std::string& run);
     bool unpin_run(const std::string& run);
     /// What lists call it from now on; its study keeps the title that it was sent with.
@@ -92,6 +94,15 @@ class Transaction {
     /// Not if it was used after `before`, or a run names it.
     bool forget_unused_file(const std::string& sha256, const std::string& before,
                             const std::function<void()>& erase);
+
+    /// Keeps the scene under its hash and, as a new version, under the name unless that stands for it
+    /// already. False: both were there.
+    bool keep_scene(const NewScene& scene, const std::optional<std::string>& name);
+    /// needed: a name stands for it, or a run was made of it.
+    Removal forget_scene(const std::string& sha256);
+    /// All versions of the name, and of their contents what nothing else needs. needed: a run was made
+    /// of one of them by this name.
+    Removal forget_scene_name(const std::string& name);
 
     /// Gives up to so many free pages at the end of the database back to the disk.
     void shrink(std::int64_t pages);
@@ -129,7 +140,10 @@ class Transaction {
     bool mark_run(const std::string& run, const char* column, std::int64_t value,
                   const char* event);
     void add_files(const NewRun& run);
+    void add_scene_source(const NewRun& run);
     bool holds(const std::string& task) const;
+    /// Nothing of the run is started: it has spent what it may.
+    bool is_exhausted(const std::string& run) const;
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);

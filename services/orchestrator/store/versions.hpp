@@ -14,5 +14,6 @@ extern const char* const version_7;   ///< what the FEM did not reach is no fail
 extern const char* const version_8;   ///< accuracy studies are found at once
 extern const char* const version_9;   ///< which variant a draw repeats
 extern const char* const version_10;  ///< runs are removed and pinned; files that were sent
+extern const char* const version_11;  ///< budgets; scenes that were stored
 
 }  // namespace breach::orchestrator

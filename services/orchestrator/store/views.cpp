@@ -13,12 +13,17 @@ namespace {
 
 // A run with an open trigger is not over: it may still get tasks. One of which no transfer time was
 // reached by its FEM has no runout, though nothing failed. Of lem_tool alone no runout is expected.
+// One that has spent its budget waits for more as soon as nothing of it runs.
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
     (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
         AS questionable,
-    CASE WHEN is_open THEN CASE WHEN started IS NULL THEN 'queued' ELSE 'running' END
+    budget_cpu_seconds, spent_cpu_seconds,
+    CASE WHEN is_open THEN CASE WHEN spent_cpu_seconds >= budget_cpu_seconds AND NOT EXISTS
+             (SELECT 1 FROM tasks WHERE tasks.run = counted.id AND tasks.state IN
+             ('starting', 'running', 'finalizing', 'cancelling')) THEN 'budget_exhausted'
+             WHEN started IS NULL THEN 'queued' ELSE 'running' END
          WHEN cancelled > 0 THEN 'cancelled'
          WHEN failed > 0 AND (runouts > 0 OR reached > 0 AND NOT EXISTS (SELECT 1 FROM tasks
              WHERE tasks.run = counted.id AND phase <> 'lem_tool')) THEN 'partial'
@@ -29,7 +34,9 @@ SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_
          ELSE 'succeeded' END AS state,
     CASE WHEN NOT is_open THEN last_finished END AS finished
 FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
-        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open
+        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open,
+    coalesce((SELECT cpu_seconds FROM spendings WHERE spendings.run = runs.id), 0.0)
+        AS spent_cpu_seconds
       FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
 struct Expression {

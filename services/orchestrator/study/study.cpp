@@ -531,8 +531,10 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
                is_sound(of_study, std::string("/") + entry);
     };
     if (document.is_object() && document.contains("scene") && document["scene"].is_string()) {
-        faults.push_back({"/scene", "a study sent to the service cannot name a scene file",
-                          "put the scene itself here (jq can: .scene = $scene[0])"});
+        faults.push_back(
+            {"/scene", "a study sent to the service cannot name a scene file",
+             "put the scene itself here (jq can: .scene = $scene[0]), or store it (POST "
+             "/v1/scenes) and give scene:NAME"});
     }
     Study study;
     std::optional<AccuracyPlan> accuracy;
@@ -621,6 +623,7 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     study.resources = wanted_resources(document["resources"]);
     study.priority = document["priority"];
     study.reuse = document["reuse"];
+    if (document.contains("budget")) study.budget = document["budget"]["cpu_seconds"];
     document.erase("scene");
     study.document = std::move(document);
     return study;

@@ -33,6 +33,7 @@ struct Study {
     std::vector<Variant> variants;               ///< at least one
     std::map<std::string, Resources> resources;  ///< by phase
     std::int64_t priority = 0;
+    std::optional<double> budget;       ///< that all attempts may spend [CPU s]
     bool reuse = true;                  ///< equal earlier results may be taken
     std::vector<TriggerPlan> triggers;  ///< those that watch the FEM
     double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]

@@ -179,7 +179,9 @@ void add_what_is_not_known(const Run& run, Verdict& verdict) {
 }
 
 /// Of a run whose state is not known it is taken for granted.
-bool is_over(const Run& run) { return run.state != "queued" && run.state != "running"; }
+bool is_over(const Run& run) {
+    return run.state != "queued" && run.state != "running" && run.state != "budget_exhausted";
+}
 
 /// One word for all of it, the worst first.
 std::string word_for(const Run& run, const Verdict& verdict) {

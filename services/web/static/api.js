@@ -100,6 +100,7 @@ export async function read_envelopes(run) {
 /// A file of the server as a Blob.
 export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);
+export const provenance_path = (sha256) => path_of("artifacts", sha256, "provenance");
 /// The section of a study or a scene as SVG text.
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");

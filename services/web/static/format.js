@@ -65,6 +65,7 @@ export function state_look(state) {
             return { family: "warn", sign: "⚠" };
         case "partial":
         case "paused":
+        case "budget_exhausted":
             return { family: "warn", sign: "◐" };
         case "failed":
         case "lost":

@@ -2,7 +2,7 @@
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { counts_text } from "./flags.js";
-import { bytes, clock, elapsed, is_active, percent, show_state, span, task_state } from "./format.js";
+import { bytes, clock, elapsed, is_active, percent, seconds, show_state, span, task_state } from "./format.js";
 import { RenameDialog } from "./rename.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
@@ -75,7 +75,7 @@ export class RunHead {
         by_id("run-progress").value = run.progress ?? 0;
         set_text(by_id("run-summary"), summary(run));
         set_text(by_id("run-message"), run.message ?? "");
-        by_id("run-message").className = run.state === "questionable" ? "notice warn" : "muted";
+        by_id("run-message").className = ["questionable", "budget_exhausted"].includes(run.state) ? "notice warn" : "muted";
         const counts = counts_text(run.flag_counts);
         by_id("run-flags").hidden = !counts;
         set_text(by_id("run-flags"), `Flags of its results: ${counts}`);
@@ -138,8 +138,12 @@ function summary(run) {
     if (run.tasks_failed > 0) parts.push(`${run.tasks_failed} failed`);
     if (run.questionable > 0) parts.push(`${run.questionable} questionable`);
     parts.push(`created ${clock(run.created)}`);
-    if (run.started) parts.push(`${is_active(run.state) ? "running for" : "took"} ${elapsed(run.started, run.finished)}`);
+    if (run.state === "budget_exhausted") parts.push(`started ${clock(run.started)}, nothing of it runs now`);
+    else if (run.started) parts.push(`${is_active(run.state) ? "running for" : "took"} ${elapsed(run.started, run.finished)}`);
     if (run.paused && is_active(run.state)) parts.push("paused: nothing new is started");
+    if (Number.isFinite(run.budget_cpu_seconds)) {
+        parts.push(`${seconds(run.spent_cpu_seconds)} of a budget of ${seconds(run.budget_cpu_seconds)} CPU time spent`);
+    }
     if (Number.isFinite(run.seconds_left)) parts.push(`about ${span(run.seconds_left)} left`);
     return parts.join(" · ");
 }

@@ -169,7 +169,9 @@ function new_artifact(file) {
     return element("tr", {}, element("th", { scope: "row" },
                        element("a", { href: api.artifact_path(file.sha256), download: file.name }, file.name)),
                    element("td", { class: "number" }, bytes(file.bytes)),
-                   element("td", {}, element("code", { title: file.sha256 }, file.sha256)));
+                   element("td", {}, element("code", { title: file.sha256 }, file.sha256)),
+                   element("td", {}, element("a", { href: api.provenance_path(file.sha256), download: `${file.name}.prov.json`,
+                                                    title: "how it came to be: W3C PROV-JSON" }, "provenance")));
 }
 
 /// The numbers of result.json that stand at its top level; the whole file is among the artifacts.

@@ -167,10 +167,11 @@ def run(path, number, index, script, throttle):
 
 def squeue(words):
     wanted, _ = options(words)
-    assert wanted["format"] == "%F %K %T %j" and wanted["states"] == "all" and "array" in wanted, wanted
+    assert wanted["format"] == "%F %K %T %j %r" and wanted["states"] == "all" and "array" in wanted, wanted
     with Locked():
         for job in all_jobs():
-            print(job["number"], "N/A" if job["index"] is None else job["index"], job["state"], job["name"])
+            print(job["number"], "N/A" if job["index"] is None else job["index"], job["state"], job["name"],
+                  "Resources" if job["state"] == "PENDING" else "None")
 
 
 def scancel(words):

@@ -67,6 +67,36 @@ class RealService(unittest.TestCase):
         file.write_text(json.dumps(study))
         return file
 
+    def test_a_stored_scene_a_budget_and_what_is_told_of_them(self):
+        self.study(small, [0.1])
+        self.assertEqual(self.breach("scenes", "add", self.here / "column.json", "--name", "column").stdout, "scene:column@1\n")
+        self.assertRegex(self.breach("scenes").stdout, r"column@1 ")
+        self.assertEqual(json.loads(self.breach("scenes", "show", "scene:column").stdout)["name"], "column")
+        file = self.here / "referring.json"
+        file.write_text(json.dumps({"format": "breachline-study/1", "name": "column", "scene": "scene:column", "overrides": small,
+                                    "transfer_times": [0.1], "reuse": False, "budget": {"cpu_seconds": 1e-3}}))
+        self.assertIn("will not be enough", self.breach("submit", file, "--dry-run").stdout)
+        stopped = self.breach("submit", file, "--watch", code=75)
+        run = stopped.stdout.split()[0]
+        self.assertIn("budget exhausted", stopped.stderr)
+        self.assertRegex(stopped.stderr, f"to go on: breach extend {run} --budget ")
+        self.assertRegex(self.breach("show", run).stdout, r"state     budget_exhausted, .*\n(.*\n)*budget    [0-9.e-]+ of 0.001 CPU s spent")
+        for wrong in ("0", "-1", "much"):
+            self.breach("extend", run, "--budget", wrong, code=2)
+        self.assertIn("/budget/cpu_seconds", self.breach("extend", run, "--budget", 1e-6, code=65).stderr)
+        self.breach("extend", run, "--budget", 3600)
+        self.assertRegex(self.breach("watch", run).stdout, "100 %  (succeeded|questionable)")
+        self.assertRegex(self.breach("transfers", run).stdout, r"0\.1 +at_time ")
+        self.assertIn("cores taken", self.breach("workers").stdout)
+        tasks = json.loads(self.breach("show", run, "--json").stdout)["tasks"]
+        result = next(each for each in tasks[-1]["artifacts"] if each["name"] == "result.json")
+        told = self.breach("provenance", result["sha256"]).stdout
+        for part in ("mpm_solver", "transfer_tool", "fem_solver", "particles.vtkhdf", "study column", "scene column", "scene column@1"):
+            self.assertIn(part, told)
+        self.breach("scenes", "rm", "column", code=65)
+        self.breach("rm", run)
+        self.breach("scenes", "rm", "column")
+
     def test_error_against_run_time(self):
         shown = self.breach("accuracy", self.accuracy_study(), "--watch").stdout
         self.assertRegex(shown, r"cells +/mpm/cell_size=4 +[-0-9.]+ +[0-9.e-]+ +2 ")

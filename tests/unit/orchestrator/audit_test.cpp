@@ -45,6 +45,10 @@ class AuditTest : public ::testing::Test {
                            outputs.emplace_back(
                                data_.output(row.text(0), row.text(1)) / row.text(2), row.text(3));
                        });
+        fs::create_directories(data_.files());
+        database.query("SELECT file FROM files", {}, [&](const Row& row) {
+            exchange::publish_text(data_.files() / row.text(0), "record");
+        });
         for (const auto& [file, task] : outputs) {
             fs::create_directories(file.parent_path());
             exchange::publish_text(file, task);
@@ -96,6 +100,15 @@ TEST_P(AuditOfVersion, IsOldThenMigratedThenSound) {
         if (GetParam() >= 9) {
             EXPECT_EQ(store.means("r9").size(), 1u);
         }
+        if (GetParam() >= 10) {
+            EXPECT_TRUE(store.run("r9")->pinned);
+            EXPECT_EQ(store.files_of("r9").size(), 1u);
+        }
+        double spent = 0.0;
+        for (const Task& each : store.tasks_of("r1"))
+            for (const Attempt& attempt : store.attempts_of(each.id))
+                spent += attempt.cpu_seconds.value_or(0.0);
+        EXPECT_DOUBLE_EQ(store.run("r1")->spent, spent);
     }
     EXPECT_TRUE(fs::exists(data_.database().string() + ".before_version_" +
                            std::to_string(newest_version())));
@@ -104,10 +117,10 @@ TEST_P(AuditOfVersion, IsOldThenMigratedThenSound) {
         ADD_FAILURE() << each.part << ": " << each.where << ": " << each.cause;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, AuditOfVersion, ::testing::Range(1, 10));
+INSTANTIATE_TEST_SUITE_P(Of, AuditOfVersion, ::testing::Range(1, 11));
 
 TEST(Databases, OfEveryEarlierVersionAreKept) {
-    EXPECT_EQ(newest_version(), 10) << "keep one of the version before: databases/, AuditOfVersion";
+    EXPECT_EQ(newest_version(), 11) << "keep one of the version before: databases/, AuditOfVersion";
 }
 
 class AuditOfDamage : public AuditTest {

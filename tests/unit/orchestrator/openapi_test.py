@@ -14,6 +14,11 @@ import urllib.request
 
 import jsonschema
 
+try:
+    import prov.model
+except ImportError:
+    prov = None
+
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 programs = pathlib.Path(os.environ["BREACH_BIN"])
 
@@ -86,6 +91,18 @@ class Described(unittest.TestCase):
         resolver = jsonschema.RefResolver.from_schema(self.document)
         faults = list(jsonschema.Draft202012Validator(schema, resolver=resolver).iter_errors(value))
         self.assertFalse(faults, f"{where}: {[f'{list(each.absolute_path)}: {each.message[:200]}' for each in faults[:3]]}")
+
+    def read_back(self, document):
+        """By a reader of PROV-JSON that is not ours: what is related is what is described."""
+        if prov is None:
+            self.skipTest("python3-prov is not installed")
+        read = prov.model.ProvDocument.deserialize(content=json.dumps(document), format="json")
+        for kind, entries in (("ProvEntity", "entity"), ("ProvActivity", "activity"), ("ProvAgent", "agent"), ("ProvUsage", "used"),
+                              ("ProvGeneration", "wasGeneratedBy"), ("ProvAssociation", "wasAssociatedWith"),
+                              ("ProvDerivation", "wasDerivedFrom")):
+            self.assertEqual(len(list(read.get_records(getattr(prov.model, kind)))), len(document[entries]), kind)
+        for activity in read.get_records(prov.model.ProvActivity):
+            self.assertLessEqual(activity.get_startTime(), activity.get_endTime())
 
     def test_1_it_is_openapi_3_1_and_its_schemas_are_sound(self):
         self.assertTrue(self.document["openapi"].startswith("3.1"))
@@ -161,6 +178,31 @@ class Described(unittest.TestCase):
         get("/v1/tasks/{id}/frames", f"/v1/tasks/{task}/frames")
         get("/v1/tasks/{id}/frames/{name}/points", f"/v1/tasks/{transfer['id']}/frames/none.vtkhdf/points", 404)
         get("/v1/artifacts/{sha256}", f"/v1/artifacts/{artifact}")
+        self.read_back(json.loads(get("/v1/artifacts/{sha256}/provenance", f"/v1/artifacts/{artifact}/provenance")))
+        get("/v1/artifacts/{sha256}/provenance", f"/v1/artifacts/{64 * '0'}/provenance", 404)
+        get("/v1/workers", "/v1/workers")
+        get("/v1/transfers", "/v1/transfers?limit=1")
+        get("/v1/transfers", "/v1/transfers?why=chance", 400)
+        get("/v1/runs/{id}/transfers", f"/v1/runs/{run}/transfers?why=at_time")
+        scene, extend = study([0.5])["scene"], ("/v1/sweeps/{id}/extend", f"/v1/sweeps/{run}/extend")
+        kept = [json.loads(post("/v1/scenes", "/v1/scenes?name=slope", status, scene)) for status in (201, 200)]
+        post("/v1/scenes", "/v1/scenes?name=Slope", 400, scene)
+        post("/v1/scenes", "/v1/scenes", 422, {**scene, "gravity": "much"})
+        get("/v1/scenes", "/v1/scenes?search=slo&limit=1")
+        for address in ("slope", "slope@1", kept[0]["sha256"]):
+            get("/v1/scenes/{scene}", f"/v1/scenes/{address}")
+        referring = json.loads(post("/v1/runs", "/v1/runs", 202, {**study([0.5]), "scene": "scene:slope"}))["id"]
+        self.assertEqual(json.loads(get("/v1/runs/{id}", f"/v1/runs/{referring}"))["scene_from"]["sha256"], kept[0]["sha256"])
+        self.check("DELETE", "/v1/scenes/{scene}", "/v1/scenes/slope", 409)
+        self.wait(referring)
+        self.check("DELETE", "/v1/runs/{id}", f"/v1/runs/{referring}", 202)
+        self.check("DELETE", "/v1/scenes/{scene}", "/v1/scenes/slope", 202)
+        get("/v1/scenes/{scene}", "/v1/scenes/slope", 404)
+        post(*extend, 202, {"budget": {"cpu_seconds": 1e6}})
+        post(*extend, 202, {"budget": None})
+        self.assertIn("/budget/cpu_seconds", post(*extend, 422, {"budget": {"cpu_seconds": 0}}).decode())
+        post("/v1/cost", "/v1/cost", 200, {**study([0.5]), "budget": {"cpu_seconds": 1}})
+        get("/v1/sweeps", "/v1/sweeps?state=refining")
         get("/v1/events", f"/v1/events?after=0&run={run}")
         judged = {**study([0.5]), "accuracy": {"quantity": "runout", "ladders": [
             {"name": "cells", "steps": [["/mpm/cell_size=1"], ["=0.5"]]}]}}

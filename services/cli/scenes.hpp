@@ -1,0 +1,33 @@
+// Scenes that the server keeps: listing, showing, storing and removing them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "services/cli/commands.hpp"
+
+namespace breach::cli {
+
+struct ScenesWish {
+    std::string address;  ///< NAME, NAME@3, SHA-256, or a reference with "scene:" before it
+    std::filesystem::path file;
+    std::string name;   ///< by which it is stored; empty: by its content alone
+    std::string found;  ///< only those with this in a name; empty: all
+    bool send_files = false;
+};
+
+fault::ExitCode list_scenes(Server& server, const ScenesWish& wish, const Console& console);
+/// The scene itself, completed, with nothing around it: it may go into a file.
+fault::ExitCode show_scene(Server& server, const ScenesWish& wish, const Console& console);
+/// Prints how a study refers to it.
+fault::ExitCode add_scene(Server& server, const ScenesWish& wish, const Console& console);
+fault::ExitCode remove_scene(Server& server, const ScenesWish& wish, const Console& console);
+
+using ScenesCommand = fault::ExitCode (*)(Server&, const ScenesWish&, const Console&);
+/// The words below `scenes`; `chosen` gets the command of the one that is given.
+void take_scene_words(CLI::App& word, ScenesWish& wish,
+                      const std::function<void(ScenesCommand)>& chosen);
+
+}  // namespace breach::cli

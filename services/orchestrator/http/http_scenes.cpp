@@ -1,0 +1,137 @@
+// Stored scenes: kept under the SHA-256 of their completed text, found by it and by names.
+#include "core/exchange/provenance.hpp"
+#include "core/scene/file_paths.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/http/http_submission.hpp"
+#include "services/orchestrator/http/sent_documents.hpp"
+#include "services/orchestrator/http/stored_scene.hpp"
+#include "services/orchestrator/records/or_null.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+
+namespace {
+
+json as_json(const SceneName& name) {
+    return {{"name", name.name},
+            {"version", name.version},
+            {"sha256", name.sha256},
+            {"created", name.created}};
+}
+
+json as_json(const StoredScene& scene) {
+    json names = json::array();
+    for (const SceneName& each : scene.names) names.push_back(as_json(each));
+    return {{"sha256", scene.sha256},
+            {"reference", std::string(scene::stored_scene) + "sha256/" + scene.sha256},
+            {"bytes", scene.bytes},
+            {"created", scene.created},
+            {"names", names},
+            {"runs", scene.runs}};
+}
+
+FoundScene wanted_scene(const Service& service, const std::string& address) {
+    auto found = find_scene(service.store, address);
+    if (!found) throw not_found("stored scene " + address);
+    return std::move(*found);
+}
+
+/// 201 when it is on the disk; 200 when the name stood for it already, or nothing new was asked for.
+void keep_scene(Service& service, Call& call) {
+    call.allow_parameters({"name"});
+    const auto name = call.parameter("name");
+    if (name && !is_scene_name(*name))
+        throw bad_request(
+            "name must be 1 to 64 of a-z, 0-9, _ and -, beginning with a letter or a digit, and "
+            "not "
+            "the digits of a hash");
+    const json scene = sent_scene(call.json_body(), service.data.root());
+    NewScene kept{.sha256 = {}, .document = scene.dump(), .files = {}};
+    kept.sha256 = exchange::sha256_of_text(kept.document);
+    for (const auto& each : scene::references_in(scene)) kept.files.push_back(each.sha256);
+    bool is_new = false;
+    service.store.write(
+        [&](Transaction& transaction) { is_new = transaction.keep_scene(kept, name); });
+    call.response.set_header("Location", "/v1/scenes/" + kept.sha256);
+    reply(call.response, as_json(wanted_scene(service, kept.sha256).scene), is_new ? 201 : 200);
+}
+
+void list_scenes(const Service& service, Call& call) {
+    call.allow_parameters({"limit", "cursor", "name", "search"});
+    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
+    SceneFilter filter{.name = call.parameter("name"), .search = call.parameter("search")};
+    if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
+    std::vector<StoredScene> scenes = service.store.scenes(filter, limit + 1);
+    json next = nullptr;
+    if (scenes.size() > limit) {
+        scenes.pop_back();
+        next = scenes.back().created + "~" + scenes.back().sha256;
+    }
+    json list = json::array();
+    for (const StoredScene& each : scenes) list.push_back(as_json(each));
+    reply(call.response, {{"scenes", std::move(list)}, {"next", std::move(next)}});
+}
+
+void show_scene(const Service& service, Call& call) {
+    call.allow_parameters({});
+    const FoundScene found = wanted_scene(service, call.parts[0]);
+    json body = as_json(found.scene);
+    body["scene"] = json::parse(found.scene.document);
+    body["name"] = or_null(found.source.name);
+    body["version"] = or_null(found.source.version);
+    body["versions"] = json::array();
+    if (found.source.name)
+        for (const SceneName& each : service.store.versions_of_scene(*found.source.name))
+            body["versions"].push_back(as_json(each));
+    reply(call.response, body);
+}
+
+void remove_scene(Service& service, Call& call) {
+    call.allow_parameters({});
+    const std::string& address = call.parts[0];
+    if (address.find('@') != std::string::npos)
+        throw bad_request(
+            "versions are not removed one by one: a run may be told by its number; remove the "
+            "whole "
+            "name, or a content by its SHA-256");
+    const bool content = is_sha256(address);
+    Removal outcome = Removal::unknown;
+    std::int64_t bytes = 0;
+    if (content)
+        if (const auto scene = service.store.scene(address)) bytes = scene->bytes;
+    service.store.write([&](Transaction& transaction) {
+        outcome =
+            content ? transaction.forget_scene(address) : transaction.forget_scene_name(address);
+    });
+    if (outcome == Removal::needed)
+        throw Problem{409, "/problems/needed", "Needed",
+                      content
+                          ? "a name stands for this scene, or a run was made of it: remove them "
+                            "first (GET /v1/scenes/" +
+                                address + " lists them)"
+                          : "runs were made of the scene by this name: remove them first (GET "
+                            "/v1/scenes/" +
+                                address + " lists them)"};
+    if (outcome == Removal::unknown) throw not_found("stored scene " + address);
+    reply(call.response, {{"id", address}, {"freed_bytes", bytes}}, 202);
+}
+
+}  // namespace
+
+json scene_source_json(const Service& service, const std::string& run) {
+    const auto source = service.store.scene_source_of(run);
+    if (!source) return nullptr;
+    return {{"sha256", source->sha256},
+            {"name", or_null(source->name)},
+            {"version", or_null(source->version)}};
+}
+
+void add_scene_routes(Router& router, Service& service) {
+    router.post("/v1/scenes", [&](Call& call) { keep_scene(service, call); });
+    router.get("/v1/scenes", [&](Call& call) { list_scenes(service, call); });
+    router.get("/v1/scenes/{scene}", [&](Call& call) { show_scene(service, call); });
+    router.remove("/v1/scenes/{scene}", [&](Call& call) { remove_scene(service, call); });
+}
+
+}  // namespace breach::orchestrator
