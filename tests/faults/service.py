@@ -45,11 +45,11 @@ class Service:
         self.process.wait(30)
         self.process.stdout.close()
 
-    def ask(self, path, body=None, timeout=30, **headers):
+    def ask(self, path, body=None, timeout=30, method=None, **headers):
         """(status, headers, body: parsed when it is JSON)"""
         data = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", data,
-                                         {"Content-Type": "application/json", **headers})
+                                         {"Content-Type": "application/json", **headers}, method=method)
         try:
             with urllib.request.urlopen(request, timeout=timeout) as answer:
                 status, head, text = answer.status, answer.headers, answer.read()

@@ -74,6 +74,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"tasks_failed", run.tasks_failed},
             {"paused", run.paused},
             {"pinned", run.pinned},
+            {"submitted_by", or_null(run.submitted_by)},
             {"seconds_left", seconds_left(run, progress)},
             {"questionable", run.questionable},
             {"flag_counts", counts_of(run.flags)},

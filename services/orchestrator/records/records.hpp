@@ -108,6 +108,8 @@ struct Run {
     bool paused = false;            ///< nothing new of it is started
     std::int64_t questionable = 0;  ///< results not to rely on
     bool pinned = false;            ///< not to be removed
+    /// The token's name; nothing: the service asked for none.
+    std::optional<std::string> submitted_by = {};
     std::vector<FlagTally> flags = {};
 };
 

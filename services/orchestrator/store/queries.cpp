@@ -18,8 +18,9 @@ constexpr const char* run_columns =
     "t.fault_summary FROM tasks t WHERE t.run "
     "= r.id AND "
     "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable, "
-    "r.pinned FROM "
-    "run_summaries r ";
+    "r.pinned, (SELECT json_extract(e.detail, '$.by') FROM events e WHERE e.run = r.id ORDER BY "
+    "e.seq "
+    "LIMIT 1) FROM run_summaries r ";
 
 Run run_from(const Row& row) {
     return {.id = row.text(0),
@@ -36,7 +37,8 @@ Run run_from(const Row& row) {
             .message = row.text(12),
             .paused = row.integer(10) != 0,
             .questionable = row.integer(13),
-            .pinned = row.integer(14) != 0};
+            .pinned = row.integer(14) != 0,
+            .submitted_by = row.optional_text(15)};
 }
 
 constexpr const char* task_columns =

@@ -177,7 +177,7 @@ void read_triggers(const json& document, double span, Study& study, std::vector<
 
 /// The study's scene with its own overrides: completed when it is sound, as it was sent otherwise.
 struct Base {
-    std::filesystem::path folder;
+    SentFiles files;
     json scene;
     std::vector<std::string> overrides;
     std::vector<Fault> faults;  ///< of the scene itself: a variant does not repeat them
@@ -260,7 +260,7 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
                                const std::vector<double>& times) {
     std::vector<std::string> overrides = base.overrides;
     overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
-    const check::Checked changed = check_sent_scene(base.scene, overrides, base.folder);
+    const check::Checked changed = check_sent_scene(base.scene, overrides, base.files);
     CheckedVariant variant{.scene = nullptr, .faults = faults_of_variant(changed, base, times)};
     if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
     return variant;
@@ -418,7 +418,7 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
 std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<std::string>& probe,
                                           const std::vector<phases::Phase>& phases,
                                           std::vector<Fault>& found) {
-    const check::Checked changed = check_sent_scene(base.scene, probe, base.folder);
+    const check::Checked changed = check_sent_scene(base.scene, probe, base.files);
     for (const Fault& each : changed.faults)
         found.push_back({"/uncertainty", each.pointer + ": " + each.cause, each.remedy});
     std::vector<std::string> recipes;
@@ -520,7 +520,7 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 
 }  // namespace
 
-Study read_study(std::string_view text, const std::filesystem::path& folder) {
+Study read_study(std::string_view text, const SentFiles& files) {
     json document = scene::parse_json(text, "study");
     refuse_scene(document);
     const std::vector<Fault> of_study = scene::complete_and_check(document, scene::study_schema());
@@ -536,7 +536,7 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     Study study;
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
-    Base base{folder, {}, {}, {}};
+    Base base{files, {}, {}, {}};
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = document["scene"];
         if (sound("overrides")) base.overrides = document["overrides"];
@@ -554,11 +554,11 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
-        scene = check_sent_scene(base.scene, base.overrides, folder);
+        scene = check_sent_scene(base.scene, base.overrides, files);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {folder, json::parse(scene->scene.completed), {}, {}};  // what variants change
+            base = {files, json::parse(scene->scene.completed), {}, {}};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
@@ -624,8 +624,8 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     return study;
 }
 
-json read_whole_scene(std::string_view text, const std::filesystem::path& folder) {
-    const check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, folder);
+json read_whole_scene(std::string_view text, const SentFiles& files) {
+    const check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, files);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return json::parse(checked.scene.completed);
 }
