@@ -20,13 +20,27 @@ def study(times=(0.5,), title="", **more):
             **more}
 
 
+def fake_phases(folder):
+    """A folder with the four names."""
+    bin = pathlib.Path(folder) / "bin"
+    bin.mkdir(exist_ok=True)
+    for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
+        if not (bin / name).exists():
+            (bin / name).symlink_to(programs / "fake_phase")
+    return bin
+
+
+def refusal_to_start(folder, *arguments):
+    """(exit code, standard error) of a service that cannot start."""
+    done = subprocess.run([programs / "breachline", "serve", "--data", pathlib.Path(folder) / "none", "--port", "0", "--bin",
+                           fake_phases(folder), *arguments], text=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=30)
+    return done.returncode, done.stderr
+
+
 class Service:
     def __init__(self, folder, *arguments):
         folder = pathlib.Path(folder)
-        (folder / "bin").mkdir(exist_ok=True)
-        for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
-            if not (folder / "bin" / name).exists():
-                (folder / "bin" / name).symlink_to(programs / "fake_phase")
+        fake_phases(folder)
         self.data = folder / "data"
         self.process = subprocess.Popen(
             [programs / "breachline", "serve", "--data", self.data, "--bin", folder / "bin", "--port", "0", "--grace", "0.3",

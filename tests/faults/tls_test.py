@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-from service import Service, programs, root, until
+from service import Service, programs, refusal_to_start, root, until
 
 
 class Tls(unittest.TestCase):
@@ -111,10 +111,9 @@ class Tls(unittest.TestCase):
                                        ("good.pem", "absent.key", "absent.key"), ("good.pem", "good.pem", "holds no usable key"),
                                        ("good.pem", "locked.key", "password"), ("good.pem", None, "--tls-key")):
             arguments = ["--tls-cert", self.here / certificate] + (["--tls-key", self.here / key] if key else [])
-            done = subprocess.run([programs / "breachline", "serve", "--data", self.here / "none", "--port", "0", *arguments],
-                                  text=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=30)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(said, done.stderr)
+            code, told = refusal_to_start(self.here, *arguments)
+            self.assertEqual(code, 2, told)
+            self.assertIn(said, told)
 
     def test_plain_http_and_old_protocols_get_nothing_and_hurt_nobody(self):
         with self.serve() as service:

@@ -1,12 +1,10 @@
 #include "services/orchestrator/access/rates.hpp"
 
-#include <algorithm>
-
 namespace breach::orchestrator {
 
 double Rates::left_in(const Bucket& bucket, Clock::time_point now) const {
     const double since = std::chrono::duration<double>(now - bucket.at).count();
-    return std::min(per_second_ * burst_seconds, bucket.left + per_second_ * std::max(0.0, since));
+    return std::min(most_, bucket.left + per_second_ * std::max(0.0, since));
 }
 
 /// At most once a second: who comes when all places are taken must not make everybody slow.
@@ -14,7 +12,7 @@ void Rates::forget_full(Clock::time_point now) {
     if (now - swept_ < std::chrono::seconds(1)) return;
     swept_ = now;
     std::erase_if(buckets_, [&](const auto& each) {
-        return left_in(each.second, now) >= per_second_ * burst_seconds;
+        return left_in(each.second, now) >= most_;
     });
 }
 
@@ -25,7 +23,7 @@ double Rates::wait_of(const std::string& sender, Clock::time_point now) {
     if (found == buckets_.end()) {
         if (buckets_.size() >= most_senders) forget_full(now);
         const std::string name = buckets_.size() < most_senders ? sender : std::string();
-        found = buckets_.try_emplace(name, Bucket{per_second_ * burst_seconds, now}).first;
+        found = buckets_.try_emplace(name, Bucket{most_, now}).first;
     }
     Bucket& bucket = found->second;
     bucket = {left_in(bucket, now), now};
