@@ -11,9 +11,7 @@ double Rates::left_in(const Bucket& bucket, Clock::time_point now) const {
 void Rates::forget_full(Clock::time_point now) {
     if (now - swept_ < std::chrono::seconds(1)) return;
     swept_ = now;
-    std::erase_if(buckets_, [&](const auto& each) {
-        return left_in(each.second, now) >= most_;
-    });
+    std::erase_if(buckets_, [&](const auto& each) { return left_in(each.second, now) >= most_; });
 }
 
 double Rates::wait_of(const std::string& sender, Clock::time_point now) {

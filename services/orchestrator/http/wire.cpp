@@ -137,8 +137,9 @@ bool Wire::is_writable() const {
 ssize_t Wire::receive(char* data, std::size_t size) {
     const auto allowed = patience_.patience +
                          (is_head_ ? Clock::duration{} : earned(received_, patience_.least_rate));
-    const auto until = begun_ + allowed;
-    while (!broken_ && Clock::now() < until) {
+    const auto until =
+        std::min<Clock::time_point>(begun_ + allowed, Clock::now() + patience_.patience);
+    while (!broken_) {
         if (tls_ != nullptr) {
             ERR_clear_error();
             const int got = SSL_read(tls_.get(), data, static_cast<int>(size));
@@ -170,7 +171,9 @@ ssize_t Wire::read(char* data, std::size_t size) {
 }
 
 Wire::Clock::duration Wire::left_to_write() const {
-    return patience_.patience + earned(sent_, patience_.least_rate) - blocked_;
+    const Clock::duration in_all =
+        patience_.patience + earned(sent_, patience_.least_rate) - blocked_;
+    return std::min<Clock::duration>(in_all, patience_.patience);
 }
 
 ssize_t Wire::write(const char* data, std::size_t size) {
