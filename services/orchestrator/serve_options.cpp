@@ -101,9 +101,10 @@ void ServeOptions::add_door(CLI::App& serving) {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     serving
-        .add_option("--patience", patience_seconds_,
-                    "seconds that a client has for a request's head, and may pause in its body or in "
-                    "reading an answer")
+        .add_option(
+            "--patience", patience_seconds_,
+            "seconds that a client has for a request's head, and may pause in its body or in "
+            "reading an answer")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     serving.add_flag("--behind-proxy", http.behind_proxy,

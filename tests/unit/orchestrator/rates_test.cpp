@@ -17,7 +17,8 @@ TEST(Rates, FourSecondsWorthMayComeAtOnceAndThenAsFastAsItFills) {
     EXPECT_EQ(rates.wait_of("anna", start + milliseconds(110)), 0.0);
     EXPECT_GT(rates.wait_of("anna", start + milliseconds(110)), 0.0);
     const auto later = start + std::chrono::hours(1);
-    for (int i = 0; i < 40; ++i) ASSERT_EQ(rates.wait_of("anna", later), 0.0) << "no more than it holds";
+    for (int i = 0; i < 40; ++i)
+        ASSERT_EQ(rates.wait_of("anna", later), 0.0) << "no more than it holds";
     EXPECT_GT(rates.wait_of("anna", later), 0.0);
 }
 
