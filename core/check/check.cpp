@@ -3,11 +3,18 @@
 #include <utility>
 
 #include "core/check/findings.hpp"
+#include "core/check/recordings.hpp"
 #include "core/scene/reading.hpp"
+#include "core/scene/schema.hpp"
 
 namespace breach::check {
 
 Findings findings_of(const scene::Scene& scene) {
+    Recordings recordings;
+    return findings_of(scene, recordings);
+}
+
+Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
     Findings findings;
     if (!has_soil(scene)) return findings;  // the reader has said why
     check_geometry(scene, findings);
@@ -16,7 +23,7 @@ Findings findings_of(const scene::Scene& scene) {
         check_stages(scene, findings);
         check_supports(scene, findings);
         check_water(scene, findings);
-        check_motion(scene, findings);
+        check_motion(scene, recordings, findings);
     }
     check_soils(scene, findings);
     check_strengths(scene, findings);
@@ -28,9 +35,23 @@ Findings findings_of(const scene::Scene& scene) {
 Checked checked_text(std::string_view text, const std::string& name,
                      const std::filesystem::path& folder,
                      const std::vector<std::string>& overrides) {
-    scene::Reading reading = scene::read_text(text, name, folder, overrides);
-    Findings findings = findings_of(reading.scene);
-    Checked checked{std::move(reading.scene), std::move(reading.faults)};
+    return checked_document(scene::parse_json(text, name), name, folder, overrides);
+}
+
+Checked checked_document(nlohmann::json document, const std::string& name,
+                         const std::filesystem::path& folder,
+                         const std::vector<std::string>& overrides) {
+    Recordings recordings;
+    return checked_document(std::move(document), name, folder, overrides, recordings);
+}
+
+Checked checked_document(nlohmann::json document, const std::string& name,
+                         const std::filesystem::path& folder,
+                         const std::vector<std::string>& overrides, Recordings& recordings) {
+    scene::Reading reading = scene::read_document(std::move(document), name, folder, overrides);
+    Findings findings = findings_of(reading.scene, recordings);
+    Checked checked{std::move(reading.scene), std::move(reading.faults),
+                    std::move(reading.completed)};
     for (fault::Fault& each : findings.faults) checked.faults.push_back(std::move(each));
     for (fault::Flag& each : findings.warnings) checked.scene.warnings.push_back(std::move(each));
     return checked;

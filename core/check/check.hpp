@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 
 namespace breach::check {
 
+class Recordings;
+
 struct Findings {
     std::vector<fault::Fault> faults;   ///< the scene cannot run
     std::vector<fault::Flag> warnings;  ///< it can, and is hardly meant so
@@ -21,16 +24,27 @@ struct Findings {
 /// Of a scene that was read, wholly or as far as it was sound (scene::Reading). Reads the motion
 /// and looks into the mesh file; a few milliseconds.
 Findings findings_of(const scene::Scene& scene);
+/// The same for one of many scenes: a motion that an earlier one named is not read again.
+Findings findings_of(const scene::Scene& scene, Recordings& recordings);
 
 /// The reader's faults and the findings in one.
 struct Checked {
     scene::Scene scene;  ///< its warnings hold the findings'; of use only when there are no faults
     std::vector<fault::Fault> faults;
+    nlohmann::json completed;  ///< with every default filled in; of use only without faults
 };
 /// As scene::parse_scene takes it. Throws BadInput only where the text is no JSON object.
 Checked checked_text(std::string_view text, const std::string& name,
                      const std::filesystem::path& folder,
                      const std::vector<std::string>& overrides);
+
+/// The same of a document that was parsed already.
+Checked checked_document(nlohmann::json document, const std::string& name,
+                         const std::filesystem::path& folder,
+                         const std::vector<std::string>& overrides, Recordings& recordings);
+Checked checked_document(nlohmann::json document, const std::string& name,
+                         const std::filesystem::path& folder,
+                         const std::vector<std::string>& overrides);
 
 /// scene::read_scene with the findings: throws BadInput with every fault of both, IoError if the
 /// file cannot be read.

@@ -31,7 +31,7 @@ void check_supports(const scene::Scene& scene, Findings& findings);
 /// /fem/water: what is wet, what wet soil needs, boundaries of pressure, the liquefaction watch.
 void check_water(const scene::Scene& scene, Findings& findings);
 /// /fem/motion: the file and what is in it.
-void check_motion(const scene::Scene& scene, Findings& findings);
+void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& findings);
 /// Strengths of one soil that differ between phases, and relations outside their range.
 void check_strengths(const scene::Scene& scene, Findings& findings);
 /// Laws that points can have, for the transfer and the MPM.

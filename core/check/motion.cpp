@@ -3,6 +3,7 @@
 
 #include "core/check/applied_motion.hpp"
 #include "core/check/findings.hpp"
+#include "core/check/recordings.hpp"
 #include "core/check/section.hpp"
 #include "core/motion/plausibility.hpp"
 
@@ -15,7 +16,8 @@ using motion::Recording;
 
 constexpr const char* file_pointer = "/fem/motion/file";
 
-std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Findings& findings) {
+std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Recordings& recordings,
+                                      Findings& findings) {
     const std::string file = wanted.file.string();
     std::error_code ignored;  // a path longer than one can be does not exist
     if (!std::filesystem::exists(wanted.file, ignored)) {
@@ -27,7 +29,7 @@ std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Findings&
     try {
         if (std::filesystem::is_directory(wanted.file, ignored))
             throw fault::IoError(file + " is a folder");
-        return motion::read_motion(wanted.file);
+        return recordings.of(wanted.file);
     } catch (const fault::BadInput& error) {
         for (const fault::Fault& each : error.faults())
             refuse(findings, file_pointer, file + ", " + each.pointer + ": " + each.cause,
@@ -97,13 +99,13 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
 
 }  // namespace
 
-void check_motion(const scene::Scene& scene, Findings& findings) {
+void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
     if (!fem.motion) return;
     if (dynamic_duration(fem) == 0.0)
         refuse(findings, "/fem/motion", "has no dynamic stage in which it could shake",
                "add a stage of type \"dynamic\", or leave the motion out");
-    const auto recording = recording_of(*fem.motion, findings);
+    const auto recording = recording_of(*fem.motion, recordings, findings);
     if (!recording) return;
     check_kind(*fem.motion, recording->quantity, findings);
     if (recording->quantity == Quantity::displacement || !moves(recording->series, findings))

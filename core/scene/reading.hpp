@@ -2,6 +2,8 @@
 // one list holds everything that is wrong.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "core/scene/scene.hpp"
 
 namespace breach::scene {
@@ -11,6 +13,7 @@ namespace breach::scene {
 struct Reading {
     Scene scene;
     std::vector<fault::Fault> faults;
+    nlohmann::json completed;  ///< with every default filled in; of use only without faults
 };
 
 /// As parse_scene, but faults come back beside what could be read. Throws BadInput only where the
@@ -18,6 +21,11 @@ struct Reading {
 Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder = ".",
                   const std::vector<std::string>& overrides = {});
+
+/// The same of a document that was parsed already; throws where it is no object.
+Reading read_document(nlohmann::json document, const std::string& name,
+                      const std::filesystem::path& folder,
+                      const std::vector<std::string>& overrides);
 
 /// The text of a scene file. Throws IoError if it cannot be read.
 std::string text_of(const std::filesystem::path& file);

@@ -43,7 +43,11 @@ std::string text_of(const std::filesystem::path& file) {
 
 Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
-    json document = parse_json(text, name);
+    return read_document(parse_json(text, name), name, folder, overrides);
+}
+
+Reading read_document(json document, const std::string& name, const std::filesystem::path& folder,
+                      const std::vector<std::string>& overrides) {
     std::vector<Fault> faults;
     for (const std::string& each : overrides) {
         for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
@@ -69,7 +73,7 @@ Reading read_text(std::string_view text, const std::string& name,
         reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
     }
     std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
-    if (!reader.faults().empty()) return {std::move(scene), reader.faults()};
+    if (!reader.faults().empty()) return {std::move(scene), reader.faults(), nullptr};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");
@@ -77,7 +81,7 @@ Reading read_text(std::string_view text, const std::string& name,
     scene.gravity = document.at("gravity");
     scene.thickness = document.at("thickness");
     scene.completed = document.dump();
-    return {std::move(scene), {}};
+    return {std::move(scene), {}, std::move(document)};
 }
 
 Scene parse_scene(std::string_view text, const std::string& name,

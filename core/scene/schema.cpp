@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -67,6 +68,23 @@ bool is_of_type(const json& value, const std::string& type) {
     return false;
 }
 
+const json* entry_of(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+}
+
+/// The schemas have few patterns, and documents many strings that must match them.
+const std::regex& compiled(const std::string& pattern) {
+    thread_local std::map<std::string, std::regex> known;
+    const auto found = known.find(pattern);
+    return found != known.end()
+               ? found->second
+               : known
+                     .emplace(pattern,
+                              std::regex(pattern, std::regex::ECMAScript | std::regex::nosubs))
+                     .first->second;
+}
+
 /// Walks document and schema together; fills defaults in, collects faults and doubts.
 class Walker {
   public:
@@ -74,19 +92,19 @@ class Walker {
 
     void visit(json& value, const json& schema_or_ref, const std::string& pointer) {
         const json& schema = resolved(schema_or_ref);
-        if (schema.contains("oneOf")) {
-            if (const json* chosen = choose(value, schema.at("oneOf"), pointer)) {
+        if (const json* alternatives = entry_of(schema, "oneOf")) {
+            if (const json* chosen = choose(value, *alternatives, pointer)) {
                 visit(value, *chosen, pointer);
             }
             return;
         }
-        if (schema.contains("const") && value != schema.at("const")) {
-            add(pointer, "is " + brief(value), "must be " + schema.at("const").dump());
+        if (const json* only = entry_of(schema, "const"); only && value != *only) {
+            add(pointer, "is " + brief(value), "must be " + only->dump());
             return;
         }
-        if (schema.contains("type") && !is_of_type(value, schema.at("type"))) {
+        if (const json* type = entry_of(schema, "type"); type && !is_of_type(value, *type)) {
             add(pointer, "is " + brief(value),
-                "must be of type " + schema.at("type").get<std::string>() + meaning(schema));
+                "must be of type " + type->get<std::string>() + meaning(schema));
             return;
         }
         if (schema.contains("enum")) check_enum(value, schema, pointer);
@@ -101,8 +119,9 @@ class Walker {
 
   private:
     const json& resolved(const json& schema) const {
-        if (!schema.contains("$ref")) return schema;
-        return root_.at(json::json_pointer(schema.at("$ref").get<std::string>().substr(1)));
+        const json* reference = entry_of(schema, "$ref");
+        if (!reference) return schema;
+        return root_.at(json::json_pointer(reference->get_ref<const std::string&>().substr(1)));
     }
 
     void add(const std::string& pointer, std::string cause, std::string remedy) {
@@ -135,10 +154,11 @@ class Walker {
         const double number = value.get<double>();
         bool possible = true;
         const auto limit = [&](const char* key, auto violated, const char* sign) {
-            if (!schema.contains(key) || !violated(number, schema.at(key).get<double>())) return;
+            const json* bound = entry_of(schema, key);
+            if (!bound || !violated(number, bound->get<double>())) return;
             const std::string slip = likely_slip(number, schema, root_);
             add(pointer, "is " + brief(value),
-                "must be " + std::string(sign) + " " + schema.at(key).dump() + meaning(schema) +
+                "must be " + std::string(sign) + " " + bound->dump() + meaning(schema) +
                     (slip.empty() ? "" : "; " + slip));
             possible = false;
         };
@@ -159,10 +179,10 @@ class Walker {
             add(pointer, "is too short",
                 "give at least " + schema.at("minLength").dump() + " characters" + meaning(schema));
         }
-        if (schema.contains("pattern") &&
-            !std::regex_search(text, std::regex(schema.at("pattern").get<std::string>()))) {
+        const json* pattern = entry_of(schema, "pattern");
+        if (pattern && !std::regex_search(text, compiled(pattern->get_ref<const std::string&>()))) {
             add(pointer, "is " + brief(value),
-                "must match " + schema.at("pattern").get<std::string>() + meaning(schema));
+                "must match " + pattern->get<std::string>() + meaning(schema));
         }
     }
 
@@ -203,8 +223,8 @@ class Walker {
                        const std::string& pointer) {
         for (auto& [key, member] : value.items()) {
             const std::string here = pointer + "/" + escaped(key);
-            if (properties.contains(key)) {
-                visit(member, properties.at(key), here);
+            if (const json* property = entry_of(properties, key.c_str())) {
+                visit(member, *property, here);
             } else if (!schema.contains("additionalProperties")) {
                 continue;
             } else if (schema.at("additionalProperties").is_object()) {

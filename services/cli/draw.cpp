@@ -64,8 +64,8 @@ ExitCode draw(Server& server, const DrawWish& wish, const Console& console) {
     const json study = study_of(wish, is_study);
     report::BaseScene base = report::base_scene_of(study);
     if (!is_study) base.pointer = "";
-    check::Checked checked = check::checked_text(base.scene.dump(), wish.document.string(),
-                                                 wish.document.parent_path(), base.overrides);
+    check::Checked checked = check::checked_document(base.scene, wish.document.string(),
+                                                     wish.document.parent_path(), base.overrides);
     const report::Draft draft = report::draft_of(std::move(base), std::move(checked));
     std::vector<fault::Fault> faults = draft.faults;
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;

@@ -367,7 +367,7 @@ class Import {
     // ------------------------------------------------------------ the scene
 
     check::Checked checked(const json& document) const {
-        return check::checked_text(document.dump(), wish_.drawing.name, ".", {});
+        return check::checked_document(document, wish_.drawing.name, ".", {});
     }
 
     /// The reader's faults, with the drawing's lines instead of the regions' pointers.

@@ -129,6 +129,30 @@ test("too few samples have no percentiles, and it is said", async () => {
     assert.match(await page.innerText("#uncertainty-percentile-rows tr"), /p5\s+–\s+36 samples are not enough: 59 are needed/);
 });
 
+test("a search for one value shows its steps, what was asked and what was found, and no distribution", async () => {
+    const run = api.add_run(uncertain_study(study, 9), { began: Date.now() - 60000 });
+    const step = (value, results, moving) => ({ value, results, lower_bounds: moving, result: results.reduce((sum, each) => sum + each) / results.length, state: "done" });
+    run.answer = { ...run.uncertainty(), quantities: {}, sentences: ["A residual strength of at least 0.484 gives a runout_beyond_toe of 215 m."],
+                   inverse: { quantity: "runout_beyond_toe", unit: "m", target: 215, vary: "residual strength", state: "found", value: 0.484, bound: "at_least", low: 0.465, high: 0.504, reason: "",
+                              noise: 3, steps: [step(0.4, [227, 237, 234], 3), step(0.475, [218, 213, 219], 1), step(0.49, [212, 214, 211], 0), step(2.5, [9, 10, 11], 0)] } };
+    await page.goto("about:blank");
+    await page.goto(`${url}/#/runs/${run.id}`);
+    await page.waitForSelector("#uncertainty-search:not([hidden]) path.marker");
+    assert.match(await text_of("#uncertainty-found"), /at least 0\.484 gives/);
+    assert.ok(await page.isHidden("#uncertainty-figures"));
+    assert.ok(await page.isHidden("#uncertainty-quantity"));
+    const figure = await text_of("#uncertainty-steps");
+    assert.match(figure, /asked 215/);
+    assert.match(figure, /≥ 0\.484/);
+    assert.match(figure, /90 % by the scatter of lattices alone/);
+    assert.match(figure, /still moving|lower bound|at least/);
+    const box = async (selector) => (await page.locator(`#uncertainty-steps svg.plot ${selector}`).first().boundingBox());
+    const [found, band] = [await box("path.event"), await box("rect.band")];
+    assert.ok(band.x < found.x && found.x < band.x + band.width, "the value stands within its interval");
+    await screenshot(page, "back_analysis");
+    assert.deepEqual(browser.complaints, []);
+});
+
 test("a run over nothing but transfer times has no such view", async () => {
     const run = api.add_run(study, { began: Date.now() - 60000 });
     await page.goto(`${url}/#/runs/${run.id}`);

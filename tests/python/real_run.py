@@ -79,15 +79,14 @@ def executed(file):
 
 
 def outputs(content):
-    """Texts that the cells gave, with # for every number and id: those are of the machine and the day."""
+    """The text that each cell gave, with # for every number and id: those are of the machine and the day. What a cell prints comes
+    in one message or, on a busy machine, in several."""
     texts = []
     for cell in content["cells"]:
         if cell["cell_type"] != "code":
             continue
-        for each in cell["outputs"]:
-            text = each.get("text") or each.get("data", {}).get("text/plain", "")
-            text = "".join(text)
-            texts.append(re.sub(r"\s+", " ", re.sub(r"[0-9a-f-]{12,}|[-+]?\d+(\.\d+)?(e[-+]?\d+)?", "#", text)))
+        text = "".join("".join(each.get("text") or each.get("data", {}).get("text/plain", "")) for each in cell["outputs"])
+        texts.append(re.sub(r"\s+", " ", re.sub(r"[0-9a-f-]{12,}|[-+]?\d+(\.\d+)?(e[-+]?\d+)?", "#", text)))
     return texts
 
 

@@ -11,8 +11,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array<const char*, 4> answers{"runout_beyond_toe", "runout", "runout_largest",
-                                             "factor_of_safety"};
+constexpr std::array<const char*, 5> answers{"runout_beyond_toe", "runout", "runout_largest",
+                                             "area_beyond_toe", "factor_of_safety"};
 
 /// Of a row's state, which is that of a task, "questionable" or "not_reached".
 Fate fate_of(const std::string& state) {
@@ -58,6 +58,10 @@ std::optional<double> result_of(const SampleRow& sample, std::string_view quanti
     if (sample.fate != Fate::done) return std::nullopt;
     const json& value = value_of(*sample.row, quantity);
     return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+bool is_lower_bound(const SampleRow& sample, std::string_view quantity) {
+    return grows(quantity) && sample.row && value_of(*sample.row, "at_rest") == false;
 }
 
 std::string first_quantity(const Ensemble& ensemble) {

@@ -40,6 +40,9 @@ std::string first_quantity(const Ensemble& ensemble);
 /// A sample's number; nothing: it has none.
 std::optional<double> result_of(const SampleRow& sample, std::string_view quantity);
 
+/// Its soil still moved when it ended, which only adds to this quantity.
+bool is_lower_bound(const SampleRow& sample, std::string_view quantity);
+
 /// The samples with their draws and results as a table of its own, one row each.
 struct SampleTable {
     std::vector<std::string> names;  ///< that the columns point to

@@ -169,6 +169,11 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
         if (found.results.size() < samples_needed(p))
             lacking.push_back({{"p", p}, {"needs", samples_needed(p)}});
     made["percentiles_lacking"] = std::move(lacking);
+    if (std::string_view(quantity.name) == "factor_of_safety") {
+        const Interval failed = share_below(found.results, 1.0);
+        made["probability_of_failure"] = {
+            {"value", failed.value}, {"low", failed.low}, {"high", failed.high}};
+    }
     add_importance(made, ensemble.entry.at("parameters"), found);
     return made;
 }
@@ -249,6 +254,12 @@ json findings_of(const Ensemble& ensemble, const json& scene, const std::string&
         {"until", until_of(ensemble)},
         {"inverse", search ? as_json(*search, ensemble.entry.at("target").at("vary")) : json()}};
     answer["sentences"] = sentences_of(answer);
+    if (const json::json_pointer own("/lem/probability");
+        scene.contains(own) && answer["quantities"].contains("factor_of_safety"))
+        answer["sentences"].push_back(
+            "/lem/probability of the scene draws strengths of its own within each sample's "
+            "stability "
+            "analysis; what is told here of failure rests on the samples alone.");
     return answer;
 }
 

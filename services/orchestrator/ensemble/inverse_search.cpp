@@ -21,8 +21,10 @@ std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json
         for (const SampleRow& each : ensemble.samples) {
             if (each.drawn.at(vary) != value) continue;
             step.open |= each.fate == Fate::open && !ensemble.run.finished;
-            if (const auto result = result_of(each, search.target.question.quantity))
-                step.results.push_back(*result);
+            const auto result = result_of(each, search.target.question.quantity);
+            if (!result) continue;
+            step.results.push_back(*result);
+            if (is_lower_bound(each, search.target.question.quantity)) ++step.moving;
         }
         search.steps.push_back(std::move(step));
     }
@@ -39,11 +41,15 @@ json as_json(const InverseSearch& search, const std::string& vary) {
         steps.push_back(
             {{"value", each.value},
              {"results", each.results},
+             {"lower_bounds", each.moving},
              {"result", each.results.empty() ? json() : json(repeats_of(each.results).mean)},
              {"state", each.open ? "open"
                        : failed  ? "failed"
                                  : "done"}});
     }
+    const char* bound = advice.bound == Bound::at_least  ? "at_least"
+                        : advice.bound == Bound::at_most ? "at_most"
+                                                         : nullptr;
     const bool interval = advice.found && advice.has_interval;
     return {{"quantity", search.target.question.quantity},
             {"unit", search.target.question.unit},
@@ -53,6 +59,7 @@ json as_json(const InverseSearch& search, const std::string& vary) {
                       : advice.refused.empty() ? "running"
                                                : "refused"},
             {"value", advice.found ? json(advice.found->value) : json()},
+            {"bound", bound ? json(bound) : json()},
             {"low", interval ? json(advice.found->low) : json()},
             {"high", interval ? json(advice.found->high) : json()},
             {"reason", advice.refused.empty() ? advice.remark : advice.refused},

@@ -98,7 +98,12 @@ std::string inverse_in_words(const json& inverse) {
     if (inverse.at("state") == "running")
         return "The " + vary + " for a " + target + " is searched.";
     if (inverse.at("state") == "refused") return "No " + vary + " is found: " + reason + ".";
-    std::string words = "A " + vary + " of " + shown(inverse.at("value"));
+    const json& bound = inverse.at("bound");
+    std::string words = "A " + vary + " of " +
+                        (bound == "at_least"  ? "at least "
+                         : bound == "at_most" ? "at most "
+                                              : "") +
+                        shown(inverse.at("value"));
     if (inverse.at("low").is_number())
         words += " (" + shown(inverse.at("low")) + " to " + shown(inverse.at("high")) +
                  " by the scatter of lattices alone)";
@@ -124,6 +129,16 @@ std::vector<std::string> sentences_of(const json& findings) {
             sentences.push_back(
                 "No tornado: " + statistics.at("tornado").at("refused").get<std::string>() +
                 ". A fitted polynomial would not tell what one parameter does.");
+    }
+    if (quantities.contains("factor_of_safety")) {
+        const json& stability = quantities.at("factor_of_safety");
+        const json& failed = stability.at("probability_of_failure");
+        sentences.push_back(
+            "Probability of failure (factor of safety below 1), by the same draws as " +
+            std::string("the other results: ") + shown(100.0 * failed.at("value").get<double>()) +
+            " % (" + shown(100.0 * failed.at("low").get<double>()) + " to " +
+            shown(100.0 * failed.at("high").get<double>()) + " %), of " +
+            counted(stability.at("count"), "sample") + ".");
     }
     const json& parameters = findings.at("parameters");
     const auto of_kind = [&](const char* kind) {

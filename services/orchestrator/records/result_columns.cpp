@@ -31,6 +31,8 @@ constexpr std::array columns{
                  "the same of the soil beyond the toe; 0: there is none"},
     ResultColumn{"runout_largest", "/runout_largest", number, "m", "largest",
                  "of the farthest point"},
+    ResultColumn{"area_beyond_toe", "/area_beyond_toe", number, "m2", "",
+                 "of the deposit beyond the toe: its volume per metre of width"},
     ResultColumn{"volume_ratio", "/volume_ratio", number, "1", "volume ratio",
                  "indicator of error: volume at the end of that at the transfer"},
     ResultColumn{"numerical_share", "/energy/numerical/share", number, "1", "numerical share",
@@ -79,6 +81,10 @@ const json& value_of(const ResultRow& row, std::string_view name) {
     const auto found = std::ranges::find(columns, name, &ResultColumn::name);
     assert(found != columns.end() && row.size() == columns.size());
     return row[static_cast<std::size_t>(found - columns.begin())];
+}
+
+bool grows(std::string_view column) {
+    return column.starts_with("runout") || column.starts_with("area");
 }
 
 std::string codes_of(const json& flags) {

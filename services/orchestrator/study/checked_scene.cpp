@@ -54,11 +54,18 @@ std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& o
 
 check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
                                 const SentFiles& files) {
+    check::Recordings recordings;
+    return check_sent_scene(document, overrides, files, recordings);
+}
+
+check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
+                                const SentFiles& files, check::Recordings& recordings) {
     const std::vector<Fault> faults = forbidden_files(document, overrides, files);
     // In place of a file that may not be named stands one that is not there: nothing of it is told.
     std::vector<std::string> changes = overrides;
     for (const Fault& each : faults) changes.push_back(each.pointer + "=/.forbidden");
-    check::Checked checked = check::checked_text(document.dump(), "scene", files.folder, changes);
+    check::Checked checked =
+        check::checked_document(document, "scene", files.folder, changes, recordings);
     std::erase_if(checked.faults, [&](const Fault& each) {
         return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
     });

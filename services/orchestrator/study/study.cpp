@@ -180,7 +180,8 @@ struct Base {
     SentFiles files;
     json scene;
     std::vector<std::string> overrides;
-    std::vector<Fault> faults;  ///< of the scene itself: a variant does not repeat them
+    std::vector<Fault> faults;      ///< of the scene itself: a variant does not repeat them
+    check::Recordings* recordings;  ///< read for one scene, known to the others
 };
 
 /// What a variant changes for the worse: faults that the scene itself does not have.
@@ -260,9 +261,9 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
                                const std::vector<double>& times) {
     std::vector<std::string> overrides = base.overrides;
     overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
-    const check::Checked changed = check_sent_scene(base.scene, overrides, base.files);
+    check::Checked changed = check_sent_scene(base.scene, overrides, base.files, *base.recordings);
     CheckedVariant variant{.scene = nullptr, .faults = faults_of_variant(changed, base, times)};
-    if (changed.faults.empty()) variant.scene = json::parse(changed.scene.completed);
+    if (changed.faults.empty()) variant.scene = std::move(changed.completed);
     return variant;
 }
 
@@ -418,14 +419,14 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
 std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<std::string>& probe,
                                           const std::vector<phases::Phase>& phases,
                                           std::vector<Fault>& found) {
-    const check::Checked changed = check_sent_scene(base.scene, probe, base.files);
+    const check::Checked changed =
+        check_sent_scene(base.scene, probe, base.files, *base.recordings);
     for (const Fault& each : changed.faults)
         found.push_back({"/uncertainty", each.pointer + ": " + each.cause, each.remedy});
     std::vector<std::string> recipes;
     if (!changed.faults.empty()) return recipes;
-    const json scene = json::parse(changed.scene.completed);
     for (const phases::Phase& each : phases)
-        recipes.push_back(recipe_of(each.program, scene, 0).hash);
+        recipes.push_back(recipe_of(each.program, changed.completed, 0).hash);
     return recipes;
 }
 
@@ -536,7 +537,8 @@ Study read_study(std::string_view text, const SentFiles& files) {
     Study study;
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
-    Base base{files, {}, {}, {}};
+    check::Recordings recordings;
+    Base base{files, {}, {}, {}, &recordings};
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = document["scene"];
         if (sound("overrides")) base.overrides = document["overrides"];
@@ -554,11 +556,11 @@ Study read_study(std::string_view text, const SentFiles& files) {
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
-        scene = check_sent_scene(base.scene, base.overrides, files);
+        scene = check_sent_scene(base.scene, base.overrides, files, recordings);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {files, json::parse(scene->scene.completed), {}, {}};  // what variants change
+            base = {files, scene->completed, {}, {}, &recordings};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
@@ -625,9 +627,9 @@ Study read_study(std::string_view text, const SentFiles& files) {
 }
 
 json read_whole_scene(std::string_view text, const SentFiles& files) {
-    const check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, files);
+    check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, files);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
-    return json::parse(checked.scene.completed);
+    return std::move(checked.completed);
 }
 
 }  // namespace breach::orchestrator

@@ -23,6 +23,7 @@ struct Point {
     double value;
     double result;
     std::size_t lattices;
+    std::size_t moving;
 };
 
 struct Scale {
@@ -36,7 +37,7 @@ std::vector<Point> points_of(std::span<const InverseStep> steps, const Scale& sc
     for (const InverseStep& each : steps)
         if (!each.results.empty())
             points.push_back({scale.of(each.value), each.value, repeats_of(each.results).mean,
-                              each.results.size()});
+                              each.results.size(), each.moving});
     std::ranges::sort(points, {}, &Point::at);
     return points;
 }
@@ -86,11 +87,17 @@ double edge_of_band(const std::vector<Point>& points, std::size_t from, int dire
     }
 }
 
+void add_remark(std::string& remark, const std::string& more) {
+    remark += (remark.empty() ? "" : "; ") + more;
+}
+
 std::string outside(const InverseQuestion& question, const Point& low, const Point& high) {
-    return question.quantity + " is " + in_unit(low.result, question.unit) + " at " +
-           in_unit(low.value) + " and " + in_unit(high.result, question.unit) + " at " +
-           in_unit(high.value) + ": " + in_unit(question.target, question.unit) +
-           " is not between them";
+    const auto result = [&](const Point& point) {
+        return (point.moving > 0 ? "at least " : "") + in_unit(point.result, question.unit) +
+               " at " + in_unit(point.value);
+    };
+    return question.quantity + " is " + result(low) + " and " + result(high) + ": " +
+           in_unit(question.target, question.unit) + " is not between them";
 }
 
 /// The neighbours between which the result passes the target; the ends enclose it.
@@ -107,16 +114,23 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
     const Point& b = points[bracket + 1];
     const double value = scale.back(crossing(a, b, question.target));
     advice.found = Interval{value, value, value};
+    if (const std::size_t moving = a.moving + b.moving; moving > 0) {
+        advice.bound = b.result < a.result ? Bound::at_least : Bound::at_most;
+        add_remark(advice.remark,
+                   std::to_string(moving) + " of the " + std::to_string(a.lattices + b.lattices) +
+                       " results beside it are lower bounds, for their soil still moved: it is " +
+                       (advice.bound == Bound::at_least ? "at least" : "at most") + " this value");
+    }
     if (noise.freedom == 0) {
-        advice.remark =
-            "each value was run on one lattice of points: its scatter is not known, and "
-            "so no interval";
+        add_remark(advice.remark,
+                   "each value was run on one lattice of points: its scatter is not known, and "
+                   "so no interval");
         return;
     }
     const double half = noise.of_a_mean(std::min(a.lattices, b.lattices));
     const auto edge = [&](std::size_t inside, int direction) {
         // The inner end of the band lies in the bracket itself, where the step is outside the band.
-        const Point root{scale.of(value), value, question.target, 0};
+        const Point root{scale.of(value), value, question.target, 0, 0};
         std::vector<Point> way = points;
         way.insert(way.begin() + static_cast<std::ptrdiff_t>(bracket) + 1, root);
         return scale.back(edge_of_band(way, inside, direction, question.target, half));
@@ -126,7 +140,8 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
     advice.has_interval = true;
     const bool at_end = advice.found->low <= question.low || advice.found->high >= question.high;
     if (at_end && half > 0.0)
-        advice.remark = "the interval reaches an end of the range, and may go on beyond it";
+        add_remark(advice.remark,
+                   "the interval reaches an end of the range, and may go on beyond it");
 }
 
 }  // namespace
@@ -165,8 +180,9 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     }
     tell(question, scale, points, bracket, noise, advice);
     if (wide)
-        advice.remark = "the runs that \"samples\" allows are used up: the value lies between " +
-                        in_unit(a.value) + " and " + in_unit(b.value);
+        add_remark(advice.remark,
+                   "the runs that \"samples\" allows are used up: the value lies between " +
+                       in_unit(a.value) + " and " + in_unit(b.value));
     return advice;
 }
 

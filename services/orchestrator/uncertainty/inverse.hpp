@@ -16,6 +16,7 @@ struct InverseStep {
     double value;
     std::vector<double> results;  ///< of the lattices that have one
     bool open = false;            ///< some still run
+    std::size_t moving = 0;       ///< of the results: lower bounds, their soil still moved
 };
 
 struct InverseQuestion {
@@ -28,10 +29,14 @@ struct InverseQuestion {
     std::size_t most_values = 100;  ///< the search ends with these
 };
 
+/// What lower bounds beside the target make of the value found.
+enum class Bound { none, at_least, at_most };
+
 struct InverseAdvice {
     std::vector<double> run_next;   ///< empty: wait, or there is nothing more to learn
     std::optional<Interval> found;  ///< low and high: where the interval can be told
     bool has_interval = false;
+    Bound bound = Bound::none;
     std::optional<double> noise;  ///< standard deviation of one run by its lattice, pooled
     std::string refused;          ///< why there is no value
     std::string remark;           ///< what to know of the interval

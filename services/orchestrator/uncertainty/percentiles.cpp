@@ -82,6 +82,12 @@ Interval percentile(std::span<const double> values, double p) {
             order_statistic(sorted, rank_below(share, n, tail))};
 }
 
+Interval share_below(std::span<const double> values, double limit) {
+    assert(!values.empty());
+    const auto below = std::ranges::count_if(values, [limit](double each) { return each < limit; });
+    return wilson(static_cast<double>(below), static_cast<double>(values.size()));
+}
+
 std::vector<Exceedance> exceedance(std::span<const double> values) {
     const std::vector<double> sorted = in_order(values);
     const std::size_t n = sorted.size();

@@ -45,4 +45,7 @@ struct Exceedance {
 std::vector<Exceedance> exceedance(std::span<const double> values);
 constexpr std::size_t most_points = 101;
 
+/// The share of values below a limit, with Wilson's 90 % interval. Needs a value.
+Interval share_below(std::span<const double> values, double limit);
+
 }  // namespace breach::orchestrator

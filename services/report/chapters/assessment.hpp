@@ -29,4 +29,9 @@ Chapter assessment_page(const Run& run, const std::string& name);
 /// Distributions, envelopes, hydrographs and samples behind that page; what is missing is noted.
 Chapter assessment_basis(const Material& from, const std::string& name, Document& document);
 
+/// "0.48", marked where results beside it are lower bounds.
+std::string value_found(const nlohmann::json& inverse);
+/// Of a study that asks which value gives a known result.
+Chapter back_analysis(const Run& run);
+
 }  // namespace breach::report

@@ -73,6 +73,10 @@ void add_assessment(const Material& from, Document& document) {
                  "the folder has no uncertainty.json: export the run again"});
         return;
     }
+    if (is_back_analysis(run)) {
+        document.chapters.push_back(back_analysis(run));
+        return;
+    }
     const auto names = quantities_of(run.uncertainty);
     if (names.empty()) {
         document.left_out.push_back({"dam-breach assessment", "no sample has a result"});
@@ -84,6 +88,15 @@ void add_assessment(const Material& from, Document& document) {
 
 std::optional<std::vector<std::string>> sampled_answer(const Run& run) {
     if (!has_samples(run)) return {};
+    if (is_back_analysis(run)) {
+        const json& inverse = run.uncertainty.at("inverse");
+        return std::vector<std::string>{
+            inverse.at("vary").get<std::string>() + " for " + words_of(inverse.at("quantity")) +
+                " of " + or_dash(inverse.at("target"), 4) + " " +
+                inverse.at("unit").get<std::string>(),
+            value_found(inverse), or_dash(inverse.at("low")) + " to " + or_dash(inverse.at("high")),
+            "by the scatter of lattices alone; chapter \"Back-analysis\""};
+    }
     const auto names = quantities_of(run.uncertainty);
     if (names.empty()) return {};
     return std::vector<std::string>{

@@ -301,11 +301,6 @@ Chapter assessment_page(const Run& run, const std::string& name) {
                       cases_of(run),
                       worth_of(run, name),
                       origin_of(run)};
-    if (const json inverse = answer.value("inverse", json()); inverse.is_object())
-        chapter.tables.front().rows.push_back(
-            {"Back-analysis", inverse.value("vary", "") + " = " + or_dash(inverse.at("value"), 4) +
-                                  " (" + ends_of(inverse, "low", "high") + ") gives " +
-                                  or_dash(inverse.at("target"), 4)});
     return chapter;
 }
 

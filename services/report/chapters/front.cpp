@@ -93,7 +93,14 @@ std::vector<std::string> asked_of(const Run& run, const json& scene) {
     for (const json& each : run.study.value("variants", json::array()))
         if (each.value("made_by", "").empty()) names.push_back(each.at("name"));
     constexpr std::size_t most = 12;
-    if (has_samples(run))
+    if (is_back_analysis(run)) {
+        const json& inverse = run.uncertainty.at("inverse");
+        asked.push_back("Which " + inverse.at("vary").get<std::string>() + " gives a " +
+                        inverse.at("quantity").get<std::string>() + " of " +
+                        rounded(inverse.at("target").get<double>(), 4) + " " +
+                        inverse.at("unit").get<std::string>() + "? Back-analysis over " +
+                        std::to_string(inverse.at("steps").size()) + " values.");
+    } else if (has_samples(run))
         asked.push_back("How sure is that? " + run.uncertainty.at("samples").at("planned").dump() +
                         " samples of " + std::to_string(run.uncertainty.at("parameters").size()) +
                         " uncertain parameters.");

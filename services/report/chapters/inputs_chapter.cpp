@@ -194,7 +194,7 @@ std::string drawing_of(const Run& run) {
     if (&asked_scene(run) != &run.scene)
         base.overrides = run.study.value("overrides", std::vector<std::string>{});
     check::Checked checked =
-        check::checked_text(base.scene.dump(), "scene", run.folder, base.overrides);
+        check::checked_document(base.scene, "scene", run.folder, base.overrides);
     checked.faults.clear();
     const Draft draft = draft_of(std::move(base), std::move(checked));
     return can_be_drawn(draft) ? as_svg(draft, {}) : "";

@@ -14,6 +14,10 @@ using nlohmann::json;
 
 bool has_samples(const Run& run) { return run.uncertainty.is_object(); }
 
+bool is_back_analysis(const Run& run) {
+    return has_samples(run) && run.uncertainty.value("inverse", json()).is_object();
+}
+
 const json* percentile_in(const json& quantity, double p) {
     const json& list = quantity.at("percentiles");
     if (!list.is_array()) return nullptr;

@@ -10,6 +10,9 @@ namespace breach::report {
 
 bool has_samples(const Run& run);
 
+/// Its samples are the steps of a search for one value: they have no distribution.
+bool is_back_analysis(const Run& run);
+
 /// Of one of the answer's quantities, {"p", "value", "low", "high"}; null: not told of so few.
 const nlohmann::json* percentile_in(const nlohmann::json& quantity, double p);
 /// Why it is not told: "3 samples are not enough", with how many are needed where that is known.

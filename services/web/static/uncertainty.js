@@ -31,6 +31,7 @@ export class Uncertainty {
         this.envelope = new Plot(by_id("uncertainty-envelope"), { title: "Along x", x: "x [m]", y: "", x_name: "x", x_unit: "m" });
         this.scatter = new Plot(by_id("uncertainty-scatter"), { title: "Samples", x: "", y: "", x_name: "", x_unit: "",
             hint: "One marker per sample; a click or Enter opens the task behind it." }, { choose: (_, sample) => sample && this.open(sample) });
+        this.search = new Plot(by_id("uncertainty-steps"), { title: "Back-analysis", x: "", y: "", x_name: "", x_unit: "" });
         for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).addEventListener("change", () => this.draw());
     }
 
@@ -71,12 +72,15 @@ export class Uncertainty {
         const named = Object.entries(answer.quantities).map(([value, each]) => ({ ...each, value, name: measures[value] ?? value, unit: each.unit === "1" ? "" : each.unit }));
         offer(by_id("uncertainty-quantity"), named.map(({ value, name, label }) => ({ value, text: name, title: label })), answer.quantity);
         offer(by_id("uncertainty-parameter"), answer.parameters.map(({ name }) => ({ value: name, text: name })), answer.parameters[0]?.name);
-        this.quantity = by_id("uncertainty-quantity").value;
+        this.quantity = by_id("uncertainty-quantity").value || answer.quantity;
         this.moving = answer.rows.filter((row) => this.look(row).includes("bound")).map((row) => row.results[this.quantity]).filter(Number.isFinite);
-        by_id("uncertainty-csv").href = api.uncertainty_file(this.run.id, "csv");
+        for (const kind of ["csv", "hdf5"]) by_id(`uncertainty-${kind}`).href = api.uncertainty_file(this.run.id, kind);
         this.draw_counts();
-        const quantity = named.find(({ value }) => value === this.quantity);
+        const quantity = named.find(({ value }) => value === this.quantity); // none: the samples are steps of a search
         by_id("uncertainty-figures").hidden = !quantity;
+        by_id("uncertainty-search").hidden = !answer.inverse;
+        by_id("uncertainty-quantity").parentElement.hidden = Boolean(answer.inverse);
+        if (answer.inverse) this.draw_search(answer.inverse);
         if (quantity) {
             this.draw_percentiles(quantity);
             this.draw_exceedance(quantity);
@@ -98,14 +102,14 @@ export class Uncertainty {
         const doubts = [
             samples.failed && `${samples.failed} of ${samples.planned} left no result and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
             samples.open && `${samples.open} have not ended: the numbers will change.`,
-            this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound, ` +
-                "and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve.",
+            this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound` +
+                (inverse ? "." : ", and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve."),
             doubtful && `${doubtful} are questionable for other reasons (hollow and dashed among the samples).`,
             unknown && `${unknown} carry no flags: what may be wrong with them is not known.`,
             until && !until.reached && `Asked was p${until.percentile} to ± ${share(until.half_width)} of its value; ` +
                 (Number.isFinite(until.now) ? `it is known to ± ${share(until.now)}.` : "so few samples do not tell it at all."),
         ].filter(Boolean);
-        const said = [...sentences, ...(inverse ? [inverse_text(inverse)] : []),
+        const said = [...sentences,
                       ...(until?.reached ? [`p${until.percentile} is known to ± ${share(until.now)} of its value; ± ${share(until.half_width)} was asked.`] : [])];
         by_id("uncertainty-doubts").hidden = doubts.length === 0;
         for (const [id, lines] of [["uncertainty-doubts", doubts], ["uncertainty-said", said]]) {
@@ -165,6 +169,24 @@ export class Uncertainty {
         set_text(by_id("uncertainty-tornado-note"), tornado.refused ? `No tornado: ${tornado.refused}. A surrogate that does not predict the samples left out of it says nothing of one parameter alone.`
             : `From a fitted surrogate (Q² = ${number(tornado.q2, 2)} by cross-validation), the other parameters at their medians: ${number(tornado.at_median)} ${quantity.unit}.${this.bounds_note()}`);
         if (!tornado.refused) this.tornado.show(tornado, labelled(quantity));
+    }
+
+    /// The values that were run, each with the least and the largest result of its lattices.
+    draw_search({ vary, quantity, unit, target, value, low, high, steps, bound }) {
+        const done = steps.filter(({ result }) => Number.isFinite(result));
+        const what = labelled({ name: measures[quantity] ?? quantity, unit });
+        const found = Number.isFinite(value) ? [{ x: value, text: `${{ at_least: "≥ ", at_most: "≤ " }[bound] ?? ""}${number(value, 3)}` }] : [];
+        Object.assign(this.search.labels, { title: `${what} against ${vary}`, y: what, x_name: vary });
+        this.search.show({
+            series: [{ name: "mean of the lattices", unit, points: true, x: done.map((each) => each.value), y: done.map(({ result }) => result),
+                       low: done.map(({ results }) => Math.min(...results)), high: done.map(({ results }) => Math.max(...results)),
+                       looks: done.map(({ lower_bounds: moving }) => (moving ? "bound" : "")),
+                       notes: done.map(({ results, lower_bounds: moving }) => `${plural(results.length, "lattice")}${moving ? `, ${moving} of them lower bounds: their soil still moved` : ""}`) }],
+            errors_name: "least to largest of the lattices", levels: [{ y: target, label: "asked" }], lines: found,
+            bands: Number.isFinite(low) ? [{ from: low, to: high, label: "90 % by the scatter of lattices alone", kind: "interval" }] : [],
+            x_label: vary, x_log: done.length > 1 && done[0].value > 0,
+        });
+        mirror(by_id("uncertainty-found"), this.answer.sentences, (line) => line, () => element("li"), set_text);
     }
 
     /// Values of choices and lattices stand beside each other, spread so that each can be pointed at.
@@ -249,10 +271,6 @@ function offer(select, options, first) {
         option.title = title ?? "";
     });
     select.value = options.some(({ value }) => value === before) ? before : first;
-}
-
-function inverse_text({ target, vary, value, low, high }) {
-    return `Back-analysis: ${vary} = ${number(value)} (${number(low)} to ${number(high)}) gives ${number(target)}.`;
 }
 
 /// Options of a choice have no order and so no rank correlation.

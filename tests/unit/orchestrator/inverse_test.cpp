@@ -89,6 +89,34 @@ TEST(Inverse, NineOfTenIntervalsCoverTheValueThatTheNoiseHides) {
     EXPECT_LT(steps, 8u * seeds) << "what noise hides is not halved on";
 }
 
+TEST(Inverse, LowerBoundsBesideTheTargetMakeItABoundAsWell) {
+    // It falls with the value: what would run on reaches the target at a larger one.
+    std::vector<InverseStep> steps{{.value = 0.4, .results = {300, 302}},
+                                   {.value = 0.69, .results = {216, 217}, .moving = 1},
+                                   {.value = 0.7, .results = {213, 214}},
+                                   {.value = 2.5, .results = {10, 12}}};
+    const InverseAdvice falling = advise_inverse(question, steps);
+    ASSERT_TRUE(falling.found);
+    EXPECT_EQ(falling.bound, Bound::at_least);
+    EXPECT_EQ(falling.remark,
+              "1 of the 4 results beside it are lower bounds, for their soil still moved: it is at "
+              "least this value");
+    steps[0].moving = 2;
+    steps[1].moving = 0;
+    EXPECT_EQ(advise_inverse(question, steps).bound, Bound::none) << "far from the target";
+    for (InverseStep& each : steps) each.value = 1.0 / each.value;
+    steps[2].moving = 1;
+    EXPECT_EQ(advise_inverse(question, steps).bound, Bound::at_most) << "it rises with the value";
+}
+
+TEST(Inverse, ALowerBoundThatMissesTheTargetIsToldAsOne) {
+    const std::vector<InverseStep> steps{{.value = 0.4, .results = {200}, .moving = 1},
+                                         {.value = 2.5, .results = {10}}};
+    EXPECT_EQ(advise_inverse(question, steps).refused,
+              "runout_beyond_toe is at least 200 m at 0.4 and 10 m at 2.5: 215 m is not between "
+              "them");
+}
+
 TEST(Inverse, OfAValueThatIsNoFactorHalvesTheRangeItself) {
     InverseQuestion angle = question;
     angle.target = 10.0;

@@ -55,6 +55,19 @@ TEST(Percentiles, NeedAsManySamplesAsWilksSays) {
     EXPECT_EQ(not_enough(1, 93), "1 sample is not enough for the 93rd percentile: 42 are needed");
 }
 
+TEST(Percentiles, TheShareBelowALimitHasWilsonsInterval) {
+    // (p + z^2 / 2n -+ z sqrt(p (1 - p) / n + z^2 / 4n^2)) / (1 + z^2 / n), z = 1.6448536
+    std::vector<double> factors(64, 1.2);
+    EXPECT_EQ(share_below(factors, 1.0).value, 0.0);
+    EXPECT_NEAR(share_below(factors, 1.0).high, 0.0405594995, 1e-6);
+    for (std::size_t i = 0; i < 5; ++i) factors[i] = 0.9;
+    factors[5] = 1.0;  // stands
+    const Interval failed = share_below(factors, 1.0);
+    EXPECT_EQ(failed.value, 5.0 / 64.0);
+    EXPECT_NEAR(failed.low, 0.0385443904, 1e-6);
+    EXPECT_NEAR(failed.high, 0.1519276873, 1e-6);
+}
+
 TEST(Percentiles, EqualValuesAreAllowed) {
     std::vector<double> values(64, 0.0);  // nothing got beyond the toe but in 8 samples
     for (std::size_t i = 0; i < 8; ++i) values[i] = 10.0 + static_cast<double>(i);

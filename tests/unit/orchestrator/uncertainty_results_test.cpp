@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <string>
 
+#include "core/exchange/archive.hpp"
 #include "tests/faults/service_under_test.hpp"
 
 namespace breach::testing {
@@ -211,6 +213,28 @@ TEST(InverseStudy, FaultsAreToldWithTheirPlace) {
     EXPECT_NE(
         refused(inverse_study(12.0, {{"quantity", "beauty"}})).find("/uncertainty/target/quantity"),
         std::string::npos);
+}
+
+TEST(UncertaintyResults, AreReadBackFromHdf5) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json answer = ended(service, uncertain_study("linear=1", 8, linear_parameters));
+    const auto file = sandbox.root() / "samples.h5";
+    std::ofstream(file, std::ios::binary)
+        << service
+               .get("/v1/runs/" + answer.at("run").get<std::string>() + "/uncertainty?format=hdf5")
+               .text;
+    const auto archive = exchange::read_archive(file, "uncertainty_samples", 1);
+    EXPECT_EQ(archive.texts.at("sample"),
+              "s0001\ns0002\ns0003\ns0004\ns0005\ns0006\ns0007\ns0008\n");
+    EXPECT_EQ(archive.units.at("runout_beyond_toe"), "m");
+    const json& rows = answer.at("rows");
+    ASSERT_EQ(rows.size(), 8u);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(archive.reals.at("a")[i], rows[i].at("values").at("a").get<double>());
+        EXPECT_EQ(archive.reals.at("runout_beyond_toe")[i],
+                  rows[i].at("results").at("runout_beyond_toe").get<double>());
+    }
 }
 
 TEST(UncertaintyResults, OfAnotherStudyThereIsNone) {

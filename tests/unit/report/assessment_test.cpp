@@ -135,6 +135,50 @@ TEST_F(Sampled, OpensWithWhatARegulatorAsks) {
     EXPECT_LT(html.find("left no result and are in no number"), html.find("id=\"assessment\""));
 }
 
+TEST_F(Sampled, ASearchForOneValueHasAChapterOfItsOwnAndNoDistribution) {
+    answer_["quantities"] = json::object();
+    answer_["sentences"] = {"A residual strength of at least 0.484 gives it."};
+    const auto step = [](double value, const json& results, int moving) {
+        double sum = 0.0;
+        for (const json& each : results) sum += each.get<double>();
+        return json{{"value", value},
+                    {"results", results},
+                    {"lower_bounds", moving},
+                    {"result", sum / static_cast<double>(results.size())},
+                    {"state", "done"}};
+    };
+    answer_["inverse"] = {{"quantity", "runout_beyond_toe"},
+                          {"unit", "m"},
+                          {"target", 215.0},
+                          {"vary", "residual strength"},
+                          {"state", "found"},
+                          {"value", 0.484},
+                          {"bound", "at_least"},
+                          {"low", 0.465},
+                          {"high", 0.504},
+                          {"reason", ""},
+                          {"noise", 3.0},
+                          {"steps", {step(0.4, {232.0, 236.0}, 1), step(2.5, {10.0, 12.0}, 0)}}};
+    const Document d = document();
+    ASSERT_EQ(d.chapters.size(), 1u);
+    EXPECT_EQ(d.chapters[0].title, "Back-analysis");
+    EXPECT_EQ(row(d, "back_analysis_steps", "0.4"),
+              (std::vector<std::string>{"0.4", "\u2265 234", "232; 236", "1 of 2", "done"}));
+    EXPECT_EQ(row(d, "back_analysis_steps", "2.5")[1], "11");
+    const Chart& chart = d.chapters[0].figures.at(0).chart;
+    EXPECT_EQ(chart.series.at(0).certainty.at(0), Certainty::at_least);
+    ASSERT_EQ(chart.marks.size(), 2u);
+    EXPECT_DOUBLE_EQ(chart.marks[0].value, 215.0);
+    EXPECT_EQ(d.front.found.rows.front()[1], "\u2265 0.484");
+    EXPECT_EQ(d.front.found.rows.front()[2], "0.465 to 0.504");
+    const auto& asked = d.front.asked;
+    EXPECT_TRUE(std::ranges::any_of(asked, [](const std::string& each) {
+        return each.starts_with("Which residual strength gives a runout_beyond_toe of 215 m?");
+    }));
+    EXPECT_FALSE(std::ranges::any_of(
+        asked, [](const std::string& each) { return each.starts_with("How sure"); }));
+}
+
 TEST_F(Sampled, SaysWhichCasesItCovers) {
     const Document d = document();
     EXPECT_EQ(row(d, "assessment_cases", "1A")[3], "no");
