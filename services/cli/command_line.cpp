@@ -34,6 +34,7 @@ constexpr const char* default_server = "http://127.0.0.1:8470";
 struct Arguments {
     std::string server = default_server;
     std::string token_file;
+    std::filesystem::path authority;
     bool json = false;
     bool quiet = false;
     bool csv = false;
@@ -95,6 +96,9 @@ class CommandLine {
             });
         app_.add_option("--token-file", a_.token_file, "file with the bearer token")
             ->envname("BREACH_TOKEN_FILE");
+        app_.add_option("--tls-ca", a_.authority,
+                        "PEM file of the authorities to trust instead of the system's")
+            ->envname("BREACH_TLS_CA");
         app_.add_flag("--json", a_.json, "the server's answer as JSON");
         app_.add_flag("-q,--quiet", a_.quiet,
                       "only what was asked for, and faults; no progress, no remarks");
@@ -141,7 +145,7 @@ class CommandLine {
     }
 
     ExitCode execute() {
-        Server server(*address_from(a_.server), read_token(a_.token_file));
+        Server server(*address_from(a_.server), read_token(a_.token_file), a_.authority);
         const Style style = a_.json ? Style::json : a_.csv ? Style::csv : Style::people;
         const Screen screen = a_.quiet                     ? Screen::quiet
                               : isatty(STDOUT_FILENO) == 1 ? Screen::terminal

@@ -190,7 +190,8 @@ std::string as_run_page(const json& run) {
     std::string text = cell(run, "name") + "  " + cell(run, "title") + "\n";
     text += "run       " + cell(run, "id") + "\n";
     text += "state     " + cell(run, "state") + ", " + tasks_of(run) + "\n";
-    text += "created   " + moment(run, "created") + "\n";
+    const std::string by = cell(run, "submitted_by");
+    text += "created   " + moment(run, "created") + (by == "-" ? "" : " by " + by) + "\n";
     text += "started   " + moment(run, "started") + "\n";
     text += "finished  " + moment(run, "finished") + "\n";
     if (const json budget = run.value("budget_cpu_seconds", json()); budget.is_number())

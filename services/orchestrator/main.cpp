@@ -1,4 +1,4 @@
-// breachline serve | check | supervise
+// breachline serve | check | token | supervise
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -7,6 +7,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/version/version.hpp"
+#include "services/orchestrator/access/token_command.hpp"
 #include "services/orchestrator/audit/check_command.hpp"
 #include "services/orchestrator/executors/supervisor.hpp"
 #include "services/orchestrator/serve_options.hpp"
@@ -41,6 +42,8 @@ int main(int argc, char** argv) {
     CLI::App* serving = options.add_to(app);
     CheckOptions checks;
     CLI::App* checking = checks.add_to(app);
+    TokenCommand tokens;
+    CLI::App* token = tokens.add_to(app);
     CLI::App* supervising = app.add_subcommand("supervise", "run one attempt (started by serve)");
     std::filesystem::path attempt;
     supervising->add_option("folder", attempt, "the attempt's folder")->required();
@@ -52,6 +55,7 @@ int main(int argc, char** argv) {
 
     if (*serving) return guarded([&] { return serve(options.settings()); });
     if (*checking) return guarded([&] { return static_cast<int>(check(checks)); });
+    if (*token) return guarded([&] { return tokens.run(); });
     if (ending) {
         end_strays(attempt);
         return 0;

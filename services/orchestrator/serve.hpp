@@ -23,6 +23,7 @@ struct ServeSettings {
     DispatchSettings dispatch;
     RetentionSettings retention;
     std::size_t largest_file_mb = 256;  ///< of the files that are sent
+    std::optional<std::vector<std::filesystem::path>> allowed_folders;  ///< SentFiles::allowed
     HttpSettings http;
 };
 

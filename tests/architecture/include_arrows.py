@@ -49,7 +49,7 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"records", "sampling"}, {"uncertainty"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"ensemble"}, {"triggers"},
+    "services/orchestrator": [{"access", "records", "sampling"}, {"uncertainty"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"ensemble"}, {"triggers"},
                               {"dispatch", "accuracy", "audit"},
                               {"http"}],
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],

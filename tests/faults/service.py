@@ -20,13 +20,27 @@ def study(times=(0.5,), title="", **more):
             **more}
 
 
+def fake_phases(folder):
+    """A folder with the four names."""
+    bin = pathlib.Path(folder) / "bin"
+    bin.mkdir(exist_ok=True)
+    for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
+        if not (bin / name).exists():
+            (bin / name).symlink_to(programs / "fake_phase")
+    return bin
+
+
+def refusal_to_start(folder, *arguments):
+    """(exit code, standard error) of a service that cannot start."""
+    done = subprocess.run([programs / "breachline", "serve", "--data", pathlib.Path(folder) / "none", "--port", "0", "--bin",
+                           fake_phases(folder), *arguments], text=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=30)
+    return done.returncode, done.stderr
+
+
 class Service:
     def __init__(self, folder, *arguments):
         folder = pathlib.Path(folder)
-        (folder / "bin").mkdir(exist_ok=True)
-        for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
-            if not (folder / "bin" / name).exists():
-                (folder / "bin" / name).symlink_to(programs / "fake_phase")
+        fake_phases(folder)
         self.data = folder / "data"
         self.process = subprocess.Popen(
             [programs / "breachline", "serve", "--data", self.data, "--bin", folder / "bin", "--port", "0", "--grace", "0.3",
@@ -45,11 +59,11 @@ class Service:
         self.process.wait(30)
         self.process.stdout.close()
 
-    def ask(self, path, body=None, timeout=30, **headers):
+    def ask(self, path, body=None, timeout=30, method=None, **headers):
         """(status, headers, body: parsed when it is JSON)"""
         data = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", data,
-                                         {"Content-Type": "application/json", **headers})
+                                         {"Content-Type": "application/json", **headers}, method=method)
         try:
             with urllib.request.urlopen(request, timeout=timeout) as answer:
                 status, head, text = answer.status, answer.headers, answer.read()

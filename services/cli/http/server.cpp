@@ -56,7 +56,8 @@ json parsed(const std::string& body) {
 
 }  // namespace
 
-Server::Server(const Address& address, const std::optional<std::string>& token)
+Server::Server(const Address& address, const std::optional<std::string>& token,
+               const std::filesystem::path& authority)
     : connection_(new Connection{address.origin, address.prefix, httplib::Client(address.origin)}) {
     httplib::Client& client = connection_->client;
     client.set_keep_alive(true);
@@ -64,14 +65,55 @@ Server::Server(const Address& address, const std::optional<std::string>& token)
     client.set_connection_timeout(patience_to_connect);
     client.set_read_timeout(patience_for_an_answer);
     if (token) client.set_bearer_token_auth(*token);
+    if (authority.empty()) return;
+    if (!std::ifstream(authority) || std::filesystem::is_directory(authority))
+        throw fault::IoError(authority.string() +
+                             ": cannot be read; --tls-ca and BREACH_TLS_CA name a PEM file with "
+                             "the authority's certificate");
+    client.set_ca_cert_path(authority.c_str());
 }
 
 Server::~Server() = default;
 
 namespace {
 
+/// Why the server's certificate was not taken, and what helps. verdict: OpenSSL's; where that is good, the name was not.
+std::string doubt_about(const std::string& origin, long verdict) {
+    const std::string what = origin + ": its certificate is not to be trusted: ";
+    switch (verdict) {
+        case X509_V_OK:
+            return what +
+                   "it was made for another name; use an address that it names, or have it made "
+                   "for this one";
+        case X509_V_ERR_CERT_HAS_EXPIRED:
+            return what +
+                   "it has expired; whoever runs the service must renew it (and is this machine's "
+                   "clock right?)";
+        case X509_V_ERR_CERT_NOT_YET_VALID:
+            return what + "it is not valid yet; is this machine's clock right?";
+        case X509_V_ERR_DEPTH_ZERO_SELF_SIGNED_CERT:
+        case X509_V_ERR_SELF_SIGNED_CERT_IN_CHAIN:
+        case X509_V_ERR_UNABLE_TO_GET_ISSUER_CERT:
+        case X509_V_ERR_UNABLE_TO_GET_ISSUER_CERT_LOCALLY:
+        case X509_V_ERR_UNABLE_TO_VERIFY_LEAF_SIGNATURE:
+            return what +
+                   "its authority is not known here; if it is yours, name its certificate: "
+                   "--tls-ca FILE or "
+                   "BREACH_TLS_CA";
+        default:
+            return what + X509_verify_cert_error_string(verdict);
+    }
+}
+
 /// The body of a good answer; everything else is thrown.
-const httplib::Response& good(const httplib::Result& result, const std::string& origin) {
+const httplib::Response& good(const httplib::Result& result, const httplib::Client& client,
+                              const std::string& origin) {
+    if (result.error() == httplib::Error::SSLServerVerification)
+        throw fault::IoError(doubt_about(origin, client.get_openssl_verify_result()));
+    if (result.error() == httplib::Error::SSLLoadingCerts)
+        throw fault::IoError(
+            "the file of --tls-ca or BREACH_TLS_CA holds no certificate; give the authority's as "
+            "PEM");
     if (!result) {
         throw Unreachable("no answer from " + origin + " (" + httplib::to_string(result.error()) +
                           "): is `breachline serve` running there?");
@@ -86,7 +128,7 @@ json Server::get(const std::string& path) { return parsed(get_text(path).body); 
 
 TextAnswer Server::get_text(const std::string& path) {
     const auto result = connection_->client.Get(connection_->prefix + path);
-    const httplib::Response& response = good(result, connection_->origin);
+    const httplib::Response& response = good(result, connection_->client, connection_->origin);
     TextAnswer answer{response.body, std::nullopt};
     if (response.has_header("X-Next-Offset"))
         answer.next_offset = response.get_header_value("X-Next-Offset");
@@ -97,18 +139,19 @@ json Server::post(const std::string& path, const json& body, const Headers& head
     const httplib::Headers sent(headers.begin(), headers.end());
     const auto result =
         connection_->client.Post(connection_->prefix + path, sent, body.dump(), "application/json");
-    return parsed(good(result, connection_->origin).body);
+    return parsed(good(result, connection_->client, connection_->origin).body);
 }
 
 json Server::remove(const std::string& path) {
     const auto result = connection_->client.Delete(connection_->prefix + path);
-    return parsed(good(result, connection_->origin).body);
+    return parsed(good(result, connection_->client, connection_->origin).body);
 }
 
 std::string Server::reference_of(const std::string& path) {
     const auto result = connection_->client.Head(connection_->prefix + path);
     if (result && result->status == 404) return {};
-    return good(result, connection_->origin).get_header_value("X-File-Reference");
+    return good(result, connection_->client, connection_->origin)
+        .get_header_value("X-File-Reference");
 }
 
 json Server::upload(const std::string& path, const std::filesystem::path& file) {
@@ -126,7 +169,7 @@ json Server::upload(const std::string& path, const std::filesystem::path& file) 
             return count > 0 && sink.write(part.data(), count);
         },
         "application/octet-stream");
-    return parsed(good(result, connection_->origin).body);
+    return parsed(good(result, connection_->client, connection_->origin).body);
 }
 
 std::string Server::origin() const { return connection_->origin + connection_->prefix; }
@@ -151,7 +194,7 @@ void Server::download(const std::string& path, const std::filesystem::path& file
         });
     out.close();
     if (!out) throw fault::IoError(file.string() + ": cannot be written (disk full?)");
-    good(result, connection_->origin);
+    good(result, connection_->client, connection_->origin);
     if (status != 200) refuse(status, refusal);
 }
 

@@ -52,7 +52,9 @@ using Headers = std::map<std::string, std::string>;
 /// Every call throws Unreachable, Refused, or IoError when the answer is not what the API promises.
 class Server {
   public:
-    Server(const Address& address, const std::optional<std::string>& token);
+    /// authority: PEM file of the authorities whose certificates are trusted; empty: those that the system trusts.
+    Server(const Address& address, const std::optional<std::string>& token,
+           const std::filesystem::path& authority = {});
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -78,6 +78,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"pinned", run.pinned},
             {"budget_cpu_seconds", or_null(run.budget)},
             {"spent_cpu_seconds", run.spent},
+            {"submitted_by", or_null(run.submitted_by)},
             {"seconds_left", seconds_left(run, progress)},
             {"questionable", run.questionable},
             {"flag_counts", counts_of(run.flags)},

@@ -52,7 +52,7 @@ void draw_check(Service& service, Call& call) {
     wish.mean_of = count_in(call, "mean_of", most_draws_of_a_mean);
     const AccuracyTable table = wanted_table(service, call, run);
     const std::string check =
-        accept_made_study(service, study_of_check(service.store, run.id, table, wish));
+        accept_made_study(service, call, study_of_check(service.store, run.id, table, wish));
     call.response.set_header("Location", "/v1/runs/" + check);
     reply(call.response, as_json(wanted_run(service, check), service.board), 202);
 }

@@ -74,15 +74,24 @@ void send_file(const Service& service, Call& call, const std::string& name) {
     call.response.set_content(text.str(), type->second);
 }
 
-/// openapi.json; what a row of results holds is said by the table of its columns.
-const std::string& api_description() {
-    static const std::string text = [] {
-        auto document = nlohmann::ordered_json::parse(openapi_text());
-        document["components"]["schemas"]["SweepRow"] = schema_of_rows(result_columns());
-        document["components"]["schemas"]["SweepMean"] = schema_of_rows(mean_columns());
-        return document.dump(1);
-    }();
-    return text;
+/// openapi.json; what a row of results holds is said by the table of its columns, what right an operation takes by
+/// the table of the routes.
+std::string api_description(const Router& router) {
+    auto document = nlohmann::ordered_json::parse(openapi_text());
+    for (auto& [path, operations] : document["paths"].items()) {
+        for (auto& [method, operation] : operations.items()) {
+            std::string name = method;
+            std::ranges::transform(name, name.begin(),
+                                   [](unsigned char c) { return std::toupper(c); });
+            const Right right = router.needed(name, path);
+            operation["security"] = json::array();
+            if (right == Right::none) continue;
+            operation["security"] = json::array({json::object(), {{"bearer", {name_of(right)}}}});
+        }
+    }
+    document["components"]["schemas"]["SweepRow"] = schema_of_rows(result_columns());
+    document["components"]["schemas"]["SweepMean"] = schema_of_rows(mean_columns());
+    return document.dump(1);
 }
 
 void ready(const Service& service, Call& call) {
@@ -102,9 +111,10 @@ void add_page_routes(Router& router, Service& service) {
     router.get("/static/{file...}", [&](Call& call) { send_file(service, call, call.parts[0]); });
     router.get("/healthz", [](Call& call) { reply(call.response, {{"status", "ok"}}); });
     router.get("/readyz", [&](Call& call) { ready(service, call); });
-    router.get("/openapi.json", [](Call& call) {
+    router.get("/openapi.json", [&router](Call& call) {
         call.allow_parameters({});
-        call.response.set_content(api_description(), "application/json");
+        static const std::string text = api_description(router);
+        call.response.set_content(text, "application/json");
     });
     router.get("/v1/schema/scene", [](Call& call) {
         call.response.set_content(scene::scene_schema_text(), "application/json");
@@ -118,7 +128,7 @@ void add_page_routes(Router& router, Service& service) {
     });
     router.post("/v1/scenes/plan", [&](Call& call) {
         call.allow_parameters({});
-        json scene = sent_scene(call.json_body(), service.data.root());
+        json scene = sent_scene(call.json_body(), service);
         scene::resolve_references(scene, service.data.root());
         reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())}});
     });

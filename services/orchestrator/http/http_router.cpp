@@ -31,6 +31,12 @@ std::vector<std::string> segments_of(const std::string& path) {
     return segments;
 }
 
+/// HEAD is GET without the body.
+const std::string& read_method(const std::string& method) {
+    static const std::string get = "GET";
+    return method == "HEAD" ? get : method;
+}
+
 /// A last segment "{rest...}" takes what remains of the path.
 bool matches(const std::vector<std::string>& pattern, const std::vector<std::string>& path,
              std::vector<std::string>& parts) {
@@ -129,16 +135,30 @@ const std::string& Call::json_body() const {
     return request.body;
 }
 
-void Router::get(const std::string& path, Handler handler) {
-    routes_.push_back({"GET", segments_of(path), std::move(handler)});
+void Router::add(const char* method, const std::string& path, Handler handler, Right right) {
+    if (!path.starts_with("/v1/")) right = Right::none;
+    routes_.push_back({method, segments_of(path), std::move(handler), right});
 }
 
-void Router::post(const std::string& path, Handler handler) {
-    routes_.push_back({"POST", segments_of(path), std::move(handler)});
+void Router::get(const std::string& path, Handler handler, Right right) {
+    add("GET", path, std::move(handler), right);
 }
 
-void Router::remove(const std::string& path, Handler handler) {
-    routes_.push_back({"DELETE", segments_of(path), std::move(handler)});
+void Router::post(const std::string& path, Handler handler, Right right) {
+    add("POST", path, std::move(handler), right);
+}
+
+void Router::remove(const std::string& path, Handler handler, Right right) {
+    add("DELETE", path, std::move(handler), right);
+}
+
+Right Router::needed(const std::string& method, const std::string& path) const {
+    const std::vector<std::string> segments = segments_of(path);
+    std::vector<std::string> parts;
+    for (const Route& route : routes_)
+        if (route.method == read_method(method) && matches(route.segments, segments, parts))
+            return route.right;
+    return path.starts_with("/v1/") ? Right::read : Right::none;
 }
 
 std::array<std::uint64_t, 6> Router::answers() const {
@@ -148,8 +168,8 @@ std::array<std::uint64_t, 6> Router::answers() const {
 }
 
 void Router::answer(const httplib::Request& request, httplib::Response& response,
-                    const httplib::ContentReader* body) const {
-    Call call{request, response, {}, body};
+                    const Caller& caller, const httplib::ContentReader* body) const {
+    Call call{request, response, caller, {}, body};
     answer_uncounted(call);
     const int status = response.status < 0 ? 200 : response.status;  // httplib's "not set yet"
     ++answers_[static_cast<std::size_t>(std::clamp(status / 100, 0, 5))];
@@ -186,7 +206,7 @@ void Router::answer_uncounted(Call& call) const {
 
 void Router::run(Call& call) const {
     const httplib::Request& request = call.request;
-    const std::string method = request.method == "HEAD" ? "GET" : request.method;
+    const std::string& method = read_method(request.method);
     const std::vector<std::string> path = segments_of(request.path);
     std::string allowed;
     for (const Route& route : routes_) {

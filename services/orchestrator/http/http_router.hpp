@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
+#include "services/orchestrator/access/callers.hpp"
 
 namespace breach::orchestrator {
 
@@ -37,6 +38,7 @@ void reply(httplib::Response& response, const nlohmann::json& body, int status =
 struct Call {
     const httplib::Request& request;
     httplib::Response& response;
+    const Caller& caller;            ///< what it asks for is told of it in the events
     std::vector<std::string> parts;  ///< what stands for the template's {…}, decoded
     /// Of a path whose body is not kept in memory (HttpServer::answer): reads it, once.
     const httplib::ContentReader* body = nullptr;
@@ -55,11 +57,14 @@ using Handler = std::function<void(Call&)>;
 
 class Router {
   public:
-    void get(const std::string& path, Handler handler);
-    void post(const std::string& path, Handler handler);
-    void remove(const std::string& path, Handler handler);
+    /// right: of those who may ask, below /v1/; other paths are the page and the machine's, for everybody.
+    void get(const std::string& path, Handler handler, Right right = Right::read);
+    void post(const std::string& path, Handler handler, Right right = Right::submit);
+    void remove(const std::string& path, Handler handler, Right right = Right::admin);
+    /// What a request of this method and path takes; of a path that does not exist, what reading takes.
+    Right needed(const std::string& method, const std::string& path) const;
     /// Finds and runs the handler; every outcome becomes an answer, nothing is thrown.
-    void answer(const httplib::Request& request, httplib::Response& response,
+    void answer(const httplib::Request& request, httplib::Response& response, const Caller& caller,
                 const httplib::ContentReader* body = nullptr) const;
     /// Answers so far, by class of status: [1] is 1xx, ... [5] is 5xx.
     std::array<std::uint64_t, 6> answers() const;
@@ -69,7 +74,9 @@ class Router {
         std::string method;
         std::vector<std::string> segments;
         Handler handler;
+        Right right;
     };
+    void add(const char* method, const std::string& path, Handler handler, Right right);
     void run(Call& call) const;
     void answer_uncounted(Call& call) const;
     std::vector<Route> routes_;

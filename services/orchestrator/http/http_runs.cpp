@@ -84,9 +84,11 @@ void list_tasks(const Service& service, Call& call) {
 void cancel(Service& service, Call& call) {
     call.allow_parameters({});
     bool known = false;
-    service.store.write([&](Transaction& transaction) {
-        known = transaction.cancel_run(call.parts[0], "asked for over the API");
-    });
+    service.store.write(
+        [&](Transaction& transaction) {
+            known = transaction.cancel_run(call.parts[0], "asked for over the API");
+        },
+        call.caller.name);
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.wake();
     reply(call.response, run_json(service, call.parts[0]), 202);
@@ -98,7 +100,8 @@ void command_run(Service& service, Call& call, Order order) {
     call.allow_parameters({});
     bool known = false;
     service.store.write(
-        [&](Transaction& transaction) { known = std::invoke(order, transaction, call.parts[0]); });
+        [&](Transaction& transaction) { known = std::invoke(order, transaction, call.parts[0]); },
+        call.caller.name);
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.settle_all();
     reply(call.response, run_json(service, call.parts[0]), 202);
@@ -224,7 +227,8 @@ void change_budget(Service& service, const Run& run, const json& wanted) {
                 {{"/budget/cpu_seconds", words::text_of(run.spent) + " CPU s are spent already",
                   "give more than that, or null for no limit"}});
     }
-    service.store.write([&](Transaction& transaction) { transaction.set_budget(run.id, budget); });
+    service.store.write([&](Transaction& transaction) { transaction.set_budget(run.id, budget); },
+                        call.caller.name);
     service.dispatcher.wake();
 }
 
@@ -262,7 +266,8 @@ void extend_sweep(Service& service, Call& call) {
                 : plan_extension(so_far, service.data, service.numerics, body["transfer_times"]);
     if (!extension.tasks.empty() || !extension.samples.empty()) {
         service.store.write(
-            [&](Transaction& transaction) { transaction.extend_run(id, extension); });
+            [&](Transaction& transaction) { transaction.extend_run(id, extension); },
+            call.caller.name);
         service.dispatcher.settle_all();
     }
     json answer = sweep_json(service, wanted_sweep(service, id));
@@ -327,10 +332,12 @@ void add_run_routes(Router& router, Service& service) {
                 [&](Call& call) { command_run(service, call, &Transaction::pause_run); });
     router.post("/v1/runs/{id}/resume",
                 [&](Call& call) { command_run(service, call, &Transaction::resume_run); });
-    router.post("/v1/runs/{id}/pin",
-                [&](Call& call) { command_run(service, call, &Transaction::pin_run); });
-    router.post("/v1/runs/{id}/unpin",
-                [&](Call& call) { command_run(service, call, &Transaction::unpin_run); });
+    router.post(
+        "/v1/runs/{id}/pin", [&](Call& call) { command_run(service, call, &Transaction::pin_run); },
+        Right::admin);
+    router.post(
+        "/v1/runs/{id}/unpin",
+        [&](Call& call) { command_run(service, call, &Transaction::unpin_run); }, Right::admin);
     router.post("/v1/runs/{id}/retry", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
             return transaction.retry_run(run).has_value();

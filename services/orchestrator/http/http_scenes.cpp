@@ -46,13 +46,14 @@ void keep_scene(Service& service, Call& call) {
             "name must be 1 to 64 of a-z, 0-9, _ and -, beginning with a letter or a digit, and "
             "not "
             "the digits of a hash");
-    const json scene = sent_scene(call.json_body(), service.data.root());
+    const json scene = sent_scene(call.json_body(), service);
     NewScene kept{.sha256 = {}, .document = scene.dump(), .files = {}};
     kept.sha256 = exchange::sha256_of_text(kept.document);
     for (const auto& each : scene::references_in(scene)) kept.files.push_back(each.sha256);
     bool is_new = false;
     service.store.write(
-        [&](Transaction& transaction) { is_new = transaction.keep_scene(kept, name); });
+        [&](Transaction& transaction) { is_new = transaction.keep_scene(kept, name); },
+        call.caller.name);
     call.response.set_header("Location", "/v1/scenes/" + kept.sha256);
     reply(call.response, as_json(wanted_scene(service, kept.sha256).scene), is_new ? 201 : 200);
 }
@@ -100,10 +101,12 @@ void remove_scene(Service& service, Call& call) {
     std::int64_t bytes = 0;
     if (content)
         if (const auto scene = service.store.scene(address)) bytes = scene->bytes;
-    service.store.write([&](Transaction& transaction) {
-        outcome =
-            content ? transaction.forget_scene(address) : transaction.forget_scene_name(address);
-    });
+    service.store.write(
+        [&](Transaction& transaction) {
+            outcome = content ? transaction.forget_scene(address)
+                              : transaction.forget_scene_name(address);
+        },
+        call.caller.name);
     if (outcome == Removal::needed)
         throw Problem{409, "/problems/needed", "Needed",
                       content

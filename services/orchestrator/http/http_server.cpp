@@ -1,27 +1,24 @@
 #include "services/orchestrator/http/http_server.hpp"
 
-#include <sys/socket.h>
+#include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
+#include "services/orchestrator/access/callers.hpp"
+#include "services/orchestrator/access/rates.hpp"
 #include "services/orchestrator/http/http_drawing.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/http/listener.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
 
-constexpr std::size_t threads = 256;  // one per connection, and streams of events hold theirs
 constexpr std::size_t largest_body = 16 << 20;
 constexpr std::size_t most_headers = 64;
 constexpr std::size_t added_by_httplib = 4;  // REMOTE_ADDR and the like appear among the headers
-constexpr std::size_t most_requests_per_connection = 1000;
-constexpr int idle_seconds = 5;
-constexpr int read_seconds = 10;
-constexpr int write_seconds = 10;
 
 bool is_loopback(const std::string& host) {
     return host == "localhost" || host == "::1" || host == "[::1]" || host.starts_with("127.");
@@ -33,13 +30,11 @@ std::string without_port(const std::string& host) {
     return host.substr(0, colon);
 }
 
-/// Takes as long for any wrong token of this length.
-bool equal_in_constant_time(const std::string& a, const std::string& b) {
-    if (a.size() != b.size()) return false;
-    unsigned difference = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
-    return difference == 0;
+/// What stands behind "Bearer " of the header; empty: nothing.
+std::string secret_of(const httplib::Request& request) {
+    constexpr std::string_view scheme = "Bearer ";
+    const std::string given = request.get_header_value("Authorization");
+    return given.starts_with(scheme) ? given.substr(scheme.size()) : std::string();
 }
 
 /// Two readings of where this request ends: nothing after it on the connection can be trusted.
@@ -79,6 +74,7 @@ class Intake {
         if (body == nullptr) return;
         left_ = true;
         const bool form = request.is_multipart_form_data();
+        announced_ = std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
         reader_ = httplib::ContentReader(
             [this, body, form](httplib::ContentReceiver receive) {
                 asked_ = true;
@@ -93,13 +89,13 @@ class Intake {
             nullptr);
     }
 
-    /// Throws 413. What is too much is read for a while, so that its sender hears why.
+    /// Throws 413, and keeps nothing then. What is too much is read and dropped for a while, so that its sender hears why.
     void keep_in(std::string& text) {
         if (!left_) return;
         std::size_t bytes = 0;
         const bool whole = reader_([&](const char* data, std::size_t size) {
             bytes += size;
-            if (bytes <= largest_body) text.append(data, size);
+            if (std::max(bytes, announced_) <= largest_body) text.append(data, size);
             return bytes <= most_dropped;
         });
         if (bytes > largest_body) {
@@ -120,10 +116,37 @@ class Intake {
 
   private:
     static constexpr std::size_t most_dropped = 4 * largest_body;
-    bool left_ = false;  ///< something may still come
+    bool left_ = false;          ///< something may still come
+    std::size_t announced_ = 0;  ///< Content-Length [bytes]
     bool asked_ = false;
     httplib::ContentReader reader_{nullptr, nullptr};
 };
+
+Problem too_often(httplib::Response& response, double wait) {
+    response.set_header("Retry-After", std::to_string(static_cast<int>(std::ceil(wait))));
+    return {
+        429, "/problems/too-often", "Too many requests",
+        "more requests than this service takes of one sender (--request-limit, --address-limit); "
+        "ask again after Retry-After seconds"};
+}
+
+Problem missing_right(const Caller& caller, Right needed) {
+    const std::string right(name_of(needed));
+    return {403, "/problems/missing-right", "Missing right",
+            "this takes the right \"" + right + "\"; the token \"" + caller.name + "\" has \"" +
+                std::string(name_of(caller.right)) +
+                "\". Whoever runs the service can make one: breachline token new NAME --rights " +
+                right};
+}
+
+std::unique_ptr<Certificates> certificates_of(const HttpSettings& settings) {
+    if (settings.certificate.empty() && settings.key.empty()) return nullptr;
+    if (settings.certificate.empty() || settings.key.empty())
+        throw fault::BadInput("command line", {{settings.key.empty() ? "--tls-key" : "--tls-cert",
+                                                "is missing beside the other of the two",
+                                                "give --tls-cert FILE and --tls-key FILE"}});
+    return std::make_unique<Certificates>(settings.certificate, settings.key);
+}
 
 Problem problem_of(int status) {
     if (status == 413) return too_large();
@@ -134,7 +157,12 @@ Problem problem_of(int status) {
 
 class HttpServer::Implementation {
   public:
-    Implementation(Service& service, HttpSettings settings) : settings_(std::move(settings)) {
+    Implementation(Service& service, HttpSettings settings)
+        : settings_(std::move(settings)),
+          callers_(settings_.token, settings_.tokens),
+          token_rates_(settings_.requests_per_token),
+          address_rates_(settings_.requests_per_address),
+          server_(certificates_of(settings_), settings_.patience) {
         add_run_routes(router_, service);
         add_accuracy_routes(router_, service);
         add_uncertainty_routes(router_, service);
@@ -153,14 +181,14 @@ class HttpServer::Implementation {
         add_metric_routes(router_, service);
         add_page_routes(router_, service);
         add_drawing_routes(router_, service);
-        set_limits();
+        server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
         set_doors();
         bind();
     }
 
     int port() const { return port_; }
     void serve() {
-        server_.listen_after_bind();
+        server_.serve();
         ended_ = true;
     }
     void stop() {
@@ -173,29 +201,6 @@ class HttpServer::Implementation {
     }
 
   private:
-    /// Debian's httplib listens with a backlog of 5: of fifty clients that knock at once, some would
-    /// wait a second for their connection, or give up. Linux lets a listening socket's backlog be
-    /// raised.
-    class WideServer : public httplib::Server {
-      public:
-        void widen_backlog() const { ::listen(svr_sock_, 512); }
-    };
-
-    void set_limits() {
-        server_.new_task_queue = [] { return new httplib::ThreadPool(threads); };
-        server_.set_keep_alive_max_count(most_requests_per_connection);
-        server_.set_keep_alive_timeout(idle_seconds);
-        server_.set_read_timeout(read_seconds);
-        server_.set_write_timeout(write_seconds);
-        server_.set_tcp_nodelay(true);
-        // Not httplib's default, which lets a second service share the port.
-        server_.set_socket_options([](socket_t socket) {
-            const int on = 1;
-            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-        });
-        server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
-    }
-
     void set_doors() {
         server_.set_pre_routing_handler(
             [this](const httplib::Request& request, httplib::Response& response) {
@@ -247,18 +252,18 @@ class HttpServer::Implementation {
                 const httplib::ContentReader* body) const {
         Intake intake(request, body);
         try {
-            admit(request, response);
+            const Caller caller = admitted(request, response);
             const bool streamed = request.method == "POST" && request.path == "/v1/files";
             if (!streamed) intake.keep_in(const_cast<httplib::Request&>(request).body);
-            router_.answer(request, response, streamed ? intake.reader() : nullptr);
+            router_.answer(request, response, caller, streamed ? intake.reader() : nullptr);
         } catch (const Problem& problem) {
             refuse(response, problem);
         }
         if (!intake.is_at_its_end()) close_after(response);
     }
 
-    /// Who may ask at all.
-    void admit(const httplib::Request& request, httplib::Response& response) const {
+    /// Who asks. Throws the problem where that one may not.
+    Caller admitted(const httplib::Request& request, httplib::Response& response) const {
         if (request.headers.size() > most_headers + added_by_httplib)
             throw Problem{431, "/problems/too-many-headers", "Too many headers",
                           "at most 64 are read"};
@@ -266,31 +271,55 @@ class HttpServer::Implementation {
             throw Problem{416, "/problems/range", "Range not satisfiable", "one range at a time"};
         const std::string host = request.get_header_value("Host");
         // A web page elsewhere could reach a service on loopback through its reader's browser.
-        if (settings_.token.empty() && !is_loopback(without_port(host)))
+        if (!callers_.needs_token() && !is_loopback(without_port(host)))
             throw Problem{421, "/problems/misdirected", "Misdirected request",
                           "without a token the service answers only as localhost"};
         const std::string origin = request.get_header_value("Origin");
         if (!origin.empty() && origin != "http://" + host && origin != "https://" + host)
             throw Problem{403, "/problems/foreign-origin", "Forbidden",
                           "only the service's own pages may ask from a browser"};
-        const bool protected_path = request.path.starts_with("/v1/");
-        if (settings_.token.empty() || !protected_path) return;
-        const std::string given = request.get_header_value("Authorization");
-        if (equal_in_constant_time(given, "Bearer " + settings_.token)) return;
+        if (!callers_.needs_token()) return {"", Right::admin};
+        const std::string secret = secret_of(request);
+        const auto known = secret.empty() ? std::nullopt : callers_.caller(secret);
+        const double wait =
+            known ? token_rates_.wait_of(known->name) : address_rates_.wait_of(address_of(request));
+        if (wait > 0.0) throw too_often(response, wait);
+        const Right needed = router_.needed(request.method, request.path);
+        if (known && known->right < needed) throw missing_right(*known, needed);
+        if (known || needed == Right::none) return known.value_or(Caller{});
         response.set_header("WWW-Authenticate", "Bearer");
         throw Problem{401, "/problems/unauthorized", "Unauthorized",
-                      "send the service's token: Authorization: Bearer ..."};
+                      "send a token of this service: Authorization: Bearer ..."};
+    }
+
+    /// Who connects; behind a proxy on this machine, who connected to that. An IPv6 client has 2^64 addresses.
+    std::string address_of(const httplib::Request& request) const {
+        std::string address = request.remote_addr;
+        const std::string forwarded = request.get_header_value("X-Forwarded-For");
+        if (settings_.behind_proxy && is_loopback(address) && !forwarded.empty()) {
+            address = forwarded.substr(forwarded.rfind(',') + 1);  // npos + 1 = 0: the only one
+            address.erase(0, address.find_first_not_of(' '));
+        }
+        std::size_t groups = 0;
+        for (std::size_t i = 0; i < address.size(); ++i)
+            if (address[i] == ':' && ++groups == 4) return address.substr(0, i);
+        return address;
     }
 
     void bind() {
-        if (settings_.token.empty() && !is_loopback(settings_.host)) {
+        if (!callers_.needs_token() && !is_loopback(settings_.host)) {
             throw fault::BadInput(
                 "command line",
                 {{"--host",
                   settings_.host + " can be reached from other machines, and there is "
                                    "no token",
-                  "give --token-file FILE, or stay on 127.0.0.1"}});
+                  "give --tokens FILE or --token-file FILE, or stay on 127.0.0.1"}});
         }
+        if (!is_loopback(settings_.host) && settings_.certificate.empty())
+            spdlog::warn(
+                "tokens and results travel unencrypted: give --tls-cert and --tls-key, or stay on "
+                "127.0.0.1 "
+                "behind a proxy (docs/reverse_proxy.md)");
         if (settings_.port == 0) {
             port_ = server_.bind_to_any_port(settings_.host);
         } else if (server_.bind_to_port(settings_.host, settings_.port)) {
@@ -301,15 +330,17 @@ class HttpServer::Implementation {
                 settings_.host + ":" + std::to_string(settings_.port) +
                 ": cannot be bound; is the port in use? choose another with --port");
         }
-        server_.widen_backlog();
     }
 
     HttpSettings settings_;
+    Callers callers_;
+    mutable Rates token_rates_;
+    mutable Rates address_rates_;
     Router router_;
     std::atomic<bool> stopping_ = false;
     std::atomic<bool> ended_ = false;
     int port_ = -1;
-    WideServer server_;
+    Listener server_;
 };
 
 HttpServer::HttpServer(Service& service, HttpSettings settings)

@@ -4,20 +4,29 @@
 #include <memory>
 #include <string>
 
+#include "services/orchestrator/http/patience.hpp"
 #include "services/orchestrator/http/service.hpp"
 
 namespace breach::orchestrator {
 
 struct HttpSettings {
     std::string host = "127.0.0.1";
-    int port = 0;       ///< 0: any free one
-    std::string token;  ///< empty: none needed, which only loopback allows
+    int port = 0;  ///< 0: any free one
+    std::string
+        token;  ///< of the admin; without it and without `tokens` none is needed, which only loopback allows
+    std::filesystem::path tokens;       ///< file of named ones (access/tokens.hpp); empty: none
+    std::filesystem::path certificate;  ///< with `key`: TLS; empty: plain
+    std::filesystem::path key;
+    double requests_per_token = 2000;   ///< [1/s]; 0: not limited
+    double requests_per_address = 100;  ///< those without a valid token [1/s]; 0: not limited
+    bool behind_proxy = false;          ///< X-Forwarded-For of a proxy on this machine is believed
+    Patience patience;
 };
 
 class HttpServer {
   public:
     /// Binds. Throws IoError when it cannot, BadInput when the host is not loopback and there is no
-    /// token.
+    /// token, or when tokens or certificates cannot be used.
     HttpServer(Service& service, HttpSettings settings);
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;

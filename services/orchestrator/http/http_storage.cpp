@@ -17,9 +17,11 @@ void remove_run(Service& service, Call& call) {
     const Run run = wanted_run(service, id);
     const std::int64_t freed = freed_without(service.data.run(id));
     Removal outcome = Removal::unknown;
-    service.store.write([&](Transaction& transaction) {
-        outcome = transaction.remove_run(id, "asked for over the API");
-    });
+    service.store.write(
+        [&](Transaction& transaction) {
+            outcome = transaction.remove_run(id, "asked for over the API");
+        },
+        call.caller.name);
     switch (outcome) {
         case Removal::going_on:
             throw Problem{409, "/problems/going-on", "Still going on",

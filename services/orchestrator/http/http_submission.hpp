@@ -25,7 +25,7 @@ struct Accepted {
 Accepted accept_study(Service& service, Call& call, Ask ask);
 
 /// Stores a study that the service itself has made; the run's id.
-std::string accept_made_study(Service& service, const nlohmann::json& study);
+std::string accept_made_study(Service& service, const Call& call, const nlohmann::json& study);
 
 struct RunPage {
     std::vector<Run> runs;

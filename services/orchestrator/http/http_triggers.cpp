@@ -102,9 +102,11 @@ void add(Service& service, Call& call) {
         throw Problem{409, "/problems/no-fem", "No FEM to watch",
                       plan.kind == "manual" ? "the run's FEM does not run now"
                                             : "the run's FEM was cancelled"};
-    service.store.write([&](Transaction& transaction) {
-        for (const auto& [fem, each] : wanted) transaction.add_trigger(run, fem, each);
-    });
+    service.store.write(
+        [&](Transaction& transaction) {
+            for (const auto& [fem, each] : wanted) transaction.add_trigger(run, fem, each);
+        },
+        call.caller.name);
     service.dispatcher.wake();
     reply(call.response, all_of(service, run), 202);
 }

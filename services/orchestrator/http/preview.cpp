@@ -28,7 +28,7 @@ struct Sent {
 Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(resolved_study(service.store, body).text, "document");
     report::BaseScene base = report::base_scene_of(document);
-    check::Checked checked = check_sent_scene(base.scene, base.overrides, service.data.root());
+    check::Checked checked = check_sent_scene(base.scene, base.overrides, files_of(service));
     checked.faults = seen_from_here(std::move(checked.faults));
     return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
 }
@@ -53,8 +53,7 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     if (!document.is_object() || !document.contains("uncertainty")) return repeats;
     json& entry = document["uncertainty"];
     if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
-    const TaskGraph graph =
-        plan_tasks(sent_study(document.dump(), service.data.root()), service.numerics);
+    const TaskGraph graph = plan_tasks(sent_study(document.dump(), service), service.numerics);
     for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
     if (!repeats.tasks.contains(phases::mpm.program))  // where a trigger fires
         for (const TaskPlan& each : graph.one_more_transfer)

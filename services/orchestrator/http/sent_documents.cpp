@@ -58,7 +58,11 @@ std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
     return faults;
 }
 
-Study sent_study(const std::string& body, const std::filesystem::path& folder) {
+SentFiles files_of(const Service& service) {
+    return {service.data.root(), service.allowed_folders};
+}
+
+Study sent_study(const std::string& body, const Service& service) {
     if (is_a("scene", json::parse(body, nullptr, false), "section")) {
         throw BadInput(
             "study",
@@ -66,15 +70,15 @@ Study sent_study(const std::string& body, const std::filesystem::path& folder) {
               R"(wrap it: {"format": "breachline-study/1", "name": "...", "scene": {...}, )"
               R"("transfer_times": [...]}; or: breach submit --scene FILE --times 0.5,1)"}});
     }
-    return read_here([&] { return read_study(body, folder); });
+    return read_here([&] { return read_study(body, files_of(service)); });
 }
 
-json sent_scene(const std::string& body, const std::filesystem::path& folder) {
+json sent_scene(const std::string& body, const Service& service) {
     if (is_a("study", json::parse(body, nullptr, false), "scene")) {
         throw BadInput("scene", {{"", "this is a study, not a scene",
                                   "give the scene that it holds or names in \"scene\""}});
     }
-    return read_here([&] { return read_whole_scene(body, folder); });
+    return read_here([&] { return read_whole_scene(body, files_of(service)); });
 }
 
 }  // namespace breach::orchestrator

@@ -25,6 +25,8 @@ struct Service {
     std::filesystem::path web;        ///< the dashboard's files
     std::filesystem::path workflows;  ///< the studies that are shipped, and their scenes
     std::size_t largest_file = std::size_t{256} << 20;  ///< that is taken in [bytes]
+    /// SentFiles::allowed
+    std::optional<std::vector<std::filesystem::path>> allowed_folders = {};
 };
 
 }  // namespace breach::orchestrator

@@ -150,6 +150,8 @@ struct Run {
     bool pinned = false;                ///< not to be removed
     std::optional<double> budget = {};  ///< [CPU s]
     double spent = 0.0;                 ///< by all attempts that have ended [CPU s]
+    /// The token's name; nothing: the service asked for none.
+    std::optional<std::string> submitted_by = {};
     std::vector<FlagTally> flags = {};
 };
 

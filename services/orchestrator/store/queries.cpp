@@ -42,8 +42,9 @@ std::string run_columns(const std::string& state = "r.state") {
            "= r.id AND "
            "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), "
            "r.questionable, "
-           "r.pinned, r.budget_cpu_seconds, r.spent_cpu_seconds FROM "
-           "run_summaries r ";
+           "r.pinned, r.budget_cpu_seconds, r.spent_cpu_seconds, (SELECT json_extract(e.detail, "
+           "'$.by') "
+           "FROM events e WHERE e.run = r.id ORDER BY e.seq LIMIT 1) FROM run_summaries r ";
 }
 
 Run run_from(const Row& row) {
@@ -63,7 +64,8 @@ Run run_from(const Row& row) {
             .questionable = row.integer(13),
             .pinned = row.integer(14) != 0,
             .budget = row.optional_real(15),
-            .spent = row.real(16)};
+            .spent = row.real(16),
+            .submitted_by = row.optional_text(17)};
 }
 
 constexpr const char* task_columns =

@@ -28,8 +28,8 @@ Store::Store(const std::filesystem::path& file)
 
 Store::~Store() = default;
 
-void Store::write(std::function<void(Transaction&)> change) {
-    Job job{std::move(change), {}, nullptr};
+void Store::write(std::function<void(Transaction&)> change, std::string by) {
+    Job job{std::move(change), std::move(by), {}, nullptr};
     std::future<void> done = job.done.get_future();
     {
         const std::lock_guard lock(jobs_mutex_);
@@ -61,7 +61,7 @@ void Store::commit(std::deque<Job>& jobs) {
         for (Job& job : jobs) {
             writing_.script("SAVEPOINT job");
             try {
-                Transaction transaction(writing_);
+                Transaction transaction(writing_, job.by);
                 job.change(transaction);
                 newest = std::max(newest, transaction.last_event());
             } catch (...) {

@@ -33,8 +33,8 @@ class Store {
     Store& operator=(const Store&) = delete;
 
     /// Runs `change` and returns when it is on the disk. What it throws is thrown here, and nothing
-    /// of it is kept. Throws StoreError when the commit fails.
-    void write(std::function<void(Transaction&)> change);
+    /// of it is kept. Throws StoreError when the commit fails. by: Transaction.
+    void write(std::function<void(Transaction&)> change, std::string by = {});
 
     std::vector<Run> runs(std::size_t most) const;
     std::vector<Run> runs(const RunFilter& filter, std::size_t most) const;
@@ -138,6 +138,7 @@ class Store {
   private:
     struct Job {
         std::function<void(Transaction&)> change;
+        std::string by;
         std::promise<void> done;
         std::exception_ptr refused;
     };

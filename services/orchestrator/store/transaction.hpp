@@ -21,7 +21,9 @@ struct AttemptEnd {
 
 class Transaction {
   public:
-    explicit Transaction(Connection& database) : database_(database) {}
+    /// by: who asked for it, told in the events of runs; empty: nobody, or nobody knows.
+    explicit Transaction(Connection& database, std::string by = {})
+        : database_(database), by_(std::move(by)) {}
 
     void add_run(const NewRun& run);
     void add_recipes(const std::vector<Recipe>& recipes);
@@ -149,9 +151,10 @@ class Transaction {
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);
     void keep_artifacts(const std::vector<Artifact>& artifacts);
     void add_event(const std::string& run, const std::optional<std::string>& task,
-                   const std::string& kind, const nlohmann::json& detail);
+                   const std::string& kind, nlohmann::json detail);
 
     Connection& database_;
+    std::string by_;
     std::int64_t last_event_ = 0;
 };
 

@@ -8,44 +8,64 @@
 
 namespace breach::orchestrator {
 
+namespace fs = std::filesystem;
 using fault::Fault;
 using nlohmann::json;
 
 namespace {
 
-/// A scene that was sent has no folder: its files are named by absolute paths, in overrides too.
-void need_absolute_files(json scene, const std::vector<std::string>& overrides,
-                         std::vector<Fault>& faults) {
+/// Links and ".." are followed first. What is not there lies where its folder does.
+bool lies_in(const std::vector<fs::path>& folders, const std::string& file) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(file, error);
+    if (error) return false;
+    return std::ranges::any_of(folders, [&](const fs::path& each) {
+        const fs::path folder = fs::canonical(each, error);
+        return !error && std::ranges::mismatch(folder, real).in1 == folder.end();
+    });
+}
+
+/// Of the files that the scene names, with these overrides, those that it may not.
+std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& overrides,
+                                   const SentFiles& files) {
+    std::vector<Fault> faults;
     for (const std::string& each : overrides) scene::apply_override(scene, each);
     for (const std::string& key : scene::file_entries) {
         const json::json_pointer at(key);
-        if (!scene.contains(at) || !scene[at].is_string() ||
-            scene[at].get_ref<const std::string&>().starts_with('/') ||
-            scene::file_reference(scene[at].get_ref<const std::string&>()))
-            continue;
-        faults.push_back(
-            {key, "the path is relative, but a scene sent to the service has no folder",
-             "send the file (POST /v1/files; breach submit does it) and give the "
-             "reference of the answer, or the absolute path on the service's machine"});
+        if (!scene.contains(at) || !scene[at].is_string()) continue;
+        const auto& file = scene[at].get_ref<const std::string&>();
+        if (scene::file_reference(file)) continue;
+        if (!file.starts_with('/')) {
+            faults.push_back(
+                {key, "the path is relative, but a scene sent to the service has no folder",
+                 "send the file (POST /v1/files; breach submit does it) and give the "
+                 "reference of the answer, or the absolute path on the service's machine"});
+        } else if (files.allowed && !lies_in(*files.allowed, file)) {
+            faults.push_back({key, "this service may not read files there",
+                              "send the file (POST /v1/files; breach submit does it) and give the "
+                              "reference of the answer, or have its folder allowed: serve "
+                              "--allow-folder FOLDER"});
+        }
     }
+    return faults;
 }
 
 }  // namespace
 
 check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
-                                const std::filesystem::path& folder) {
+                                const SentFiles& files) {
     check::Recordings recordings;
-    return check_sent_scene(document, overrides, folder, recordings);
+    return check_sent_scene(document, overrides, files, recordings);
 }
 
 check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
-                                const std::filesystem::path& folder,
-                                check::Recordings& recordings) {
-    std::vector<Fault> faults;
-    need_absolute_files(document, overrides, faults);
+                                const SentFiles& files, check::Recordings& recordings) {
+    const std::vector<Fault> faults = forbidden_files(document, overrides, files);
+    // In place of a file that may not be named stands one that is not there: nothing of it is told.
+    std::vector<std::string> changes = overrides;
+    for (const Fault& each : faults) changes.push_back(each.pointer + "=/.forbidden");
     check::Checked checked =
-        check::checked_document(document, "scene", folder, overrides, recordings);
-    // A relative path was looked for below the root: one fault is enough.
+        check::checked_document(document, "scene", files.folder, changes, recordings);
     std::erase_if(checked.faults, [&](const Fault& each) {
         return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
     });

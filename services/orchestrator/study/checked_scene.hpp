@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,14 +12,20 @@
 
 namespace breach::orchestrator {
 
-/// check::checked_document, and a fault for each file that is not named by an absolute path: what is sent
-/// has no folder. Files that were sent (file:sha256/...) are looked for below `folder`. Throws BadInput
-/// only where it is no object.
+/// Which files a scene that was sent may name.
+struct SentFiles {
+    /// Its `files` hold what references name (core/scene/file_paths.hpp).
+    std::filesystem::path folder = "/";
+    /// Others must lie in one of these, links followed; nothing: wherever this process can read.
+    std::optional<std::vector<std::filesystem::path>> allowed = {};
+};
+
+/// check::checked_document, and a fault for each file that is not named by an absolute path (what is sent has no
+/// folder) or lies where it may not: it is not opened. Throws BadInput only where it is no object.
 check::Checked check_sent_scene(const nlohmann::json& document,
-                                const std::vector<std::string>& overrides,
-                                const std::filesystem::path& folder, check::Recordings& recordings);
+                                const std::vector<std::string>& overrides, const SentFiles& files,
+                                check::Recordings& recordings);
 check::Checked check_sent_scene(const nlohmann::json& document,
-                                const std::vector<std::string>& overrides,
-                                const std::filesystem::path& folder);
+                                const std::vector<std::string>& overrides, const SentFiles& files);
 
 }  // namespace breach::orchestrator

@@ -177,7 +177,7 @@ void read_triggers(const json& document, double span, Study& study, std::vector<
 
 /// The study's scene with its own overrides: completed when it is sound, as it was sent otherwise.
 struct Base {
-    std::filesystem::path folder;
+    SentFiles files;
     json scene;
     std::vector<std::string> overrides;
     std::vector<Fault> faults;      ///< of the scene itself: a variant does not repeat them
@@ -261,7 +261,7 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
                                const std::vector<double>& times) {
     std::vector<std::string> overrides = base.overrides;
     overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
-    check::Checked changed = check_sent_scene(base.scene, overrides, base.folder, *base.recordings);
+    check::Checked changed = check_sent_scene(base.scene, overrides, base.files, *base.recordings);
     CheckedVariant variant{.scene = nullptr, .faults = faults_of_variant(changed, base, times)};
     if (changed.faults.empty()) variant.scene = std::move(changed.completed);
     return variant;
@@ -420,7 +420,7 @@ std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<st
                                           const std::vector<phases::Phase>& phases,
                                           std::vector<Fault>& found) {
     const check::Checked changed =
-        check_sent_scene(base.scene, probe, base.folder, *base.recordings);
+        check_sent_scene(base.scene, probe, base.files, *base.recordings);
     for (const Fault& each : changed.faults)
         found.push_back({"/uncertainty", each.pointer + ": " + each.cause, each.remedy});
     std::vector<std::string> recipes;
@@ -521,7 +521,7 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 
 }  // namespace
 
-Study read_study(std::string_view text, const std::filesystem::path& folder) {
+Study read_study(std::string_view text, const SentFiles& files) {
     json document = scene::parse_json(text, "study");
     refuse_scene(document);
     const std::vector<Fault> of_study = scene::complete_and_check(document, scene::study_schema());
@@ -540,7 +540,7 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
     check::Recordings recordings;
-    Base base{folder, {}, {}, {}, &recordings};
+    Base base{files, {}, {}, {}, &recordings};
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = document["scene"];
         if (sound("overrides")) base.overrides = document["overrides"];
@@ -558,11 +558,11 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
         }
         for (const phases::Phase& phase : phases_of(study.reach))
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
-        scene = check_sent_scene(base.scene, base.overrides, folder, recordings);
+        scene = check_sent_scene(base.scene, base.overrides, files, recordings);
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {folder, scene->completed, {}, {}, &recordings};  // what variants change
+            base = {files, scene->completed, {}, {}, &recordings};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
@@ -629,8 +629,8 @@ Study read_study(std::string_view text, const std::filesystem::path& folder) {
     return study;
 }
 
-json read_whole_scene(std::string_view text, const std::filesystem::path& folder) {
-    check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, folder);
+json read_whole_scene(std::string_view text, const SentFiles& files) {
+    check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, files);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return std::move(checked.completed);
 }

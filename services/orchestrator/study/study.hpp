@@ -12,6 +12,7 @@
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/sampling/plan.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
+#include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/target.hpp"
 
 namespace breach::orchestrator {
@@ -44,10 +45,9 @@ struct Study {
 };
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
-/// folder: its `files` hold what references of the scene name (core/scene/file_paths.hpp).
-Study read_study(std::string_view text, const std::filesystem::path& folder = "/");
+Study read_study(std::string_view text, const SentFiles& files = {});
 
 /// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
-nlohmann::json read_whole_scene(std::string_view text, const std::filesystem::path& folder = "/");
+nlohmann::json read_whole_scene(std::string_view text, const SentFiles& files = {});
 
 }  // namespace breach::orchestrator

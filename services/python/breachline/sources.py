@@ -4,6 +4,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import ssl
 import tempfile
 import urllib.error
 import urllib.parse
@@ -67,7 +68,8 @@ class Exported:
 
 class Api:
     """A service's API. server, token_file: as the command line takes them, from BREACH_SERVER and BREACH_TOKEN_FILE
-    when not given."""
+    when not given. The certificate of an https service must be of an authority in BREACH_TLS_CA (a PEM file), else of
+    one that the system trusts, for that name and of today."""
 
     def __init__(self, server: str | None = None, token_file: str | os.PathLike[str] | None = None) -> None:
         self.server = (server or os.environ.get("BREACH_SERVER") or "http://127.0.0.1:8470").rstrip("/")
@@ -75,17 +77,22 @@ class Api:
             raise BreachlineError(f"{self.server}: no http or https address; give one as http://127.0.0.1:8470")
         file = token_file or os.environ.get("BREACH_TOKEN_FILE")
         self.token = _token_in(Path(file)) if file else None
+        self._trust = _trust_in(os.environ.get("BREACH_TLS_CA")) if self.server.startswith("https:") else None
 
     def bytes_at(self, path: str) -> bytes:
         request = urllib.request.Request(self.server + path)
         if self.token:
             request.add_header("Authorization", f"Bearer {self.token}")
         try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
+            with urllib.request.urlopen(request, timeout=60, context=self._trust) as answer:
                 return bytes(answer.read())
         except urllib.error.HTTPError as refusal:
             raise BreachlineError(f"{self.server}{path}: {_problem(refusal)}") from refusal
         except OSError as cause:  # urllib.error.URLError is one
+            doubt = getattr(cause, "reason", cause)
+            if isinstance(doubt, ssl.SSLCertVerificationError):
+                raise BreachlineError(f"{self.server}: its certificate is not to be trusted: {doubt.verify_message}; if its "
+                                      "authority is yours, BREACH_TLS_CA names the file with it") from cause
             raise Unreachable(f"{self.server}: does not answer ({cause}); is the service running, is BREACH_SERVER right?") from cause
 
     def json_at(self, path: str) -> Any:
@@ -131,6 +138,14 @@ class Served:
             partial.write(content)
         os.replace(partial.name, path)
         return path
+
+
+def _trust_in(authority: str | None) -> ssl.SSLContext:
+    try:
+        return ssl.create_default_context(cafile=authority or None)
+    except OSError as cause:  # ssl.SSLError is one
+        raise BreachlineError(f"{authority}: holds no certificate that can be read: {cause}; BREACH_TLS_CA names a PEM "
+                              "file of the authority's") from cause
 
 
 def _token_in(file: Path) -> str:

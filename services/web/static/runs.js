@@ -137,7 +137,7 @@ function summary(run) {
     const parts = [`${run.tasks_done} of ${run.tasks_total} tasks done`];
     if (run.tasks_failed > 0) parts.push(`${run.tasks_failed} failed`);
     if (run.questionable > 0) parts.push(`${run.questionable} questionable`);
-    parts.push(`created ${clock(run.created)}`);
+    parts.push(`created ${clock(run.created)}${run.submitted_by ? ` by ${run.submitted_by}` : ""}`);
     if (run.state === "budget_exhausted") parts.push(`started ${clock(run.started)}, nothing of it runs now`);
     else if (run.started) parts.push(`${is_active(run.state) ? "running for" : "took"} ${elapsed(run.started, run.finished)}`);
     if (run.paused && is_active(run.state)) parts.push("paused: nothing new is started");

@@ -1,0 +1,59 @@
+#include "services/orchestrator/access/callers.hpp"
+
+#include <openssl/crypto.h>
+#include <spdlog/spdlog.h>
+
+#include "core/exchange/provenance.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(file, error);
+    return error ? std::filesystem::file_time_type::min() : time;
+}
+
+}  // namespace
+
+Callers::Callers(const std::string& secret, std::filesystem::path file)
+    : file_(std::move(file)), looked_(Clock::now()) {
+    if (!secret.empty())
+        single_.push_back({single_token_name, Right::admin, exchange::sha256_of_text(secret)});
+    if (file_.empty()) return;
+    written_ = time_of(file_);
+    of_file_ = std::make_shared<const std::vector<Token>>(read_tokens(file_));
+}
+
+std::shared_ptr<const std::vector<Token>> Callers::tokens() const {
+    const std::lock_guard lock(mutex_);
+    const auto now = Clock::now();
+    if (file_.empty() || now - looked_ < std::chrono::seconds(1)) return of_file_;
+    looked_ = now;
+    const auto written = time_of(file_);
+    if (written == written_) return of_file_;
+    written_ = written;
+    try {
+        of_file_ = std::make_shared<const std::vector<Token>>(read_tokens(file_));
+        spdlog::info("{}: {} tokens", file_.string(), of_file_->size());
+    } catch (const std::exception& error) {
+        spdlog::error("{}; the tokens before this change stay in force", error.what());
+    }
+    return of_file_;
+}
+
+std::optional<Caller> Callers::caller(const std::string& secret) const {
+    const std::string hash = exchange::sha256_of_text(secret);
+    std::optional<Caller> found;
+    const auto compare = [&](const std::vector<Token>& tokens) {
+        for (const Token& each : tokens)  // all of them, whichever fits
+            if (CRYPTO_memcmp(hash.data(), each.sha256.data(), hash.size()) == 0)
+                found = Caller{each.name, each.right};
+    };
+    compare(single_);
+    if (const auto of_file = tokens()) compare(*of_file);
+    return found;
+}
+
+}  // namespace breach::orchestrator

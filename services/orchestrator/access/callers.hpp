@@ -1,0 +1,43 @@
+// Whom a request comes from: the secret that it carries against the tokens that there are.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "services/orchestrator/access/tokens.hpp"
+
+namespace breach::orchestrator {
+
+struct Caller {
+    std::string name;  ///< of the token; empty: the service needs none
+    Right right = Right::none;
+};
+
+class Callers {
+  public:
+    /// secret: of --token-file, admin; empty: none. file: of named tokens; empty: none. Without both, whoever can
+    /// connect may do everything. Throws as read_tokens does.
+    Callers(const std::string& secret, std::filesystem::path file);
+
+    bool needs_token() const { return !single_.empty() || !file_.empty(); }
+    /// Nothing: the secret is nobody's. It takes as long for every wrong one. Changes of the file count within a second;
+    /// a file that cannot be used (any more) leaves those before it in force, and the log says so.
+    std::optional<Caller> caller(const std::string& secret) const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::shared_ptr<const std::vector<Token>> tokens() const;
+
+    std::vector<Token> single_;
+    std::filesystem::path file_;
+    mutable std::mutex mutex_;
+    mutable std::shared_ptr<const std::vector<Token>> of_file_;
+    mutable std::filesystem::file_time_type written_;
+    mutable Clock::time_point looked_;
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,25 @@
+// breachline token new | list | rm: the file of tokens, edited.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+namespace breach::orchestrator {
+
+class TokenCommand {
+  public:
+    /// Adds the subcommand.
+    CLI::App* add_to(CLI::App& program);
+    /// After parsing. The exit code; throws BadInput and IoError.
+    int run() const;
+
+  private:
+    CLI::App* make_ = nullptr;
+    CLI::App* remove_ = nullptr;
+    std::filesystem::path file_ = "tokens.json";
+    std::string name_;
+    std::string rights_;
+};
+
+}  // namespace breach::orchestrator
