@@ -51,7 +51,7 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     json& entry = document["uncertainty"];
     if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
     const TaskGraph graph =
-        plan_tasks(sent_study(document.dump(), service.data.root()), service.numerics);
+        plan_tasks(sent_study(std::move(document), service.data.root()), service.numerics);
     for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
     if (!repeats.tasks.contains(phases::mpm.program))  // where a trigger fires
         for (const TaskPlan& each : graph.one_more_transfer)

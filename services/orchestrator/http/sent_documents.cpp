@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/scene/file_paths.hpp"
+#include "core/scene/schema.hpp"
 
 namespace breach::orchestrator {
 
@@ -59,14 +60,18 @@ std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
 }
 
 Study sent_study(const std::string& body, const std::filesystem::path& folder) {
-    if (is_a("scene", json::parse(body, nullptr, false), "section")) {
+    return sent_study(scene::parse_json(body, "study"), folder);
+}
+
+Study sent_study(json document, const std::filesystem::path& folder) {
+    if (is_a("scene", document, "section")) {
         throw BadInput(
             "study",
             {{"", "this is a scene, not a study: it says what stands there, not when to transfer",
               R"(wrap it: {"format": "breachline-study/1", "name": "...", "scene": {...}, )"
               R"("transfer_times": [...]}; or: breach submit --scene FILE --times 0.5,1)"}});
     }
-    return read_here([&] { return read_study(body, folder); });
+    return read_here([&] { return read_study_document(std::move(document), folder); });
 }
 
 json sent_scene(const std::string& body, const std::filesystem::path& folder) {

@@ -12,6 +12,7 @@ namespace breach::orchestrator {
 
 /// folder: its `files` hold what references name. Throws BadInput: one fault when it is a scene, else those of read_study.
 Study sent_study(const std::string& body, const std::filesystem::path& folder);
+Study sent_study(nlohmann::json document, const std::filesystem::path& folder);
 
 /// The scene, completed. Throws BadInput: one fault when it is a study, else those of
 /// read_whole_scene.

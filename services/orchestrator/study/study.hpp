@@ -45,6 +45,7 @@ struct Study {
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
 /// folder: its `files` hold what references of the scene name (core/scene/file_paths.hpp).
 Study read_study(std::string_view text, const std::filesystem::path& folder = "/");
+Study read_study_document(nlohmann::json document, const std::filesystem::path& folder = "/");
 
 /// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
 nlohmann::json read_whole_scene(std::string_view text, const std::filesystem::path& folder = "/");
