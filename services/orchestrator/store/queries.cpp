@@ -16,7 +16,7 @@ namespace {
 constexpr const char* run_columns =
     "SELECT r.id, r.name, r.title, r.state, r.created, r.started, r.finished, r.tasks_total, "
     "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': ' || "
-    "t.fault_summary FROM tasks t WHERE t.run "
+    "t.fault_summary FROM tasks t INDEXED BY tasks_with_faults WHERE t.run "
     "= r.id AND "
     "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), r.questionable, "
     "r.pinned FROM "

@@ -16,8 +16,9 @@ namespace {
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
-    (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
-        AS questionable,
+    CASE WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
+         THEN (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
+         ELSE 0 END AS questionable,
     CASE WHEN is_open THEN CASE WHEN started IS NULL THEN 'queued' ELSE 'running' END
          WHEN cancelled > 0 THEN 'cancelled'
          WHEN failed > 0 AND (runouts > 0 OR reached > 0 AND NOT EXISTS (SELECT 1 FROM tasks
