@@ -127,7 +127,7 @@ json as_json(const Event& event) {
 namespace {
 
 /// As json::dump writes it, at a fraction of its cost for what a table mostly holds.
-void append(std::string& text, const json& value) {
+void append_value(std::string& text, const json& value) {
     const auto is_plain = [](unsigned char c) {
         return c >= 0x20 && c < 0x7f && c != '"' && c != '\\';
     };
@@ -152,7 +152,7 @@ std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns) {
     std::string text = "[";
     for (const ResultRow& row : rows) {
         if (text.size() > 1) text += ",";
-        for (std::size_t i = 0; i < row.size(); ++i) append(text += before[i], row[i]);
+        for (std::size_t i = 0; i < row.size(); ++i) append_value(text += before[i], row[i]);
         text += "}";
     }
     return text + "]";
