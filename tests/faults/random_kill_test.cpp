@@ -38,7 +38,8 @@ pid_t parent_of(pid_t pid) {
 enum class Place { local, slurm };
 
 /// Files by which the fake Slurm misbehaves; hang would cost a command's whole time limit each.
-const std::vector<std::string> troubles{"down", "drained", "refuse", "lose_answer", "drop", "forget"};
+const std::vector<std::string> troubles{"down",        "drained", "refuse",
+                                        "lose_answer", "drop",    "forget"};
 
 class Campaign {
   public:
@@ -105,8 +106,8 @@ class Campaign {
     std::vector<std::string> arguments() const {
         std::vector<std::string> words{"--tries", "100", "--retry-delay", "0.01"};
         if (place_ == Place::slurm)
-            words.insert(words.end(), {"--executor", "slurm", "--slurm-poll", "0.2", "--slurm-grace",
-                                       "1", "--slurm-command-limit", "20"});
+            words.insert(words.end(), {"--executor", "slurm", "--slurm-poll", "0.2",
+                                       "--slurm-grace", "1", "--slurm-command-limit", "20"});
         return words;
     }
     std::vector<std::string> environment() const {

@@ -346,7 +346,8 @@ void Dispatcher::note_latency(const Task& task) {
     const auto ready_at = store_.ready_at(task.id);
     // Two looks at the clock of the day, which may have been set between them: never below 0.
     if (ready_at)
-        queue_wait_.add(1e-3 * static_cast<double>(std::max<std::int64_t>(0, epoch_ms() - *ready_at)));
+        queue_wait_.add(1e-3 *
+                        static_cast<double>(std::max<std::int64_t>(0, epoch_ms() - *ready_at)));
     if (task.release != Release::file_exists) return;
     std::error_code error;
     const auto appeared = std::filesystem::last_write_time(

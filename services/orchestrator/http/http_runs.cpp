@@ -224,9 +224,9 @@ void results(const Service& service, Call& call) {
     const json head{{"run", call.parts[0]},
                     {"columns", described(runs.columns)},
                     {"mean_columns", described(means.columns)}};
-    reply_with_text(call.response, opened(head) + "\"rows\":" +
-                                       as_json_text(runs.rows, runs.columns) + ",\"means\":" +
-                                       as_json_text(means.rows, means.columns) + "}");
+    reply_with_text(call.response,
+                    opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
+                        ",\"means\":" + as_json_text(means.rows, means.columns) + "}");
 }
 
 // ---------------------------------------------------------------- sweeps

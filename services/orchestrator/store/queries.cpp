@@ -283,10 +283,10 @@ std::vector<std::string> Store::due_retries(std::int64_t now) const {
     std::vector<std::string> found;
     read([&](Connection& database) {
         // One that is due later than any delay was set before the clock was: it has waited enough.
-        database.query("SELECT id FROM tasks WHERE state='retry_wait' AND (retry_at<=?1 OR "
-                       "retry_at>?1+?2)",
-                       {now, longest_retry_ms},
-                       [&](const Row& row) { found.push_back(row.text(0)); });
+        database.query(
+            "SELECT id FROM tasks WHERE state='retry_wait' AND (retry_at<=?1 OR "
+            "retry_at>?1+?2)",
+            {now, longest_retry_ms}, [&](const Row& row) { found.push_back(row.text(0)); });
     });
     return found;
 }

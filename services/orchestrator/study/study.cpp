@@ -563,7 +563,8 @@ Study read_study_document(json document, const std::filesystem::path& folder) {
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {folder, std::move(scene->completed), {}, {}, &recordings};  // what variants change
+            base = {
+                folder, std::move(scene->completed), {}, {}, &recordings};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
