@@ -1,9 +1,10 @@
 // A service, its supervisors and its phases are killed at random, again and again, while studies
 // are submitted and cancelled. Half of the services carry a named failpoint, so that they die
 // exactly between two writes. At the end the event log must be sound, and nothing acknowledged
-// lost.
+// lost. On Slurm (the fake one of tests/slurm) its troubles come and go meanwhile.
 //
-//     BREACH_KILLS (200)   how many kills     BREACH_SEED (1)   of the random choices
+//     BREACH_KILLS (200; on Slurm a fifth of it)   how many kills
+//     BREACH_SEED (1)                              of the random choices
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -13,6 +14,7 @@
 #include <thread>
 
 #include "services/orchestrator/files/failpoint.hpp"
+#include "services/orchestrator/files/file_lock.hpp"
 #include "tests/faults/invariants.hpp"
 
 namespace breach::testing {
@@ -33,12 +35,21 @@ pid_t parent_of(pid_t pid) {
     return parent;
 }
 
+enum class Place { local, slurm };
+
+/// Files by which the fake Slurm misbehaves; hang would cost a command's whole time limit each.
+const std::vector<std::string> troubles{"down",        "drained", "refuse",
+                                        "lose_answer", "drop",    "forget"};
+
 class Campaign {
   public:
-    explicit Campaign(int seed) : random_(static_cast<std::mt19937::result_type>(seed)) {
+    Campaign(int seed, Place place)
+        : place_(place), random_(static_cast<std::mt19937::result_type>(seed)) {
+        std::filesystem::create_directories(slurm());
         for (const std::string_view each : orchestrator::failpoint_names) {
             const bool elsewhere = each.starts_with("firing") || each.starts_with("migration") ||
-                                   each.starts_with("sbatch") || each.starts_with("upload");
+                                   (place == Place::local && each.starts_with("sbatch")) ||
+                                   each.starts_with("upload");
             if (!elsewhere) places_.emplace_back(each);
         }
     }
@@ -49,12 +60,15 @@ class Campaign {
                   << kills_at_failpoints_ << " at failpoints), " << kills_of_supervisors_
                   << " of supervisors, " << kills_of_phases_ << " of phases; "
                   << acknowledged_.size() << " runs acknowledged, " << removed_.size()
-                  << " of them removed\n";
+                  << " of them removed";
+        if (place_ == Place::slurm) std::cout << "; " << troubles_ << " troubles of Slurm";
+        std::cout << "\n";
     }
 
     void settle_and_check() {
+        for (const std::string& each : troubles) std::filesystem::remove(slurm() / each);
         {
-            Service service(sandbox_, arguments());
+            Service service(sandbox_, arguments(), environment());
             ASSERT_TRUE(service.valid()) << service.complaint();
             for (const auto& [run, certain] : removed_) {
                 const int status = service.get("/v1/runs/" + run).status;
@@ -72,6 +86,8 @@ class Campaign {
                 EXPECT_EQ(run_of(service, key), run) << "one key, one run";
             }
             expect_only_what_is_known(service);
+            EXPECT_TRUE(eventually([&] { return !orchestrator::is_held(slurm() / "runners"); }))
+                << "a job of Slurm goes on";
         }
         expect_sound_history(sandbox_);
     }
@@ -86,8 +102,26 @@ class Campaign {
                 << entry.path();
     }
 
-    static std::vector<std::string> arguments() {
-        return {"--tries", "100", "--retry-delay", "0.01"};
+    std::filesystem::path slurm() const { return sandbox_.root() / "slurm"; }
+    std::vector<std::string> arguments() const {
+        std::vector<std::string> words{"--tries", "100", "--retry-delay", "0.01"};
+        if (place_ == Place::slurm)
+            words.insert(words.end(), {"--executor", "slurm", "--slurm-poll", "0.2",
+                                       "--slurm-grace", "1", "--slurm-command-limit", "20"});
+        return words;
+    }
+    std::vector<std::string> environment() const {
+        if (place_ == Place::local) return {};
+        return {"PATH=" + std::string(BREACH_ROOT) + "/tests/slurm/fake:" + std::getenv("PATH"),
+                "FAKE_SLURM=" + slurm().string()};
+    }
+    /// One begins, or one that lasts ends.
+    void change_troubles() {
+        const auto file =
+            slurm() / troubles[static_cast<std::size_t>(below(static_cast<int>(troubles.size())))];
+        if (std::filesystem::remove(file)) return;
+        std::ofstream(file) << "\n";
+        ++troubles_;
     }
     int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(random_); }
     void wait_a_moment(int most_ms) {
@@ -96,7 +130,7 @@ class Campaign {
 
     /// One life of the service, until it is killed.
     void live_once() {
-        std::vector<std::string> environment;
+        std::vector<std::string> environment = this->environment();
         if (below(2) == 0) {
             const auto token = sandbox_.root() / "token";
             std::ofstream(token) << "\n";
@@ -114,7 +148,8 @@ class Campaign {
         const int deeds = 2 + below(5);
         for (int i = 0; i < deeds; ++i) {
             submit(service);
-            wait_a_moment(60);
+            wait_a_moment(place_ == Place::local ? 60 : 600);  // a job begins later
+            if (place_ == Place::slurm && below(3) == 0) change_troubles();
             if (below(8) == 0) cancel_one(service);
             if (below(3) == 0) remove_one(service);
             if (below(3) == 0) kill_a_phase();
@@ -208,10 +243,11 @@ class Campaign {
         }
     }
 
+    Place place_;
     std::vector<std::string> places_;  ///< failpoints that these studies reach
     Sandbox sandbox_;
     std::mt19937 random_;
-    int kills_ = 0;
+    int kills_ = 0, troubles_ = 0;
     int kills_of_service_ = 0, kills_at_failpoints_ = 0, kills_of_supervisors_ = 0,
         kills_of_phases_ = 0;
     std::map<std::string, std::string> acknowledged_;  ///< run, by key
@@ -221,8 +257,14 @@ class Campaign {
 };
 
 TEST(RandomKills, LeaveASoundHistoryAndLoseNothing) {
-    Campaign campaign(setting("BREACH_SEED", 1));
+    Campaign campaign(setting("BREACH_SEED", 1), Place::local);
     campaign.kill_about(setting("BREACH_KILLS", 200));
+    campaign.settle_and_check();
+}
+
+TEST(RandomKills, OnASlurmWithTroublesLeaveASoundHistoryAndLoseNothing) {
+    Campaign campaign(setting("BREACH_SEED", 1), Place::slurm);
+    campaign.kill_about(setting("BREACH_KILLS", 200) / 5);
     campaign.settle_and_check();
 }
 

@@ -39,6 +39,12 @@ Answer answer_of(const httplib::Result& result) {
     return answer;
 }
 
+/// Of the programs; BREACH_BIN in the environment goes before those of the build.
+fs::path built_programs() {
+    const char* elsewhere = std::getenv("BREACH_BIN");
+    return elsewhere == nullptr ? BREACH_BIN : elsewhere;
+}
+
 httplib::Client client(int port) {
     httplib::Client made("127.0.0.1", port);
     made.set_read_timeout(60);
@@ -52,7 +58,7 @@ Sandbox::Sandbox() {
     root_ = mkdtemp(pattern.data());
     fs::create_directories(bin());
     for (const char* phase : {"lem_tool", "fem_solver", "transfer_tool", "mpm_solver"})
-        fs::create_symlink(fs::path(BREACH_BIN) / "fake_phase", bin() / phase);
+        fs::create_symlink(built_programs() / "fake_phase", bin() / phase);
 }
 
 Sandbox::~Sandbox() {
@@ -70,7 +76,7 @@ std::map<std::string, int> Sandbox::successes() const {
 
 Service::Service(const Sandbox& sandbox, std::vector<std::string> more_arguments,
                  std::vector<std::string> more_environment) {
-    std::vector<std::string> words{fs::path(BREACH_BIN) / "breachline",
+    std::vector<std::string> words{built_programs() / "breachline",
                                    "serve",
                                    "--data",
                                    sandbox.data(),

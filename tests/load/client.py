@@ -10,14 +10,24 @@ def request_bytes(port, method, path, body=b"", accept="*/*"):
     return head.encode() + body
 
 
+async def read_chunks(reader):
+    body = b""
+    while size := int(await reader.readuntil(b"\r\n"), 16):
+        body += (await reader.readexactly(size + 2))[:-2]
+    await reader.readexactly(2)
+    return body
+
+
 async def read_answer(reader):
     """(status, body, whether the connection stays open)"""
     head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1").lower()
-    length = 0
+    length, chunked = 0, False
     for line in head.split("\r\n"):
         if line.startswith("content-length:"):
             length = int(line.split(":")[1])
-    body = await reader.readexactly(length)
+        if line.startswith("transfer-encoding:"):
+            chunked = True
+    body = await read_chunks(reader) if chunked else await reader.readexactly(length)
     return int(head[9:12]), body, "connection: close" not in head
 
 

@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
+constexpr auto shortest_round = std::chrono::milliseconds(5);  // changes come in crowds
 
 std::string in_seconds(double time) {
     std::ostringstream text;
@@ -197,6 +198,8 @@ void Dispatcher::wait_for_something() {
                        {triggers_.descriptor(), POLLIN, 0},
                        {bell_.descriptor(), POLLIN, 0}};
     poll(wanted, 3, static_cast<int>(wait.count()));
+    std::this_thread::sleep_until(round_began_ + shortest_round);
+    round_began_ = Clock::now();
     bell_.silence();
 }
 
@@ -341,14 +344,17 @@ bool Dispatcher::hand_over(Live& live) {
 
 void Dispatcher::note_latency(const Task& task) {
     const auto ready_at = store_.ready_at(task.id);
-    if (ready_at) queue_wait_.add(1e-3 * static_cast<double>(epoch_ms() - *ready_at));
+    // Two looks at the clock of the day, which may have been set between them: never below 0.
+    if (ready_at)
+        queue_wait_.add(1e-3 *
+                        static_cast<double>(std::max<std::int64_t>(0, epoch_ms() - *ready_at)));
     if (task.release != Release::file_exists) return;
     std::error_code error;
     const auto appeared = std::filesystem::last_write_time(
         data_.input(task, store_.task(*task.parent).value()), error);
     if (error) return;
     const auto since = std::chrono::file_clock::now() - appeared;
-    snapshot_to_start_.add(std::chrono::duration<double>(since).count());
+    snapshot_to_start_.add(std::max(0.0, std::chrono::duration<double>(since).count()));
 }
 
 Order Dispatcher::order_for(const Live& live) const {

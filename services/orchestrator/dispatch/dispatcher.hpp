@@ -138,6 +138,7 @@ class Dispatcher {
     std::stop_token stop_;  ///< of the serving thread
     std::list<Live> live_;
     std::chrono::steady_clock::time_point looked_at_all_{};
+    std::chrono::steady_clock::time_point round_began_{};
 
     std::mutex registered_mutex_;
     std::vector<std::string> registered_;  ///< tasks that the registrar has finished with

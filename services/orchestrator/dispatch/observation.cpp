@@ -32,8 +32,7 @@ std::string last_line_of(const std::filesystem::path& file) {
 
 /// 1, 2, 4, ... times the first delay, at most a minute.
 std::int64_t delay_ms(std::chrono::milliseconds first, std::int64_t tries) {
-    constexpr std::int64_t longest = 60000;
-    return std::min(longest, first.count() << std::min<std::int64_t>(tries - 1, 10));
+    return std::min(longest_retry_ms, first.count() << std::min<std::int64_t>(tries - 1, 10));
 }
 
 }  // namespace

@@ -18,11 +18,11 @@ nlohmann::json as_json(const std::vector<fault::Fault>& faults);
 
 using Columns = std::span<const ResultColumn>;
 
-/// {"runout": ...}: by the names of the columns.
-nlohmann::json as_json(const ResultRow& row, Columns columns);
+/// [{"runout": ...}, ...]: by the names of the columns. Text at once: a table may have thousands.
+std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns);
 /// What the columns of a table of results are: [{name, kind, unit, title, meaning}].
 nlohmann::json described(Columns columns);
-/// JSON schema of as_json(ResultRow, columns).
+/// JSON schema of one of these rows.
 nlohmann::json schema_of_rows(Columns columns);
 
 /// RFC 4180, one line per transfer time, the names of the JSON answer in the first line.

@@ -79,9 +79,14 @@ void refuse(httplib::Response& response, const Problem& problem) {
 }
 
 void reply(httplib::Response& response, const json& body, int status) {
+    reply_with_text(response, text_of(body), status);
+}
+
+void reply_with_text(httplib::Response& response, std::string body, int status) {
     response.status = status;
     response.set_header("Cache-Control", "no-store");
-    response.set_content(text_of(body), "application/json");
+    response.set_header("Content-Type", "application/json");
+    response.body = std::move(body);
 }
 
 void Call::allow_parameters(const std::set<std::string>& names) const {

@@ -33,6 +33,8 @@ Problem bad_request(const std::string& detail);
 
 void refuse(httplib::Response& response, const Problem& problem);
 void reply(httplib::Response& response, const nlohmann::json& body, int status = 200);
+/// The same of a JSON text as it is.
+void reply_with_text(httplib::Response& response, std::string body, int status = 200);
 
 /// One request on its way through a handler.
 struct Call {

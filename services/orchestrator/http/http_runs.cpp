@@ -1,5 +1,9 @@
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <functional>
+#include <memory>
+#include <utility>
 
 #include "core/words/number.hpp"
 #include "services/orchestrator/accuracy/runout_error.hpp"
@@ -17,6 +21,8 @@ namespace breach::orchestrator {
 using nlohmann::json;
 
 namespace {
+
+constexpr std::size_t tasks_at_once = 500;  // read and sent together
 
 json run_json(const Service& service, const std::string& id) {
     return as_json(wanted_run(service, id), service.board);
@@ -54,15 +60,59 @@ void list_runs(const Service& service, Call& call) {
     reply(call.response, {{"runs", runs}, {"next", page.next}});
 }
 
+/// The text of an object that goes on: "{...," instead of "{...}".
+std::string opened(const json& object) {
+    std::string text = object.dump(-1, ' ', false, json::error_handler_t::replace);
+    text.back() = ',';
+    return text;
+}
+
+/// The tasks of a large run, some at a time as the reader takes them: what is held in memory does
+/// not grow with the run. Each is as it was when it was read.
+void send_with_tasks(const Service& service, Call& call, const json& head) {
+    struct Walk {
+        std::string text;       ///< to be sent before the next tasks
+        std::string last = {};  ///< task that was read
+    };
+    auto walk = std::make_shared<Walk>(Walk{opened(head) + "\"tasks\":["});
+    call.response.set_header("Cache-Control", "no-store");
+    call.response.set_chunked_content_provider(
+        "application/json",
+        [&service, walk, id = call.parts[0]](std::size_t, httplib::DataSink& sink) {
+            try {
+                if (walk->text.empty()) {
+                    const auto tasks = service.store.tasks_of(id, walk->last, tasks_at_once);
+                    for (const json& each : tasks_json(service, tasks))
+                        walk->text += (walk->text.empty() && walk->last.empty() ? "" : ",") +
+                                      each.dump(-1, ' ', false, json::error_handler_t::replace);
+                    if (tasks.empty()) {
+                        sink.write("]}", 2);
+                        sink.done();
+                        return true;
+                    }
+                    walk->last = tasks.back().id;
+                }
+                const std::string part = std::exchange(walk->text, {});
+                return sink.write(part.data(), part.size());
+            } catch (const std::exception& error) {
+                spdlog::error("{}: its tasks cannot be sent on: {}", id, error.what());
+                return false;  // the connection closes without the last chunk: no whole answer
+            }
+        });
+}
+
 void show_run(const Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];
-    json body = run_json(service, id);
+    const Run run = wanted_run(service, id);
+    json body = as_json(run, service.board);
     body["study"] = service.store.study_of(id).value();
     body["study"]["scene"] = json::parse(service.store.scene_of(id).value());
-    body["tasks"] = tasks_json(service, service.store.tasks_of(id));
     body["files"] = files_json(service, id);
     body["scene_from"] = scene_source_json(service, id);
+    if (run.tasks_total > static_cast<std::int64_t>(tasks_at_once))
+        return send_with_tasks(service, call, body);
+    body["tasks"] = tasks_json(service, service.store.tasks_of(id));
     reply(call.response, body);
 }
 
@@ -140,12 +190,6 @@ void rename(Service& service, Call& call) {
     });
 }
 
-json as_json(const ResultTable& table) {
-    json list = json::array();
-    for (const ResultRow& each : table.rows) list.push_back(as_json(each, table.columns));
-    return list;
-}
-
 ResultFilter wanted_results(const Call& call) {
     constexpr std::int64_t all = std::int64_t{1} << 30;
     ResultFilter filter{.state = call.parameter("state"),
@@ -183,11 +227,12 @@ void results(const Service& service, Call& call) {
         return;
     }
     if (format != "json") throw bad_request("format must be json, csv or hdf5");
-    reply(call.response, {{"run", call.parts[0]},
-                          {"columns", described(runs.columns)},
-                          {"rows", as_json(runs)},
-                          {"mean_columns", described(means.columns)},
-                          {"means", as_json(means)}});
+    const json head{{"run", call.parts[0]},
+                    {"columns", described(runs.columns)},
+                    {"mean_columns", described(means.columns)}};
+    reply_with_text(call.response,
+                    opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
+                        ",\"means\":" + as_json_text(means.rows, means.columns) + "}");
 }
 
 // ---------------------------------------------------------------- sweeps

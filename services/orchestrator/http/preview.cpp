@@ -53,7 +53,7 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     if (!document.is_object() || !document.contains("uncertainty")) return repeats;
     json& entry = document["uncertainty"];
     if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
-    const TaskGraph graph = plan_tasks(sent_study(document.dump(), service), service.numerics);
+    const TaskGraph graph = plan_tasks(sent_study(std::move(document), service), service.numerics);
     for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
     if (!repeats.tasks.contains(phases::mpm.program))  // where a trigger fires
         for (const TaskPlan& each : graph.one_more_transfer)

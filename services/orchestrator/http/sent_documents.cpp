@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/scene/file_paths.hpp"
+#include "core/scene/schema.hpp"
 
 namespace breach::orchestrator {
 
@@ -63,14 +64,18 @@ SentFiles files_of(const Service& service) {
 }
 
 Study sent_study(const std::string& body, const Service& service) {
-    if (is_a("scene", json::parse(body, nullptr, false), "section")) {
+    return sent_study(scene::parse_json(body, "study"), service);
+}
+
+Study sent_study(json document, const Service& service) {
+    if (is_a("scene", document, "section")) {
         throw BadInput(
             "study",
             {{"", "this is a scene, not a study: it says what stands there, not when to transfer",
               R"(wrap it: {"format": "breachline-study/1", "name": "...", "scene": {...}, )"
               R"("transfer_times": [...]}; or: breach submit --scene FILE --times 0.5,1)"}});
     }
-    return read_here([&] { return read_study(body, files_of(service)); });
+    return read_here([&] { return read_study_document(std::move(document), files_of(service)); });
 }
 
 json sent_scene(const std::string& body, const Service& service) {

@@ -15,6 +15,7 @@ SentFiles files_of(const Service& service);
 
 /// Throws BadInput: one fault when it is a scene, else those of read_study.
 Study sent_study(const std::string& body, const Service& service);
+Study sent_study(nlohmann::json document, const Service& service);
 
 /// The scene, completed. Throws BadInput: one fault when it is a study, else those of
 /// read_whole_scene.

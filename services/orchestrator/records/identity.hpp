@@ -27,5 +27,7 @@ std::string utc_days_ago(double days);
 std::string utc_text(std::int64_t ms);
 /// Milliseconds since 1970, for stored retry times.
 std::int64_t epoch_ms();
+/// No task is tried again later than this after its failure.
+constexpr std::int64_t longest_retry_ms = 60000;
 
 }  // namespace breach::orchestrator

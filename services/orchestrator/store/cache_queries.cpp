@@ -21,9 +21,10 @@ Recipe recipe_from(const Row& row, int first) {
 bool Store::has_candidate(const Task& task) const {
     bool found = false;
     read([&](Connection& database) {
-        // Another snapshot of the same FEM is not worth hashing this one for.
-        database.query("SELECT 1 FROM tasks WHERE recipe=?1 AND " + is_an_answer +
-                           " AND (parent IS NULL OR parent<>?2 OR input=?3) LIMIT 1",
+        // Another snapshot of the same FEM is not worth hashing this one for. By the index of
+        // answers: that of all tasks of the recipe would be read through when thousands wait.
+        database.query("SELECT 1 FROM tasks INDEXED BY tasks_by_recipe WHERE recipe=?1 AND " +
+                           is_an_answer + " AND (parent IS NULL OR parent<>?2 OR input=?3) LIMIT 1",
                        {*task.recipe, task.parent.value_or(""), task.input},
                        [&](const Row&) { found = true; });
     });

@@ -82,9 +82,13 @@ Connection::Connection(const std::filesystem::path& file, Access access) {
     if (access == Access::read_only) return;
     // What a large removal wrote does not stay in the log's file. auto_vacuum first: it is only
     // taken by a database without tables (store/migrations.cpp turns an older one round).
+    // What is written hits the same pages of a dozen indexes: they stay in memory (64 MB), and are
+    // copied from the log to the database once for many commits (every 16 MB). What a savepoint
+    // could have to put back stays in memory, too: a temporary file was written for every commit.
     script(
         "PRAGMA auto_vacuum=INCREMENTAL; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; "
-        "PRAGMA journal_size_limit=67108864");
+        "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-65536; PRAGMA "
+        "wal_autocheckpoint=4000; PRAGMA temp_store=MEMORY");
 }
 
 Connection::~Connection() = default;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
+#include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/store/views.hpp"
@@ -38,7 +39,7 @@ std::string run_columns(const std::string& state = "r.state") {
            " AS shown, r.created, r.started, r.finished, r.tasks_total, "
            "r.tasks_done, r.tasks_ended, r.paused, r.tasks_failed, coalesce((SELECT t.label || ': "
            "' || "
-           "t.fault_summary FROM tasks t WHERE t.run "
+           "t.fault_summary FROM tasks t INDEXED BY tasks_with_faults WHERE t.run "
            "= r.id AND "
            "t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), ''), "
            "r.questionable, "
@@ -185,7 +186,9 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
 /// Counts the flags of these runs, and says on their page what is doubtful in them.
 void Store::add_flags(Connection& database, std::vector<Run>& runs) {
     json ids = json::array();
-    for (const Run& each : runs) ids.push_back(each.id);
+    for (const Run& each : runs)
+        if (each.tasks_ended > 0) ids.push_back(each.id);  // flags come with results
+    if (ids.empty()) return;
     database.query(
         "SELECT run, code, phase, severity='questionable', count(DISTINCT task), CASE WHEN "
         "severity<>'questionable' THEN 0 WHEN phase=?2 THEN (SELECT runouts FROM "
@@ -316,8 +319,11 @@ std::optional<std::int64_t> Store::ready_at(const std::string& task) const {
 std::vector<std::string> Store::due_retries(std::int64_t now) const {
     std::vector<std::string> found;
     read([&](Connection& database) {
-        database.query("SELECT id FROM tasks WHERE state='retry_wait' AND retry_at<=?", {now},
-                       [&](const Row& row) { found.push_back(row.text(0)); });
+        // One that is due later than any delay was set before the clock was: it has waited enough.
+        database.query(
+            "SELECT id FROM tasks WHERE state='retry_wait' AND (retry_at<=?1 OR "
+            "retry_at>?1+?2)",
+            {now, longest_retry_ms}, [&](const Row& row) { found.push_back(row.text(0)); });
     });
     return found;
 }
@@ -482,7 +488,11 @@ ResultRow result_from(const Row& row, std::span<const ResultColumn> columns) {
 std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter& filter) const {
     std::string sql = "SELECT " + selected_result_columns() + " FROM sweep_results WHERE ";
     std::vector<Value> values{run, as_value(filter.most), as_value(filter.from)};
-    if (!filter.state && !filter.flag) {
+    const bool all = filter.from == 0 && filter.most == ResultFilter{}.most;
+    if (all && !filter.state && !filter.flag) {
+        sql += "run=?1 ORDER BY variant_place, transfer_time";
+        values = {run};
+    } else if (!filter.state && !filter.flag) {
         // The page is found first, so that a long table is not worked out for a part of it.
         sql +=
             "mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants ON "
@@ -509,6 +519,10 @@ std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter
 std::vector<ResultRow> Store::means(const std::string& run) const {
     std::vector<ResultRow> found;
     read([&](Connection& database) {
+        bool drawn = false;
+        database.query("SELECT 1 FROM variants WHERE run=? AND draw_of IS NOT NULL LIMIT 1", {run},
+                       [&](const Row&) { drawn = true; });
+        if (!drawn) return;
         database.query("SELECT " + selected_mean_columns() + " FROM (" +
                            selected_means("AND run=?") + ") ORDER BY variant_place, transfer_time",
                        {run},

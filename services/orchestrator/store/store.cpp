@@ -59,7 +59,7 @@ void Store::commit(std::deque<Job>& jobs) {
     try {
         writing_.script("BEGIN IMMEDIATE");
         for (Job& job : jobs) {
-            writing_.script("SAVEPOINT job");
+            writing_.change("SAVEPOINT job", {});
             try {
                 Transaction transaction(writing_, job.by);
                 job.change(transaction);
@@ -68,7 +68,7 @@ void Store::commit(std::deque<Job>& jobs) {
                 job.refused = std::current_exception();
                 writing_.script("ROLLBACK TO job");
             }
-            writing_.script("RELEASE job");
+            writing_.change("RELEASE job", {});
         }
         reach(Failpoint::store_before_commit);
         writing_.script("COMMIT");

@@ -194,8 +194,8 @@ std::vector<Trigger> Store::open_triggers() const {
             std::string(trigger_columns) +
                 "WHERE state IN ('armed', 'holding') AND "
                 "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) "
-                "IS NULL AND fem_task IN (SELECT id FROM "
-                "tasks WHERE state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
+                "IS NULL AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task AND "
+                "tasks.state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
             {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;

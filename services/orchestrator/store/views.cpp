@@ -17,8 +17,9 @@ namespace {
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
-    (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
-        AS questionable,
+    CASE WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
+         THEN (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
+         ELSE 0 END AS questionable,
     budget_cpu_seconds, spent_cpu_seconds,
     CASE WHEN is_open THEN CASE WHEN spent_cpu_seconds >= budget_cpu_seconds AND NOT EXISTS
              (SELECT 1 FROM tasks WHERE tasks.run = counted.id AND tasks.state IN

@@ -522,7 +522,10 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 }  // namespace
 
 Study read_study(std::string_view text, const SentFiles& files) {
-    json document = scene::parse_json(text, "study");
+    return read_study_document(scene::parse_json(text, "study"), files);
+}
+
+Study read_study_document(json document, const SentFiles& files) {
     refuse_scene(document);
     const std::vector<Fault> of_study = scene::complete_and_check(document, scene::study_schema());
     std::vector<Fault> faults = of_study;
@@ -542,7 +545,7 @@ Study read_study(std::string_view text, const SentFiles& files) {
     check::Recordings recordings;
     Base base{files, {}, {}, {}, &recordings};
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
-        base.scene = document["scene"];
+        base.scene = std::move(document["scene"]);
         if (sound("overrides")) base.overrides = document["overrides"];
         if (sound("accuracy")) {
             accuracy = read_accuracy(document["accuracy"], base.scene, faults);
@@ -562,7 +565,8 @@ Study read_study(std::string_view text, const SentFiles& files) {
         base.faults = scene->faults;
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {files, scene->completed, {}, {}, &recordings};  // what variants change
+            base = {
+                files, std::move(scene->completed), {}, {}, &recordings};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");

@@ -46,6 +46,7 @@ struct Study {
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
 Study read_study(std::string_view text, const SentFiles& files = {});
+Study read_study_document(nlohmann::json document, const SentFiles& files = {});
 
 /// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
 nlohmann::json read_whole_scene(std::string_view text, const SentFiles& files = {});

@@ -19,7 +19,7 @@ Study study_with(const RunSoFar& run, const DataFolder& data, const json& times)
     json document = run.study;
     document["scene"] = json::parse(run.scene);
     document["transfer_times"] = times;
-    return read_study(document.dump(), {data.root()});
+    return read_study_document(std::move(document), {data.root()});
 }
 
 bool contains(const std::vector<double>& times, std::optional<double> time) {
@@ -114,7 +114,7 @@ Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const 
     const std::size_t before = document.at("variants").size();
     document["uncertainty"] = entry;
     document["scene"] = json::parse(run.scene);
-    const Study study = read_study(document.dump(), {data.root()});
+    const Study study = read_study_document(std::move(document), {data.root()});
     std::map<std::string, Task> present;
     for (const Task& each : run.tasks) present.emplace(each.label, each);
     Extension extension;
