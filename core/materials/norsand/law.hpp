@@ -65,9 +65,28 @@ inline norsand::State first_memory(const NorSand& law, const Voigt& sigma, doubl
 inline Voigt stress(const NorSand&, const norsand::State& memory) {
     return norsand::stress(memory);
 }
+/// A call that the law wants cut, in halves and these again; what is no more than round-off
+/// changes nothing.
+inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::State& old,
+                                          const Voigt& d_epsilon, int cuts_left) {
+    constexpr double round_off = 1e-14;  // strain
+    if (d_epsilon.cwiseAbs().maxCoeff() <= round_off) return {old, norsand::Outcome::done, {}};
+    norsand::Update first = norsand::integrate(law.ready, old, d_epsilon, law.options);
+    if (first.outcome != norsand::Outcome::unresolved || cuts_left == 0) return first;
+    first = integrate_in_parts(law, old, 0.5 * d_epsilon, cuts_left - 1);
+    if (first.outcome != norsand::Outcome::done) return {old, first.outcome, first.counts};
+    norsand::Update second = integrate_in_parts(law, first.state, 0.5 * d_epsilon, cuts_left - 1);
+    second.counts += first.counts;
+    if (second.outcome != norsand::Outcome::done) second.state = old;
+    return second;
+}
 inline void integrate(const NorSand& law, std::span<const norsand::State> old,
                       std::span<const Voigt> d_epsilon, std::span<norsand::Update> updates) {
     norsand::integrate(law.ready, old, d_epsilon, law.options, updates);
+    constexpr int most_cuts = 10;
+    for (std::size_t i = 0; i < updates.size(); ++i)
+        if (updates[i].outcome == norsand::Outcome::unresolved)
+            updates[i] = integrate_in_parts(law, old[i], d_epsilon[i], most_cuts);
 }
 inline Matrix4 elastic_tangent(const NorSand& law, const norsand::State& memory) {
     return norsand::elastic_tangent(law.ready, memory);

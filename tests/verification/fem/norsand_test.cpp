@@ -151,6 +151,27 @@ TEST(NorSandInTheMesh, MemorySurvivesACheckpointToTheLastBit) {
     EXPECT_EQ(numbers(element.memory()), numbers(resumed.memory()));
 }
 
+TEST(NorSandInTheMesh, LevelGroundRestsWithThePsiThatTheSceneGives) {
+    for (const double psi_0 : {0.05, -0.05}) {
+        bench::Run run(
+            bench::scene_of({.height = 4.0,
+                             .rows = 4,
+                             .law = cj1(psi_0),
+                             .stages = {{{"type", "static"}, {"name", "gravity"}},
+                                        {{"type", "static"}, {"name", "law"}, {"laws", "scene"}},
+                                        {{"type", "dynamic"},
+                                         {"name", "rest"},
+                                         {"duration", 0.05},
+                                         {"time_step", 5e-3}}}}));
+        const Reading last = run.go().history().back();
+        expect_error("displacement of level ground at rest [m]", last.crest_displacement, 1e-6);
+        expect_error("psi at rest", std::abs(last.psi_avg - psi_0), 1e-4);
+        EXPECT_GT(last.instability_ratio_max, 0.2);
+        EXPECT_LT(last.instability_ratio_max, 0.8);
+        EXPECT_EQ(last.past_peak_share, 0.0);
+    }
+}
+
 /// Where the scene is refused; empty: it is not.
 std::string refused_at(const json& law) {
     try {
