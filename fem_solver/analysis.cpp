@@ -12,6 +12,7 @@
 #include "core/words/number.hpp"
 #include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/model/pore_water.hpp"
+#include "fem_solver/model/stages.hpp"
 #include "fem_solver/solve/base_motion.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
 #include "fem_solver/solve/trial.hpp"
@@ -57,6 +58,7 @@ Analysis::Analysis(process::Session& session, Model model)
     if (switches.contains(profile_switch) || switches.contains(trial_switch))
         seconds_.clock = cpu_clock;
     for (const Stage& stage : fem_.stages) span_ += stage.duration;
+    if (fem_.changes_the_body()) check_changes();
     prediction_ = prediction_for(model_);
     report_crest();
     const bool resumed = session.settings().start == process::Start::resume &&
@@ -66,6 +68,14 @@ Analysis::Analysis(process::Session& session, Model model)
     } else {
         session_.truncate_telemetry(0);
     }
+}
+
+/// Every stage once on a copy: what cannot be is refused before anything is computed.
+void Analysis::check_changes() const {
+    Model copy = model_;
+    const ModelDecisions decided = decide_model(session_.scene());
+    for (std::size_t s = 0; s < fem_.stages.size(); ++s)
+        set_stage(session_.scene(), decided, s, copy);
 }
 
 double Analysis::stage_begin(std::int64_t stage) const {
@@ -106,6 +116,9 @@ Outcome Analysis::run() {
 void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
     const Solved solved = stage.kind == StageKind::static_equilibrium ? Solved::displacement
                                                                       : Solved::motion_and_pressure;
+    if (fem_.changes_the_body())
+        set_stage(session_.scene(), decide_model(session_.scene()),
+                  static_cast<std::size_t>(position_.stage), model_);
     const Stopwatch watch(seconds_, &Seconds::factor);
     newton_.emplace(
         model_, solved,
@@ -118,14 +131,23 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
 /// at zero: gravity's settlement belongs to the past of the slope, not to its failure.
 void Analysis::begin_stage(const Stage& stage) {
     laws_ = laws_for(model_, stage.laws);
+    const bool is_static = stage.kind == StageKind::static_equilibrium;
+    // A static stage drains: NorSand softens no more than it hardens there, unless the stage asks.
+    if (const auto S = stage.S || !is_static ? stage.S : 0.0)
+        for (materials::Law& law : laws_) law = materials::with_S(law, *S);
     set_permeability(session_.scene(), stage.permeability, model_);
     if (!newton_) make_newton(stage, counts_);
-    if (position_.stage_begun) return;
+    if (position_.stage_begun) {
+        if (stage.ramp > 0.0) withhold(stage, stage_force_);
+        return;
+    }
     position_.stage_begun = true;
     spdlog::info("stage {}", stage.name);
-    const bool is_static = stage.kind == StageKind::static_equilibrium;
     if (is_static && model_.water.any()) motion_.p = steady_pressure(model_);
+    if (fem_.changes_the_body()) forget_absent(model_, motion_);
     if (stage.laws == scene::StageLaws::scene) begin_laws(stage);
+    // What is gone holds nothing any more: the stage releases what it held, from these forces on.
+    if (fem_.changes_the_body()) settle_stresses(*newton_, laws_, motion_, trial_);
     if (is_static) {
         position_.load_step = 1.0 / stage.load_steps;
         stage_force_ = motion_.force;
@@ -135,6 +157,14 @@ void Analysis::begin_stage(const Stage& stage) {
     position_.easy_steps = 0;
     settle_stresses(*newton_, laws_, motion_, trial_);
     if (!position_.moving) begin_motion();
+    model_.withheld.resize(0);
+    if (stage.ramp > 0.0) {
+        Eigen::VectorXd balanced = motion_.force, acting;
+        set_external_force(model_, beginning_, position_.time, acting);
+        add_pressure_force(model_, motion_.p, acting);
+        stage_force_ = balanced - acting;
+        withhold(stage, stage_force_);
+    }
     set_acceleration(*newton_, model_, beginning_, position_.time, prediction_, motion_);
     // A step that cannot resolve this acceleration would throw the mesh: it starts without, and
     // what is suddenly unbalanced counts from its end.
@@ -144,6 +174,13 @@ void Analysis::begin_stage(const Stage& stage) {
     if (thrown > resolved * quality_of(model_.mesh).shortest_edge) motion_.a.setZero();
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
     write_due_outputs(0.0, {End::converged, 0, 0.0});
+}
+
+/// What is out of balance when the stage begins comes to bear along its ramp.
+void Analysis::withhold(const Stage& stage, const Eigen::VectorXd& force) {
+    model_.withheld = force;
+    model_.withheld_from = stage_begin(position_.stage);
+    model_.withheld_for = stage.ramp;
 }
 
 void Analysis::begin_motion() {
@@ -216,6 +253,15 @@ void Analysis::begin_laws(const Stage& stage) {
         "  {} begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} kPa",
         names_of_laws_with_memory(model_), points_with_memory(model_, motion_), bias.points,
         bias.largest / 1e3);
+    if (bias.cut_down == 0) return;
+    session_.flag({"stress_cut_down", fault::Severity::warning,
+                   std::to_string(bias.cut_down) +
+                       " points began with a stress that their law cannot hold; its deviator was "
+                       "cut down, by at most " +
+                       text_of(bias.largest_cut / 1e3) +
+                       " kPa, and what is missing is out of balance in this stage: look at K_0 and "
+                       "psi_0",
+                   "/fem/stages/" + std::to_string(position_.stage)});
 }
 
 Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
@@ -230,6 +276,10 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
             position_.load_step *= cut;
             ++position_.cut_steps;
             if (position_.load_step < least_load_step) {
+                if (stage.goes_on_at_limit) {
+                    note_limit_point(stage);
+                    return StageEnd::reached;
+                }
                 give_up("no equilibrium in stage '" + stage.name + "' beyond " +
                         text_of(position_.load) + " of gravity (out of balance " +
                         text_of(outcome.residual) + " of the weight)");
@@ -243,6 +293,17 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
         if (load >= 1.0) note_geostatic_state(stage, outcome);
     }
     return StageEnd::reached;
+}
+
+/// The load beyond which the body finds no equilibrium: `motion_` is the last one.
+void Analysis::note_limit_point(const Stage& stage) {
+    session_.result()["geostatic"][stage.name]["limit_point"] = position_.load;
+    session_.flag({"limit_point", fault::Severity::warning,
+                   "no equilibrium in stage '" + stage.name + "' beyond " +
+                       text_of(position_.load) +
+                       " of its load; the next stage goes on from the last one, in motion",
+                   "/fem/stages/" + std::to_string(position_.stage)});
+    spdlog::info("  limit point at {:.6g} of the load", position_.load);
 }
 
 void Analysis::note_geostatic_state(const Stage& stage, const NewtonOutcome& outcome) {

@@ -37,6 +37,9 @@ class Analysis {
     void begin_stage(const scene::Stage& stage);
     void begin_laws(const scene::Stage& stage);
     void begin_motion();
+    void check_changes() const;
+    void withhold(const scene::Stage& stage, const Eigen::VectorXd& force);
+    void note_limit_point(const scene::Stage& stage);
     void note_free_ground();
     void flag_no_base_motion(const std::string& why);
     void note_geostatic_state(const scene::Stage& stage, const NewtonOutcome& outcome);
@@ -72,7 +75,8 @@ class Analysis {
     Position position_;
     Motion motion_, trial_;
     Beginning beginning_;
-    Eigen::VectorXd stage_force_;  ///< internal force when the static stage began [N]
+    Eigen::VectorXd stage_force_;  ///< internal force when the static stage began; of a dynamic
+                                   ///< one with a ramp what it withholds [N]
     Prediction prediction_;
     std::vector<materials::Law> laws_;
     std::optional<Newton> newton_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/materials/norsand/instability.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -12,6 +14,49 @@ std::vector<Vec2> per_node(const Eigen::VectorXd& per_dof, std::size_t nodes) {
         result[i] = per_dof.segment<2>(2 * static_cast<Eigen::Index>(i));
     }
     return result;
+}
+
+void add_instability(const Model& model, const Motion& motion, exchange::MeshSnapshot& s) {
+    for (std::size_t z = 0; z < motion.memory.size(); ++z) {
+        const std::size_t begin = model.zones[z].first * model.points_per_element;
+        const auto add = [&]<class Law>(const Law& law, const auto& points) {
+            if constexpr (std::same_as<Law, materials::NorSand>) {
+                s.psi.resize(s.stress.size(), 0.0);
+                s.instability_ratio.resize(s.stress.size(), 0.0);
+                for (std::size_t i = 0; i < points.size() && begin + i < s.psi.size(); ++i) {
+                    const materials::Instability at = instability(law, points[i]);
+                    s.psi[begin + i] = at.psi;
+                    s.instability_ratio[begin + i] = at.ratio;
+                }
+            }
+        };
+        materials::with_memory(model.zones[z].law, motion.memory[z], add);
+    }
+}
+
+/// Keeps the entries of the elements that are there, `width` of each element.
+template <class Values>
+void keep_present(const Model& model, std::size_t width, Values& values) {
+    if (values.empty()) return;
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!model.is_absent(i / width)) values[to++] = values[i];
+    values.resize(to);
+}
+
+/// Soil that is not there yet or no more does not stand in a snapshot.
+void drop_absent(const Model& model, exchange::MeshSnapshot& s) {
+    if (std::ranges::find(model.absent, 1) == model.absent.end()) return;
+    keep_present(model, 1, s.quads);
+    keep_present(model, 1, s.region_of_element);
+    keep_present(model, 1, s.density);
+    const std::size_t points = model.points_per_element;
+    keep_present(model, points, s.stress);
+    keep_present(model, points, s.strain);
+    keep_present(model, points, s.epsilon_q);
+    keep_present(model, points, s.epsilon_q_plastic);
+    keep_present(model, points, s.psi);
+    keep_present(model, points, s.instability_ratio);
 }
 
 }  // namespace
@@ -69,6 +114,8 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
             std::min(points, (zone.first + zone.count) * model.points_per_element);
         for (std::size_t p = begin; p < end; ++p) s.epsilon_q_plastic[p] = s.epsilon_q[p];
     }
+    add_instability(model, motion, s);
+    drop_absent(model, s);
     return s;
 }
 

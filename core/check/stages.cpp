@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/check/findings.hpp"
 #include "core/check/mesh_file.hpp"
 #include "core/check/section.hpp"
@@ -60,10 +62,60 @@ void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& fil
     }
 }
 
+/// Regions come and go once each, in an order that can be; what cannot change says so.
+void check_changes(const scene::Scene& scene, Findings& findings) {
+    const scene::Fem& fem = *scene.fem;
+    if (!fem.changes_the_body()) return;
+    const auto& regions = scene.section.regions;
+    std::vector<bool> there(regions.size(), true);
+    for (const scene::Stage& stage : fem.stages)
+        for (const std::size_t r : stage.activates)
+            if (r < there.size()) there[r] = false;
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const scene::Stage& stage = fem.stages[i];
+        const std::string pointer = "/fem/stages/" + std::to_string(i);
+        if (stage.changes_the_body() && fem.kinematics == scene::Kinematics::updated_lagrangian)
+            refuse(findings, pointer, "changes the body of a moving mesh",
+                   "take /fem/kinematics small_strain");
+        if (stage.changes_the_body() && fem.free_field)
+            refuse(findings, pointer, "changes the body between free-field columns",
+                   "leave out /fem/free_field: it is for shaking");
+        for (std::size_t k = 0; k < stage.activates.size(); ++k) {
+            const std::size_t r = stage.activates[k];
+            if (r >= there.size()) continue;
+            const std::string here = pointer + "/activate/" + std::to_string(k);
+            if (there[r])
+                refuse(findings, here, "\"" + regions[r].name + "\" is there already",
+                       "activate a region once");
+            there[r] = true;
+            const scene::Material* material = material_of(scene, regions[r]);
+            if (material != nullptr && materials::remembers(material->law) &&
+                stage.laws == scene::StageLaws::scene)
+                refuse(findings, here,
+                       "places \"" + regions[r].name + "\" with " +
+                           materials::traits(material->law).name +
+                           ", which cannot begin without stress",
+                       "place it in an elastic stage, or give it another law");
+        }
+        for (std::size_t k = 0; k < stage.removes.size(); ++k) {
+            const std::size_t r = stage.removes[k];
+            if (r >= there.size()) continue;
+            if (!there[r])
+                refuse(findings, pointer + "/remove/" + std::to_string(k),
+                       "\"" + regions[r].name + "\" is not there in this stage",
+                       "remove a region that is there, once");
+            there[r] = false;
+        }
+        if (std::ranges::find(there, true) == there.end())
+            refuse(findings, pointer, "leaves no region", "keep one");
+    }
+}
+
 }  // namespace
 
 void check_stages(const scene::Scene& scene, Findings& findings) {
     if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
+    check_changes(scene, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }
 

@@ -28,6 +28,8 @@ void check_sizes(const MeshSnapshot& s) {
                        s.gauss_positions.size() == static_cast<std::size_t>(s.gauss_per_element) &&
                        s.stress.size() == points && s.strain.size() == points &&
                        s.epsilon_q.size() == points && s.epsilon_q_plastic.size() == points &&
+                       (s.psi.empty() || s.psi.size() == points) &&
+                       s.instability_ratio.size() == s.psi.size() &&
                        s.regions.size() == s.materials_of_regions.size();
     if (!agree) throw std::logic_error("mesh snapshot: arrays of different lengths");
 }
@@ -94,6 +96,10 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(cell + "mean_stress", averages(mean_stress, 1, gauss, 1), 0, "Pa");
     image.array(cell + "epsilon_q", averages(s.epsilon_q, 1, gauss, 1), 0, "1");
     image.array(cell + "epsilon_q_plastic", averages(s.epsilon_q_plastic, 1, gauss, 1), 0, "1");
+    if (!s.psi.empty()) {
+        image.array(cell + "psi", averages(s.psi, 1, gauss, 1), 0, "1");
+        image.array(cell + "instability_ratio", averages(s.instability_ratio, 1, gauss, 1), 0, "1");
+    }
     image.array(cell + "density", s.density, 0, "kg/m3");
     image.array(cell + "region", std::span<const std::int32_t>(s.region_of_element));
     const std::vector<std::int32_t> inverted = inverted_elements(s);

@@ -51,6 +51,10 @@ struct MeshSnapshot {
     std::vector<mechanics::Voigt> strain;   ///< total, since the first dynamic stage began [-]
     std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]
     std::vector<double> epsilon_q_plastic;  ///< accumulated by the law [-]
+    /// NorSand's state parameter and stress ratio over the limiting one; 0 at other points. Both or
+    /// none; to be looked at, and not read back.
+    std::vector<double> psi;
+    std::vector<double> instability_ratio;
 
     BaseMotion base_motion;  ///< of the whole earthquake, after `time` too
 };

@@ -30,6 +30,15 @@ Law with_strength(Law law, const StrengthOfPoint<double>& strength) {
     return with_strength(std::get<MohrCoulomb>(law), strength);
 }
 
+Law with_S(Law law, double S) {
+    if (auto* norsand = std::get_if<NorSand>(&law)) {
+        norsand::Parameters parameters = norsand->ready.parameters;
+        parameters.S = S;
+        norsand->ready = norsand::ready(parameters);
+    }
+    return law;
+}
+
 Law scaled(Law law, double stiffness, double softening_strains) {
     std::visit([&](auto& each) { each.elasticity.E *= stiffness; }, law);
     if (Softening* softens = softening(law)) {

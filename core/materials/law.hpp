@@ -12,12 +12,13 @@
 #include "core/materials/linear_elastic.hpp"
 #include "core/materials/memory.hpp"
 #include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
+#include "core/materials/norsand/law.hpp"
 #include "core/materials/pm4sand/law.hpp"
 #include "core/materials/traits.hpp"
 
 namespace breach::materials {
 
-using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, PM4Sand>;
+using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, PM4Sand, NorSand>;
 
 template <class... Each>
 constexpr bool each_answers(const std::variant<Each...>*) {
@@ -137,6 +138,9 @@ inline bool has_strength_of_points(const Law& law) {
 }
 /// Such a law with the strength of one of its points; any other as it is.
 Law with_strength(Law law, const StrengthOfPoint<double>& strength);
+
+/// NorSand with the additional softening S of a stage; other laws as they are.
+Law with_S(Law law, double S);
 
 /// E and, where given, the strains of softening multiplied.
 Law scaled(Law law, double stiffness, double softening_strains);

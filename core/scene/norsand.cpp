@@ -138,4 +138,64 @@ std::vector<Fault> check_norsand(const json& law, const std::string& pointer) {
     return faults;
 }
 
+namespace {
+
+/// Level ground with this K_0 at 100 kPa of mean stress [Pa, tension positive].
+mechanics::Voigt level_ground(double K_0) {
+    const double sigma_v = 300e3 / (1.0 + 2.0 * K_0);
+    return {-K_0 * sigma_v, -sigma_v, -K_0 * sigma_v, 0.0};
+}
+
+}  // namespace
+
+std::vector<Fault> check_norsand_in_scene(const json& law, const std::string& pointer) {
+    std::vector<Fault> faults = check_norsand(law, pointer);
+    if (!faults.empty()) return faults;
+    if (law.contains("psi_0") == law.contains("e_0")) {
+        return {{pointer + "/psi_0",
+                 law.contains("psi_0") ? "stands beside e_0: two initial states"
+                                       : "is missing: NorSand must know how loose it is",
+                 "give psi_0 or e_0"}};
+    }
+    const materials::NorSand made = norsand_law(law);
+    const double K_0 = law.at("K_0");
+    const norsand::Beginning begun = beginning(made, level_ground(K_0));
+    const std::string loose = pointer + (made.e_0 ? "/e_0" : "/psi_0");
+    if (!(begun.state.e > 0.0))
+        return {{loose, "makes the void ratio " + three_digits(begun.state.e) + " at 100 kPa",
+                 "raise it"}};
+    if (begun.eta_limit <= 0.0) {
+        const norsand::Parameters& par = made.ready.parameters;
+        const double most = par.M_tc / (begun.state.chi_i * (1.0 + par.N)) +
+                            norsand::critical_slope(made.ready, 100e3);
+        return {{loose,
+                 "is a state parameter of " +
+                     three_digits(begun.state.e - norsand::critical_void_ratio(made.ready, 100e3)) +
+                     " at 100 kPa: so loose that the law has no stress ratio that stands",
+                 "give a state parameter below " + three_digits(most) +
+                     ", or check chi_tc and the critical state line"}};
+    }
+    if (!begun.shrunk) return {};
+    const double limit = begun.eta_limit;
+    return {{pointer + "/K_0",
+             "makes q/p " + three_digits(begun.eta) +
+                 " in level ground, outside the yield surface: at most " + three_digits(limit) +
+                 " stands there",
+             "give K_0 above " + three_digits((3.0 - limit) / (3.0 + 2.0 * limit))}};
+}
+
+materials::NorSand norsand_law(const json& law) {
+    norsand::Parameters parameters = norsand_parameters(law);
+    parameters.S = law.at("S");
+    const double K_0 = law.at("K_0");
+    const double nu = K_0 / (1.0 + K_0);
+    const NorSandStart start = norsand_start(law, law);
+    return {.elasticity = {2.0 * (1.0 + nu) * parameters.G_ref, nu},
+            .ready = norsand::ready(parameters),
+            .options = norsand_options(law),
+            .psi_0 = start.psi_0,
+            .e_0 = start.e_0,
+            .R = start.R};
+}
+
 }  // namespace breach::scene

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
-#include "core/materials/norsand/norsand.hpp"
+#include "core/materials/norsand/law.hpp"
 
 namespace breach::scene {
 
@@ -28,5 +28,13 @@ NorSandStart norsand_start(const nlohmann::json& entry, const nlohmann::json& la
 /// What a law entry that its schema found sound says against itself, `pointer` before each place.
 /// With it the critical state line is asked whether it can be meant for 1 kPa.
 std::vector<fault::Fault> check_norsand(const nlohmann::json& law, const std::string& pointer);
+
+/// The same of a material's law in a scene, with where its points begin: psi_0 or e_0, and a K_0
+/// that stands.
+std::vector<fault::Fault> check_norsand_in_scene(const nlohmann::json& law,
+                                                 const std::string& pointer);
+
+/// A material's law that `check_norsand_in_scene` has passed.
+materials::NorSand norsand_law(const nlohmann::json& law);
 
 }  // namespace breach::scene

@@ -1,4 +1,5 @@
 // What fem_solver does with the scene: /fem.
+#include <algorithm>
 #include <functional>
 
 #include "core/scene/checks.hpp"
@@ -10,6 +11,10 @@ using nlohmann::json;
 
 namespace {
 
+std::optional<double> if_given(const json& entry, const char* key) {
+    return entry.contains(key) ? std::optional<double>(entry.at(key)) : std::nullopt;
+}
+
 Stage stage_from(const json& stage) {
     const auto kind = word_at<StageKind>(stage, "type");
     const auto laws = word_at<StageLaws>(stage, "laws");
@@ -19,7 +24,8 @@ Stage stage_from(const json& stage) {
                 .kind = kind,
                 .laws = laws,
                 .permeability = permeability,
-                .load_steps = stage.at("load_steps")};
+                .load_steps = stage.at("load_steps"),
+                .S = if_given(stage, "S")};
     }
     return {.name = stage.at("name"),
             .kind = kind,
@@ -27,7 +33,52 @@ Stage stage_from(const json& stage) {
             .permeability = permeability,
             .duration = stage.at("duration"),
             .time_step = stage.at("time_step"),
-            .least_time_step = stage.at("least_time_step")};
+            .least_time_step = stage.at("least_time_step"),
+            .S = if_given(stage, "S")};
+}
+
+/// Index of `name` among the named; as many as there are, and a fault: there is none.
+template <class Named>
+std::size_t named_at(Reader& reader, const std::vector<Named>& all, const std::string& name,
+                     const std::string& pointer, const std::string& list) {
+    const auto found =
+        std::ranges::find_if(all, [&](const Named& each) { return each.name == name; });
+    if (found == all.end())
+        reader.add(pointer, "names \"" + name + "\", which " + list + " does not have",
+                   "name one of " + list);
+    return static_cast<std::size_t>(found - all.begin());
+}
+
+std::vector<Surcharge> loads_from(Reader& reader, const json& loads, const std::string& list) {
+    std::vector<Surcharge> result;
+    for (const json& load : loads) {
+        check_ascending(reader, {load.at("from"), load.at("to")},
+                        list + "/" + std::to_string(result.size()));
+        result.push_back(
+            {load.at("from"), load.at("to"), 1e3 * load.at("pressure_kPa").get<double>()});
+    }
+    return result;
+}
+
+/// What a stage does to the body, its supports and its loads.
+void read_changes(Reader& reader, const Scene& scene, const std::vector<Support>& supports,
+                  const json& entry, const std::string& pointer, Stage& stage) {
+    const auto names = [&](const char* key, const auto& all, const char* list) {
+        std::vector<std::size_t> found;
+        if (!entry.contains(key)) return found;
+        for (const json& name : entry.at(key)) {
+            const std::string here = pointer + "/" + key + "/" + std::to_string(found.size());
+            found.push_back(named_at(reader, all, name, here, list));
+        }
+        return found;
+    };
+    stage.activates = names("activate", scene.section.regions, "/section/regions");
+    stage.removes = names("remove", scene.section.regions, "/section/regions");
+    stage.releases = names("release", supports, "/fem/supports");
+    if (entry.contains("surcharge"))
+        stage.surcharge = loads_from(reader, entry.at("surcharge"), pointer + "/surcharge");
+    if (entry.contains("ramp")) stage.ramp = entry.at("ramp");
+    stage.goes_on_at_limit = entry.value("at_limit", "stop") == "go_on";
 }
 
 Support support_from(const json& support) {
@@ -89,12 +140,7 @@ void read_surroundings(Reader& reader, const std::filesystem::path& folder, cons
         }
     }
     if (fem.contains("free_field")) result.free_field = free_field_from(fem.at("free_field"));
-    for (const json& load : fem.at("surcharge")) {
-        const std::string pointer = "/fem/surcharge/" + std::to_string(result.surcharge.size());
-        check_ascending(reader, {load.at("from"), load.at("to")}, pointer);
-        result.surcharge.push_back(
-            {load.at("from"), load.at("to"), 1e3 * load.at("pressure_kPa").get<double>()});
-    }
+    result.surcharge = loads_from(reader, fem.at("surcharge"), "/fem/surcharge");
 }
 
 void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
@@ -105,6 +151,11 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
         const std::string pointer = "/fem/stages/" + std::to_string(i);
         if (stage.kind == StageKind::static_equilibrium && moving) {
             reader.add(pointer, "is a static stage after a dynamic one", "put static stages first");
+        }
+        if (stage.goes_on_at_limit &&
+            (i + 1 == fem.stages.size() || fem.stages[i + 1].kind != StageKind::dynamic)) {
+            reader.add(pointer + "/at_limit", "goes on, but no dynamic stage follows",
+                       "put a dynamic stage behind it, in which the failure runs");
         }
         moving = moving || stage.kind == StageKind::dynamic;
         span += stage.duration;
@@ -179,7 +230,11 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
         result.mesh.msh_file = file_at(folder, fem.at("msh_file").get<std::string>());
     }
     for (const json& each : fem.at("supports")) result.supports.push_back(support_from(each));
-    for (const json& each : fem.at("stages")) result.stages.push_back(stage_from(each));
+    for (const json& each : fem.at("stages")) {
+        const std::string pointer = "/fem/stages/" + std::to_string(result.stages.size());
+        result.stages.push_back(stage_from(each));
+        read_changes(reader, scene, result.supports, each, pointer, result.stages.back());
+    }
     read_surroundings(reader, folder, fem, result);
     result.largest_step_error = fem.at("largest_step_error");
     result.newmark_beta = fem.at("newmark_beta");

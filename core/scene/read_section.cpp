@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/scene/norsand.hpp"
 #include "core/scene/reader.hpp"
 #include "core/scene/sand.hpp"
 
@@ -52,6 +53,14 @@ materials::PM4Sand sand_from(Reader& reader, const json& law, const std::string&
     return {.elasticity = materials::pm4sand::elastic_stage(parameters, K_0 / (1.0 + K_0)),
             .ready = materials::pm4sand::ready(parameters),
             .options = sand_options(law)};
+}
+
+std::optional<materials::NorSand> norsand_from(Reader& reader, const json& law,
+                                               const std::string& pointer) {
+    const auto faults = check_norsand_in_scene(law, pointer);
+    for (const auto& each : faults) reader.add(each.pointer, each.cause, each.remedy);
+    if (!faults.empty()) return std::nullopt;
+    return norsand_law(law);
 }
 
 mechanics::Elasticity elasticity_from(const json& law) {
@@ -143,6 +152,10 @@ materials::Law law_from(Reader& reader, const json& law, const Profile& profile,
                         const std::string& pointer) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_from(reader, law, pointer);
+    if (type == "norsand") {
+        const auto norsand = norsand_from(reader, law, pointer);
+        return norsand ? materials::Law(*norsand) : materials::LinearElastic{{1e6, 0.3}};
+    }
     if (type == "linear_elastic") return materials::LinearElastic{elasticity_from(law)};
     if (type == "mohr_coulomb") return mohr_coulomb_from(reader, law, profile, pointer);
     if (type == "drucker_prager") return drucker_prager_from(reader, law, pointer);

@@ -259,6 +259,18 @@ struct Stage {
     double duration = 0.0;         ///< dynamic [s]
     double time_step = 0.0;        ///< dynamic, largest [s]
     double least_time_step = 0.0;  ///< dynamic: below this the run ends [s]
+    std::optional<double> S{};     ///< NorSand's additional softening, where the stage says [-]
+    std::vector<std::size_t> activates{};  ///< regions that are there from this stage on
+    std::vector<std::size_t> removes{};    ///< regions that are gone from this stage on
+    std::vector<std::size_t> releases{};   ///< supports that hold no longer
+    /// From this stage on, in place of what lay on the ground before
+    std::optional<std::vector<Surcharge>> surcharge{};
+    double ramp = 0.0;              ///< dynamic: what is out of balance comes in this time [s]
+    bool goes_on_at_limit = false;  ///< static: a limit point ends the stage, not the run
+
+    bool changes_the_body() const {
+        return !activates.empty() || !removes.empty() || !releases.empty() || surcharge;
+    }
 };
 
 /// Soil above the phreatic line: p = 0 at its nodes, or no pore water at all.
@@ -354,6 +366,13 @@ struct Fem {
     std::vector<double> snapshot_times;  ///< ascending; steps are cut to meet them [s]
     double snapshot_interval;            ///< no step is cut for these; 0: none [s]
     double telemetry_interval;           ///< [s]
+
+    /// A stage activates, removes, releases or loads.
+    bool changes_the_body() const {
+        for (const Stage& stage : stages)
+            if (stage.changes_the_body()) return true;
+        return false;
+    }
 };
 
 // ---------------------------------------------------------------- transfer_tool

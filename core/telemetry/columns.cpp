@@ -34,6 +34,12 @@ constexpr std::array fem_table{
     Column{"epsilon_q_max", "1", "largest deviatoric strain of an element"},
     Column{"strained_share", "1", "volume of strained elements over all volume"},
     Column{"softened_share", "1", "volume that has lost strength over volume that can"},
+    Column{"psi_avg", "1", "state parameter of NorSand's points, averaged by volume"},
+    Column{"instability_ratio_max", "1",
+           "largest stress ratio of NorSand's points over the limiting one, eta_L"},
+    Column{"past_peak_share", "1",
+           "volume of NorSand that would lose strength if it were sheared undrained, over all of "
+           "its volume"},
     Column{"excess_pressure_avg", "Pa", "excess pore pressure, averaged by mass"},
     Column{"r_u_max", "1", "largest excess pore pressure ratio of the watched nodes"},
     Column{"liquefaction_depth", "m", "of the deepest liquefied watched node"},

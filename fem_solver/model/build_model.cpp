@@ -25,6 +25,27 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
+void set_weights(double gravity, Model& model) {
+    const Mesh& mesh = model.mesh;
+    model.nodal_mass.assign(mesh.nodes.size(), 0.0);
+    for (const Zone& zone : model.zones) {
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            if (model.is_absent(e)) continue;
+            const Eigen::Vector4d shares =
+                nodal_volumes(corners_of(mesh, e), model.thickness_of(e));
+            for (int k = 0; k < 4; ++k)
+                model.nodal_mass[mesh.quads[e][k]] += zone.density * shares[k];
+        }
+    }
+    model.mass.resize(model.dofs());
+    model.external_force = Eigen::VectorXd::Zero(model.dofs());
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+        const auto d = static_cast<Eigen::Index>(2 * i);
+        model.mass.segment<2>(d).setConstant(model.nodal_mass[i]);
+        model.external_force[d + 1] = -model.nodal_mass[i] * gravity;
+    }
+}
+
 Model build_model(const scene::Scene& scene, Mesh mesh) {
     return build_model(scene, decide_model(scene), std::move(mesh));
 }
@@ -47,7 +68,6 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
     model.thickness = scene.thickness;
     model.kinematics = decided.kinematics.value;
     model.rayleigh = decided.damping.value;
-    model.nodal_mass.assign(mesh.nodes.size(), 0.0);
     model.reference.resize(mesh.quads.size());
     model.volume.resize(mesh.quads.size());
     if (hourglass) {
@@ -66,27 +86,17 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
             } else {
                 evaluate_quadrature(gradients, model.reference[e]);
             }
-            const Eigen::Vector4d shares = nodal_volumes(x, thickness);
-            model.volume[e] = shares.sum();
-            for (int k = 0; k < 4; ++k) {
-                model.nodal_mass[mesh.quads[e][k]] += zone.density * shares[k];
-            }
+            model.volume[e] = nodal_volumes(x, thickness).sum();
         }
     }
-    const auto dofs = static_cast<Eigen::Index>(2 * mesh.nodes.size());
-    model.mass.resize(dofs);
-    model.external_force = Eigen::VectorXd::Zero(dofs);
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-        const auto d = static_cast<Eigen::Index>(2 * i);
-        model.mass.segment<2>(d).setConstant(model.nodal_mass[i]);
-        model.external_force[d + 1] = -model.nodal_mass[i] * decided.gravity.value;
-    }
-    if (!columns.inner.empty()) model.row_weight = Eigen::VectorXd::Ones(dofs);
+    if (!columns.inner.empty())
+        model.row_weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
     for (const std::int32_t node : columns.inner) {
         model.row_weight.segment<2>(2 * static_cast<Eigen::Index>(node)).array() +=
             1.0 / model.column_thickness;
     }
     model.mesh = std::move(mesh);
+    set_weights(decided.gravity.value, model);
     add_ground_loads(decided, model);
     if (decided.water.value) model.water = ground_water(scene, model);
     if (base) {

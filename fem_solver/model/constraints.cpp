@@ -10,6 +10,10 @@ struct Found {
     bool any = false, x = false, y = false;
 };
 
+bool is_on(const scene::Support& support, const Vec2& node, double tolerance) {
+    return scene::distance_to_segment(node, support.from, support.to) <= tolerance;
+}
+
 void hold(const scene::Fem& fem, const Mesh& mesh, double tolerance, std::vector<bool>& held,
           std::vector<fault::Fault>& faults) {
     bool holds_x = false, holds_y = false;
@@ -17,8 +21,7 @@ void hold(const scene::Fem& fem, const Mesh& mesh, double tolerance, std::vector
         const scene::Support& support = fem.supports[s];
         bool found = false;
         for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-            if (scene::distance_to_segment(mesh.nodes[i], support.from, support.to) > tolerance)
-                continue;
+            if (!is_on(support, mesh.nodes[i], tolerance)) continue;
             found = true;
             if (support.fixes_x) held[2 * i] = true;
             if (support.fixes_y) held[2 * i + 1] = true;
@@ -108,6 +111,19 @@ Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::Ela
         tie(c.master, 2 * static_cast<std::int32_t>(first), 2 * static_cast<std::int32_t>(i));
     }
     return c;
+}
+
+std::size_t hold_nodes(const scene::Support& support, const Mesh& mesh,
+                       const std::vector<bool>& lonely, std::vector<bool>& held) {
+    const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+        if (!is_on(support, mesh.nodes[i], tolerance)) continue;
+        found += lonely[i] ? 0 : 1;
+        if (support.fixes_x) held[2 * i] = true;
+        if (support.fixes_y) held[2 * i + 1] = true;
+    }
+    return found;
 }
 
 Unknowns number_unknowns(const Constraints& c, const std::vector<bool>& pressure_is_unknown,

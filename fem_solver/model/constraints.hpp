@@ -46,6 +46,10 @@ Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::Ela
                            const Mesh& mesh, const std::vector<Tie>& ties,
                            const std::vector<Tie>& pressure_ties);
 
+/// Holds what a support holds in `held` [dofs]; how many of its nodes are not lonely [nodes].
+std::size_t hold_nodes(const scene::Support& support, const Mesh& mesh,
+                       const std::vector<bool>& lonely, std::vector<bool>& held);
+
 /// No support and no tie: every displacement of these nodes is its own.
 Constraints unconstrained(std::size_t nodes);
 

@@ -9,7 +9,9 @@ namespace breach::fem {
 std::vector<GroundEdge> ground_edges(const Model& model) {
     const Mesh& mesh = model.mesh;
     std::map<std::array<std::int32_t, 2>, int> count;
-    for (const Quad& quad : mesh.quads) {
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        if (model.is_absent(e)) continue;
+        const Quad& quad = mesh.quads[e];
         for (std::size_t k = 0; k < 4; ++k) {
             ++count[{std::min(quad[k], quad[(k + 1) % 4]), std::max(quad[k], quad[(k + 1) % 4])}];
         }
@@ -21,6 +23,7 @@ std::vector<GroundEdge> ground_edges(const Model& model) {
     }
     std::vector<GroundEdge> ground;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        if (model.is_absent(e)) continue;
         const Quad& quad = mesh.quads[e];
         for (std::size_t k = 0; k < 4; ++k) {
             const std::int32_t a = quad[k], b = quad[(k + 1) % 4];

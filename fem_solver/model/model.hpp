@@ -76,7 +76,12 @@ struct Model {
     std::vector<double> volume;  ///< of the undeformed elements [m3]
     scene::Kinematics kinematics = scene::Kinematics::small_strain;
     Rayleigh rayleigh;
+    std::vector<char> absent;  ///< [elements] not placed yet or removed; empty: all are there
+    /// What a stage does not let act yet, per dof [N], and when it lets go of it [s]; empty: nothing
+    Eigen::VectorXd withheld;
+    double withheld_from = 0.0, withheld_for = 0.0;
 
+    bool is_absent(std::size_t element) const { return !absent.empty() && absent[element] != 0; }
     std::size_t points() const { return mesh.quads.size() * points_per_element; }
     double thickness_of(std::size_t element) const {
         return element < body.elements ? thickness : column_thickness * thickness;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/materials/norsand/instability.hpp"
 #include "core/phases/phases.hpp"
 #include "core/telemetry/columns.hpp"
 
@@ -38,6 +39,9 @@ const std::vector<Column>& columns() {
         Named{"epsilon_q_max", &R::epsilon_q_max},
         Named{"strained_share", &R::strained_share},
         Named{"softened_share", &R::softened_share},
+        Named{"psi_avg", &R::psi_avg},
+        Named{"instability_ratio_max", &R::instability_ratio_max},
+        Named{"past_peak_share", &R::past_peak_share},
         Named{"excess_pressure_avg", &R::excess_pressure_avg},
         Named{"r_u_max", &R::r_u_max},
         Named{"liquefaction_depth", &R::liquefaction_depth},
@@ -76,6 +80,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
     Distortion result;
     double volume = 0.0, centre = 0.0, least = 0.0;
     for (std::size_t e = 0; e < model.body.elements; ++e) {
+        if (model.is_absent(e)) continue;
         const auto ratio = mechanics::jacobian_ratio(displaced_corners(model, e, motion.u),
                                                      corners_of(model.mesh, e));
         if (ratio.least < result.least) {
@@ -121,6 +126,32 @@ Softened softened_volume(const Model& model, const Motion& motion) {
     return volume;
 }
 
+/// NorSand's points of the body that are there.
+void read_instability(const Model& model, const Motion& motion, Reading& r) {
+    double volume = 0.0, psi = 0.0, past = 0.0;
+    for (std::size_t z = 0; z < motion.memory.size(); ++z) {
+        const Zone& zone = model.zones[z];
+        const auto read = [&]<class Law>(const Law& law, const auto& points) {
+            if constexpr (std::same_as<Law, materials::NorSand>) {
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const std::size_t e = zone.first + i / model.points_per_element;
+                    if (e >= model.body.elements || model.is_absent(e)) continue;
+                    const materials::Instability at = instability(law, points[i]);
+                    const double w = model.reference[e].weight[i % model.points_per_element];
+                    volume += w;
+                    psi += w * at.psi;
+                    past += at.past_peak ? w : 0.0;
+                    r.instability_ratio_max = std::max(r.instability_ratio_max, at.ratio);
+                }
+            }
+        };
+        materials::with_memory(zone.law, motion.memory[z], read);
+    }
+    if (volume == 0.0) return;
+    r.psi_avg = psi / volume;
+    r.past_peak_share = past / volume;
+}
+
 /// 0 where the base is held.
 double base_velocity(const Model& model, const Motion& motion) {
     double sum = 0.0, nodes = 0.0;
@@ -151,6 +182,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     r.inverted_elements = static_cast<double>(distortion.inverted);
     double strained = 0.0, weighted = 0.0, all = 0.0;
     for (std::size_t e = 0; e < model.body.elements; ++e) {
+        if (model.is_absent(e)) continue;
         const double epsilon_q = element_epsilon_q(model, motion, e);
         all += model.volume[e];
         r.epsilon_q_max = std::max(r.epsilon_q_max, epsilon_q);
@@ -161,6 +193,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     if (strained > 0.0) r.epsilon_q_avg = weighted / strained;
     r.strained_share = strained / all;
     const Softened softened = softened_volume(model, motion);
+    read_instability(model, motion, r);
     if (softened.possible > 0.0) r.softened_share = softened.done / softened.possible;
     return r;
 }

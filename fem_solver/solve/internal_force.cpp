@@ -92,6 +92,9 @@ void InternalForce::small_strains(std::size_t element, const Motion& old, const 
         d_epsilon_[element * points_ + g] = strain_of(model_.reference[element].B[g], d_u);
     }
     if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
+    if (!model_.is_absent(element)) return;
+    for (std::size_t g = 0; g < points_; ++g) d_epsilon_[element * points_ + g].setZero();
+    if (!d_q_.empty()) d_q_[element].setZero();
 }
 
 /// Strain increment and rotation from the mid-configuration: both are exact for a rigid rotation
@@ -316,6 +319,7 @@ void InternalForce::visit_nodal_forces(std::size_t begin, std::size_t end, const
             f.noalias() += q.B[g].transpose() * sigma;
         }
         if (!d_q_.empty()) f += hourglass_forces(geometries[e], trial.hourglass[e].force);
+        if (model_.is_absent(e)) f.setZero();
         take(e, f);
     }
 }
@@ -325,6 +329,7 @@ void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, Linea
     const std::vector<Quadrature>& current = quadratures();
     const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
+        if (model_.is_absent(e)) continue;
         const Quadrature& q = current[e];
         Stiffness K = Stiffness::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
@@ -402,7 +407,8 @@ void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const 
     for (const Zone& zone : model_.zones) {
         const mechanics::Elasticity& elasticity = materials::elasticity(zone.law);
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
-            A.add_element(e, factor * elastic_stiffness(model_, e, elasticity));
+            if (!model_.is_absent(e))
+                A.add_element(e, factor * elastic_stiffness(model_, e, elasticity));
         }
     }
 }
@@ -413,6 +419,7 @@ void InternalForce::visit_viscous_elements(Visit visit) const {
     for (const Zone& zone : model_.zones) {
         if (zone.viscosity == 0.0) continue;
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
+            if (model_.is_absent(e)) continue;
             visit(e,
                   ElementOperators{quadratures()[e], points_,
                                    d_q_.empty() ? nullptr : &hourglasses()[e]},

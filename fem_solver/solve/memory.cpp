@@ -48,6 +48,7 @@ std::size_t points_with_memory(const Model& model, const Motion& motion) {
 
 StressBias begin_memory(const Model& model, Motion& motion) {
     if (!motion.memory.empty() || !has_memory(model)) return stress_bias(model, motion);
+    StressBias cut;
     for (const Zone& zone : model.zones) {
         motion.memory.push_back(
             materials::memory_for(zone.law, zone.count * model.points_per_element));
@@ -56,11 +57,23 @@ StressBias begin_memory(const Model& model, Motion& motion) {
             for (auto& each : points) {
                 const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
                 each = first_memory(law, motion.points[p].sigma, epsilon_v);
-                motion.points[p++].sigma = materials::stress(law, each);
+                Voigt& sigma = motion.points[p++].sigma;
+                const Voigt held = materials::stress(law, each);
+                Voigt lost = held - sigma;
+                lost[2] = 0.0;  // no node feels it, and PM4Sand does not know it
+                const double size = lost.cwiseAbs().maxCoeff();
+                if (size > 1e-9 * held.cwiseAbs().maxCoeff() && !model.is_absent(zone.first)) {
+                    ++cut.cut_down;
+                    cut.largest_cut = std::max(cut.largest_cut, size);
+                }
+                sigma = held;
             }
         });
     }
-    return stress_bias(model, motion);
+    StressBias bias = stress_bias(model, motion);
+    bias.cut_down = cut.cut_down;
+    bias.largest_cut = cut.largest_cut;
+    return bias;
 }
 
 MemoryPass::MemoryPass(const Model& model, int threads)

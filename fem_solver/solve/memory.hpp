@@ -22,7 +22,9 @@ std::string names_of_laws_with_memory(const Model& model);
 /// What the switch left as a constant stress because it lay outside the law's surfaces.
 struct StressBias {
     std::size_t points = 0;
-    double largest = 0.0;  ///< largest component [Pa]
+    double largest = 0.0;      ///< largest component [Pa]
+    std::size_t cut_down = 0;  ///< points whose law could not hold their stress, and changed it
+    double largest_cut = 0.0;  ///< largest component taken from one [Pa]
 };
 
 /// Makes the first memory of every point of every zone that remembers, from the stress and the

@@ -30,6 +30,9 @@ void set_external_force(const Model& model, const Beginning& beginning, double t
     force = model.external_force;
     if (beginning.base_reaction.size() > 0) force += beginning.base_reaction;
     if (model.base.any()) model.base.add_force(time, force);
+    const double gone = time - model.withheld_from;
+    if (model.withheld.size() > 0 && gone < model.withheld_for)
+        force += (1.0 - gone / model.withheld_for) * model.withheld;
 }
 
 NewtonOutcome dynamic_step(Newton& newton, const Model& model,

@@ -1,0 +1,105 @@
+// NorSand (norsand.hpp) as one of the laws. Its points remember a norsand::State (memory.hpp).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/materials/memory.hpp"
+#include "core/materials/norsand/fields.hpp"
+#include "core/materials/traits.hpp"
+
+namespace breach::materials {
+
+struct NorSand {
+    using Memory = norsand::State;
+    using Update = norsand::Update;
+
+    mechanics::Elasticity elasticity;  ///< of the stages before norsand::initialise: G = G_ref
+    norsand::Ready ready;              ///< S is the material's; stages may set another (with_S)
+    norsand::Options options;
+    std::optional<double> psi_0;  ///< state parameter of the beginning [-]; one of the two
+    std::optional<double> e_0;    ///< void ratio of the beginning [-]
+    double R = 1.0;               ///< overconsolidation [-]
+};
+
+inline const NorSand& ready(const NorSand& law) { return law; }
+
+/// Its tangent in the FEM is the elastic predictor's, which is symmetric.
+inline Traits traits(const NorSand&) {
+    return {.type = "norsand",
+            .name = "NorSand",
+            .yields = true,
+            .opens = false,
+            .frictional = true,
+            .c_and_phi = false,
+            .symmetric_tangent = true,
+            .tells_plastic_strain = false};
+}
+/// Sine of the friction angle of triaxial compression at the stress ratio eta = q/p.
+inline double sine_at(double eta) { return 3.0 * eta / (6.0 + eta); }
+/// Soil at critical state: friction alone.
+inline std::optional<Strength> limit_strength(const NorSand& law) {
+    return Strength{0.0, std::tan(std::asin(sine_at(law.ready.parameters.M_tc)))};
+}
+inline const Softening* softening(const NorSand&) { return nullptr; }
+inline StrengthEntries strength_entries(NorSand&) { return {}; }
+/// Its surface follows what its points remember: a stress alone is neither inside nor outside.
+inline double yield_excess(const NorSand&, const State&) {
+    return -std::numeric_limits<double>::infinity();
+}
+inline Voigt return_to_surface(const NorSand&, const State& state) { return state.sigma; }
+inline std::optional<LawLanes> for_particles(const NorSand&) { return std::nullopt; }
+
+/// What a stress was like that a point begins with.
+inline norsand::Beginning beginning(const NorSand& law, const Voigt& sigma) {
+    const double p = std::max(-(sigma[0] + sigma[1] + sigma[2]) / 3.0, law.ready.parameters.p_min);
+    const double e_0 =
+        law.e_0 ? *law.e_0 : law.psi_0.value_or(0.0) + critical_void_ratio(law.ready, p);
+    return norsand::initialise(law.ready, sigma, e_0, law.R);
+}
+/// The volume strain of elastic stages is of no account: psi_0 belongs to the stress that is there.
+inline norsand::State first_memory(const NorSand& law, const Voigt& sigma, double) {
+    return beginning(law, sigma).state;
+}
+inline Voigt stress(const NorSand&, const norsand::State& memory) {
+    return norsand::stress(memory);
+}
+/// A call that the law wants cut, in halves and these again; what is no more than round-off
+/// changes nothing.
+inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::State& old,
+                                          const Voigt& d_epsilon, int cuts_left) {
+    constexpr double round_off = 1e-14;  // strain
+    if (d_epsilon.cwiseAbs().maxCoeff() <= round_off) return {old, norsand::Outcome::done, {}};
+    norsand::Update first = norsand::integrate(law.ready, old, d_epsilon, law.options);
+    if (first.outcome != norsand::Outcome::unresolved || cuts_left == 0) return first;
+    first = integrate_in_parts(law, old, 0.5 * d_epsilon, cuts_left - 1);
+    if (first.outcome != norsand::Outcome::done) return {old, first.outcome, first.counts};
+    norsand::Update second = integrate_in_parts(law, first.state, 0.5 * d_epsilon, cuts_left - 1);
+    second.counts += first.counts;
+    if (second.outcome != norsand::Outcome::done) second.state = old;
+    return second;
+}
+inline void integrate(const NorSand& law, std::span<const norsand::State> old,
+                      std::span<const Voigt> d_epsilon, std::span<norsand::Update> updates) {
+    norsand::integrate(law.ready, old, d_epsilon, law.options, updates);
+    constexpr int most_cuts = 10;
+    for (std::size_t i = 0; i < updates.size(); ++i)
+        if (updates[i].outcome == norsand::Outcome::unresolved)
+            updates[i] = integrate_in_parts(law, old[i], d_epsilon[i], most_cuts);
+}
+inline Matrix4 elastic_tangent(const NorSand& law, const norsand::State& memory) {
+    return norsand::elastic_tangent(law.ready, memory);
+}
+inline double shear_modulus(const NorSand& law, const norsand::State& memory) {
+    return norsand::read(law.ready, memory).G;
+}
+/// Of the stress ratio that `initialise` lets stand.
+inline double friction(const NorSand& law, const norsand::State& memory) {
+    const norsand::Reading reading = norsand::read(law.ready, memory);
+    return sine_at(0.98 * std::max(std::min(reading.eta_L, reading.M_i), 0.05));
+}
+/// Nothing stays beside it: a stress that did not fit was cut down to one that does.
+inline double stress_outside(const NorSand&, const norsand::State&) { return 0.0; }
+
+}  // namespace breach::materials

@@ -1,0 +1,19 @@
+// Stages that change the body: which elements are there, which supports hold, what lies on the
+// ground.
+#pragma once
+
+#include "fem_solver/model/choose.hpp"
+#include "fem_solver/model/model.hpp"
+
+namespace breach::fem {
+
+/// Puts in force what the stages up to this one have placed, removed, released and loaded. Asks the
+/// scene alone, so that a resumed run has the same. Throws BadInput where a stage cannot be: it
+/// removes all that a support holds, leaves a direction unheld, or changes what is below water.
+void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
+               Model& model);
+
+/// Takes stress and strain from the points that are not there.
+void forget_absent(const Model& model, Motion& motion);
+
+}  // namespace breach::fem

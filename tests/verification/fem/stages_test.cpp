@@ -1,0 +1,207 @@
+// Stages that change the body, against closed forms of an elastic column: a lift, an excavation, a
+// surcharge, a support that lets go; and what cannot be.
+#include <cmath>
+
+#include "core/check/check.hpp"
+#include "fem_solver/checkpoint.hpp"
+#include "tests/verification/fem/bench.hpp"
+
+namespace breach::fem {
+namespace {
+
+using bench::expect_error;
+using nlohmann::json;
+
+constexpr double E = 20e6, nu = 0.3, rho = 2000.0, g = 9.81;
+constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));  // one-dimensional [Pa]
+
+/// A column 1 m wide of two regions, "low" 4 m and "top" 2 m high, between smooth walls.
+json column(const json& stages) {
+    json scene = bench::scene_of({.height = 4.0, .rows = 4, .stages = stages});
+    json& regions = scene["section"]["regions"];
+    regions[0]["name"] = "low";
+    json top = regions[0];
+    top["name"] = "top";
+    top["polygon"] = {{0, 4}, {1, 4}, {1, 6}, {0, 6}, {0, 4}};
+    top["mesh"]["divisions"] = {1, 2};
+    regions.push_back(top);
+    scene["fem"]["supports"][0]["to"] = {0, 6};
+    scene["fem"]["supports"][1]["to"] = {1, 6};
+    scene["fem"]["crest"] = {1, 4};
+    return scene;
+}
+
+json static_stage(const char* name, const json& more = json::object()) {
+    json stage{{"type", "static"}, {"name", name}};
+    stage.update(more);
+    return stage;
+}
+
+double settlement_at(const Analysis& analysis, const Vec2& x) {
+    const std::size_t node = nearest_node(analysis.model().mesh, x);
+    return -analysis.motion().u[static_cast<Eigen::Index>(2 * node + 1)];
+}
+
+TEST(Stages, ALiftOnAnElasticColumnSettlesItAsTheClosedFormSays) {
+    for (const std::string kind : {"ssp", "bbar"}) {
+        json before =
+            column({static_stage("gravity"), static_stage("lift", {{"activate", {"top"}}})});
+        before["fem"]["element"] = kind;
+        bench::Run run(before);
+        const Analysis& done = run.go();
+        // Its own weight, rho g H^2 / 2 M, then 2 m of soil on 4 m.
+        const double own = rho * g * 16.0 / (2.0 * M), lift = rho * g * 2.0 * 4.0 / M;
+        expect_error(kind + ": settlement of the ground under a lift",
+                     std::abs(settlement_at(done, {1, 4}) / (own + lift) - 1.0), 1e-8);
+        // The lift came without stress: its top settles with the ground and under its own weight.
+        const double of_lift = rho * g * 4.0 / (2.0 * M);
+        expect_error(kind + ": settlement of the lift's top",
+                     std::abs(settlement_at(done, {1, 6}) / (lift + of_lift) - 1.0), 1e-8);
+    }
+}
+
+TEST(Stages, AnExcavationHeavesTheGroundAsTheClosedFormSays) {
+    for (const int steps : {1, 4}) {
+        bench::Run run(column({static_stage("gravity"),
+                               static_stage("dig", {{"remove", {"top"}}, {"load_steps", steps}})}));
+        const Analysis& done = run.go();
+        const double left = rho * g * 16.0 / (2.0 * M);  // of the 4 m that are there alone
+        expect_error("settlement that an excavation leaves",
+                     std::abs(settlement_at(done, {1, 4}) / left - 1.0), 1e-8);
+        const State& lowest = done.motion().points.at(0);
+        EXPECT_LT(lowest.sigma[1], 0.0);
+        for (std::size_t e = 0; e < done.model().mesh.quads.size(); ++e) {
+            if (!done.model().is_absent(e)) continue;
+            EXPECT_EQ(done.motion().points.at(e * done.model().points_per_element).sigma.norm(),
+                      0.0);
+        }
+    }
+}
+
+TEST(Stages, ASurchargeCompressesTheColumnAndGoesAgain) {
+    const json load = json::array({{{"from", -1}, {"to", 2}, {"pressure_kPa", 50}}});
+    bench::Run loaded(
+        column({static_stage("gravity"), static_stage("load", {{"surcharge", load}})}));
+    const double own = rho * g * 36.0 / (2.0 * M);
+    expect_error("settlement under a surcharge",
+                 std::abs(settlement_at(loaded.go(), {1, 6}) / (own + 50e3 * 6.0 / M) - 1.0), 1e-8);
+    bench::Run unloaded(
+        column({static_stage("gravity"), static_stage("load", {{"surcharge", load}}),
+                static_stage("unload", {{"surcharge", json::array()}})}));
+    expect_error("settlement after it has gone",
+                 std::abs(settlement_at(unloaded.go(), {1, 6}) / own - 1.0), 1e-8);
+}
+
+TEST(Stages, ASupportThatLetsGoGivesItsReactionBack) {
+    // Without gravity: a load on the top, smooth walls; then the right wall goes.
+    json scene = column(
+        {static_stage("load", {{"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", 50}}}}}),
+         static_stage("release", {{"release", {"right"}}, {"load_steps", 2}})});
+    scene["gravity"] = 0.0;
+    scene["fem"]["supports"][2]["fixes"] = "y";
+    bench::Run run(scene);
+    const Analysis& done = run.go();
+    // sigma_xx = 0 in plane strain: epsilon_yy = -(1 - nu^2) q / E, epsilon_xx = nu (1 + nu) q / E.
+    expect_error("settlement without the wall",
+                 std::abs(settlement_at(done, {1, 6}) / ((1 - nu * nu) * 50e3 * 6.0 / E) - 1.0),
+                 1e-8);
+    const std::size_t node = nearest_node(done.model().mesh, {1, 6});
+    expect_error(
+        "widening without the wall",
+        std::abs(done.motion().u[static_cast<Eigen::Index>(2 * node)] / (nu * (1 + nu) * 50e3 / E) -
+                 1.0),
+        1e-8);
+}
+
+/// A free-standing column of clay (c = 20 kPa, phi = 0) that carries 2 c = 40 kPa, under `pressure`.
+json clay_column(double pressure_kPa, double ramp) {
+    json scene = column(
+        {static_stage("load",
+                      {{"laws", "scene"},
+                       {"load_steps", 8},
+                       {"at_limit", "go_on"},
+                       {"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", pressure_kPa}}}}}),
+         {{"type", "dynamic"},
+          {"name", "run"},
+          {"duration", 0.2},
+          {"time_step", 2e-3},
+          {"ramp", ramp}}});
+    scene["gravity"] = 0.0;
+    scene["materials"]["soil"]["law"] = {
+        {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 20},
+        {"phi_deg", 0},           {"psi_deg", 0}};
+    json& supports = scene["fem"]["supports"];
+    supports.erase(1);
+    supports[1]["fixes"] = "y";
+    return scene;
+}
+
+TEST(Stages, AStaticLimitPointIsAnEventAndTheFailureRunsInMotion) {
+    bench::Run failing(clay_column(80.0, 0.01));
+    const Analysis& failed = failing.go();
+    const json limit = failing.session().result()["geostatic"]["load"]["limit_point"];
+    ASSERT_TRUE(limit.is_number());
+    expect_error("load at the limit point, over 2 c / q", std::abs(limit.get<double>() / 0.5 - 1.0),
+                 2e-3);
+    // Failure is growing kinetic energy: 40 kPa push what nothing carries.
+    const auto& rows = failed.history();
+    ASSERT_GT(rows.size(), 4u);
+    EXPECT_GT(rows.back().kinetic_energy, 4.0 * rows.at(rows.size() / 2).kinetic_energy);
+    EXPECT_GT(rows.back().kinetic_energy, 1.0);
+
+    bench::Run standing(clay_column(30.0, 0.01));
+    const Analysis& stood = standing.go();
+    EXPECT_FALSE(standing.session().result()["geostatic"]["load"].contains("limit_point"));
+    EXPECT_LT(stood.history().back().kinetic_energy, 1e-6 * rows.back().kinetic_energy);
+}
+
+TEST(Stages, AnUnchangedSceneHasNothingAbsent) {
+    bench::Run run(column(json::array({static_stage("gravity")})));
+    EXPECT_TRUE(run.go().model().absent.empty());
+}
+
+/// Where a scene is refused, by reading, checking or building.
+std::string place_refused(const json& scene) {
+    try {
+        const scene::Scene parsed = bench::parse(scene);
+        const auto faults = check::findings_of(parsed).faults;
+        if (!faults.empty()) return faults.at(0).pointer;
+        bench::Run run(scene);
+    } catch (const fault::BadInput& bad) {
+        return bad.faults().at(0).pointer;
+    }
+    return "";
+}
+
+TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {
+    EXPECT_EQ(place_refused(column(json::array({static_stage("a", {{"activate", {"nowhere"}}})}))),
+              "/fem/stages/0/activate/0");
+    EXPECT_EQ(place_refused(column({static_stage("a", {{"activate", {"top"}}}),
+                                    static_stage("b", {{"activate", {"top"}}})})),
+              "/fem/stages/1/activate/0");
+    EXPECT_EQ(place_refused(column({static_stage("a", {{"remove", {"top"}}}),
+                                    static_stage("b", {{"remove", {"top"}}})})),
+              "/fem/stages/1/remove/0");
+    EXPECT_EQ(place_refused(column({static_stage("a"), static_stage("b", {{"remove", {"low"}}})})),
+              "/fem/stages/1/remove")
+        << "the base holds only the lower region";
+    EXPECT_EQ(
+        place_refused(column({static_stage("a"), static_stage("b", {{"release", {"base"}}})})),
+        "/fem/stages/1");
+    EXPECT_EQ(place_refused(column(json::array({static_stage("a", {{"release", {"roof"}}})}))),
+              "/fem/stages/0/release/0");
+    EXPECT_EQ(place_refused(column(json::array({static_stage("a", {{"at_limit", "go_on"}})}))),
+              "/fem/stages/0/at_limit");
+    json moving = column({static_stage("a"), static_stage("b", {{"remove", {"top"}}})});
+    moving["fem"]["kinematics"] = "updated_lagrangian";
+    EXPECT_EQ(place_refused(moving), "/fem/stages/1");
+    json wet = column({static_stage("a"), static_stage("b", {{"remove", {"top"}}})});
+    wet["fem"]["element"] = "ssp";
+    wet["fem"]["water"] = {{"line", {{0, 5}}}};
+    wet["materials"]["soil"]["void_ratio"] = 0.8;
+    wet["materials"]["soil"]["permeability"] = {1e-6, 1e-6};
+    EXPECT_EQ(place_refused(wet), "/fem/stages");
+}
+
+}  // namespace
+}  // namespace breach::fem
