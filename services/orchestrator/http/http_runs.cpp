@@ -262,7 +262,7 @@ void submit_sweep(Service& service, Call& call) {
 }
 
 /// Another budget, or none: null. What is spent already would stop it at once.
-void change_budget(Service& service, const Run& run, const json& wanted) {
+void change_budget(Service& service, const Call& call, const Run& run, const json& wanted) {
     std::optional<double> budget;
     if (!wanted.is_null()) {
         budget = checked_budget(wanted);
@@ -294,7 +294,7 @@ void extend_sweep(Service& service, Call& call) {
             "the body must be {\"transfer_times\": [...] or {from, to, step}}, {\"samples\": N} or "
             "{\"budget\": {\"cpu_seconds\": N} or null}");
     if (budget) {
-        change_budget(service, run, body["budget"]);
+        change_budget(service, call, run, body["budget"]);
         json answer = sweep_json(service, wanted_sweep(service, id));
         answer["added"] = answer["added_samples"] = json::array();
         return reply(call.response, answer, 202);
