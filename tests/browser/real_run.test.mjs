@@ -220,7 +220,7 @@ test("a number is traced to its files, and the files are what they are said to b
     const mpm = page.locator("#provenance .step").first();
     assert.ok((await mpm.locator("li code").allTextContents()).includes(points.sha256), "the MPM's input is the transfer's output");
     await mpm.locator("summary").click();
-    const file = await mpm.locator('tr:has-text("result.json") a').getAttribute("href");
+    const file = await mpm.locator('a[download="result.json"]').getAttribute("href");
     assert.equal((await answer_of(file)).runout, row.runout);
     await page.keyboard.press("Escape");
     assert.equal(await page.locator("#cost-share svg.plot > .marker").count(), study.transfer_times.length);

@@ -19,6 +19,9 @@ const std::set<std::string> without_enum{
     "/$defs/support/properties/fixes",                         // two flags
     "/properties/transfer/properties/window/properties/pick",  // criteria::Pick
     "/$defs/pm4sand/properties/compat",                        // pm4sand::Scheme, in sand.cpp
+    "/$defs/norsand/properties/flow",                          // norsand::FlowRule, in norsand.cpp
+    "/$defs/norsand/properties/unloading",                     // norsand::Unloading, in norsand.cpp
+    "/$defs/static_stage/properties/at_limit",                 // a flag
     "/properties/mpm/properties/duration/oneOf/1",             // a number, or this word
     "/properties/mpm/properties/longest_duration/oneOf/1",
     "/properties/mpm/properties/rest_change/oneOf/1",
