@@ -39,7 +39,8 @@ constexpr double least_load_step = 1e-4;  // share of gravity
 Symmetry symmetry_for(const Stage& stage, const std::vector<materials::Law>& laws) {
     const bool symmetric = std::ranges::all_of(
         laws, [](const auto& law) { return materials::traits(law).symmetric_tangent; });
-    const bool general = stage.kind == StageKind::static_equilibrium && !symmetric;
+    const bool general =
+        stage.kind == StageKind::static_equilibrium && stage.undrained.empty() && !symmetric;
     return general ? Symmetry::general : Symmetry::symmetric;
 }
 
@@ -113,12 +114,20 @@ Outcome Analysis::run() {
     return Outcome::done;
 }
 
+/// Body, supports, loads and water of the stage that the position says.
+void Analysis::place_stage() {
+    if (!fem_.changes_the_body()) return;
+    set_stage(session_.scene(), decide_model(session_.scene()),
+              static_cast<std::size_t>(position_.stage), model_);
+    set_skeleton_modulus(beginning_, model_);
+    prediction_ = prediction_for(model_);
+}
+
 void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
-    const Solved solved = stage.kind == StageKind::static_equilibrium ? Solved::displacement
-                                                                      : Solved::motion_and_pressure;
-    if (fem_.changes_the_body())
-        set_stage(session_.scene(), decide_model(session_.scene()),
-                  static_cast<std::size_t>(position_.stage), model_);
+    const Solved solved = stage.kind == StageKind::dynamic ? Solved::motion_and_pressure
+                          : stage.undrained.empty()        ? Solved::displacement
+                                                           : Solved::displacement_and_pressure;
+    place_stage();
     const Stopwatch watch(seconds_, &Seconds::factor);
     newton_.emplace(
         model_, solved,
@@ -132,18 +141,19 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
 void Analysis::begin_stage(const Stage& stage) {
     laws_ = laws_for(model_, stage.laws);
     const bool is_static = stage.kind == StageKind::static_equilibrium;
-    // A static stage drains: NorSand softens no more than it hardens there, unless the stage asks.
-    if (const auto S = stage.S || !is_static ? stage.S : 0.0)
-        for (materials::Law& law : laws_) law = materials::with_S(law, *S);
-    set_permeability(session_.scene(), stage.permeability, model_);
+    set_softening(stage);
     if (!newton_) make_newton(stage, counts_);
+    set_permeability(session_.scene(), stage.permeability, model_);
+    const bool drains = stage.undrained.empty();
     if (position_.stage_begun) {
+        if (!drains) close_to_flow(model_);
         if (stage.ramp > 0.0) withhold(stage, stage_force_);
         return;
     }
     position_.stage_begun = true;
     spdlog::info("stage {}", stage.name);
-    if (is_static && model_.water.any()) motion_.p = steady_pressure(model_);
+    if (is_static) set_steady_pressure();
+    if (!drains) close_to_flow(model_);
     if (fem_.changes_the_body()) forget_absent(model_, motion_);
     if (stage.laws == scene::StageLaws::scene) begin_laws(stage);
     // What is gone holds nothing any more: the stage releases what it held, from these forces on.
@@ -151,10 +161,17 @@ void Analysis::begin_stage(const Stage& stage) {
     if (is_static) {
         position_.load_step = 1.0 / stage.load_steps;
         stage_force_ = motion_.force;
+        if (drains) return;
+        Eigen::VectorXd of_water = Eigen::VectorXd::Zero(model_.dofs());
+        add_pressure_force(model_, motion_.p, of_water);
+        stage_force_ -= of_water;
         return;
     }
     position_.dt = stage.time_step;
     position_.easy_steps = 0;
+    for (std::size_t i = 0; i < model_.water.is_unknown.size(); ++i)
+        if (const auto n = static_cast<Eigen::Index>(i); !model_.water.is_unknown[i])
+            motion_.p[n] = model_.water.prescribed[n];  // it drains again
     settle_stresses(*newton_, laws_, motion_, trial_);
     if (!position_.moving) begin_motion();
     model_.withheld.resize(0);
@@ -174,6 +191,30 @@ void Analysis::begin_stage(const Stage& stage) {
     if (thrown > resolved * quality_of(model_.mesh).shortest_edge) motion_.a.setZero();
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
     write_due_outputs(0.0, {End::converged, 0, 0.0});
+}
+
+/// Where water drains NorSand softens no more than it hardens, unless a stage that drains
+/// everywhere asks for it.
+void Analysis::set_softening(const Stage& stage) {
+    for (std::size_t z = 0; z < laws_.size(); ++z) {
+        const auto region =
+            static_cast<std::size_t>(model_.mesh.region_of_element[model_.zones[z].first]);
+        const bool undrained = stage.kind == StageKind::dynamic ||
+                               std::ranges::find(stage.undrained, region) != stage.undrained.end();
+        const bool asked = stage.S && (undrained || stage.undrained.empty());
+        if (asked) laws_[z] = materials::with_S(laws_[z], *stage.S);
+        if (!asked && !undrained) laws_[z] = materials::with_S(laws_[z], 0.0);
+    }
+}
+
+/// That of steady seepage; where no water flows the pressure stays what it was.
+void Analysis::set_steady_pressure() {
+    Eigen::VectorXd p = model_.water.any() ? steady_pressure(model_) : model_.water.prescribed;
+    for (std::size_t i = 0; i < model_.undrained.size(); ++i)
+        if (model_.undrained[i])
+            p[static_cast<Eigen::Index>(i)] = motion_.p[static_cast<Eigen::Index>(i)];
+    motion_.p = std::move(p);
+    motion_.p_rate = Eigen::VectorXd::Zero(motion_.p.size());
 }
 
 /// What is out of balance when the stage begins comes to bear along its ramp.
@@ -269,6 +310,7 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
     while (position_.load < 1.0) {
         if (session_.stop_requested()) return StageEnd::stopped;
         const double load = std::min(1.0, start + position_.load_step);
+        drive(load - start);
         const NewtonOutcome outcome =
             static_step(*newton_, model_, laws_, load, stage_force_, motion_, prediction_, trial_);
         ++position_.step;
@@ -280,19 +322,50 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
                     note_limit_point(stage);
                     return StageEnd::reached;
                 }
+                const std::string why =
+                    outcome.end == End::degenerate
+                        ? in_words(newton_->internal_force().memory_pass().refusal())
+                        : "out of balance " + text_of(outcome.residual) + " of the weight";
                 give_up("no equilibrium in stage '" + stage.name + "' beyond " +
-                        text_of(position_.load) + " of gravity (out of balance " +
-                        text_of(outcome.residual) + " of the weight)");
+                        text_of(position_.load) + " of its load: " + why);
             }
             continue;
         }
         std::swap(motion_, trial_);
         position_.load = start = load;
+        note_reactions(stage);
         spdlog::info("  {:.4g} of gravity in {} iterations, out of balance {:.2e}", load,
                      outcome.iterations, outcome.residual);
         if (load >= 1.0) note_geostatic_state(stage, outcome);
+        if (checkpoint_is_due()) write_checkpoint();
     }
     return StageEnd::reached;
+}
+
+/// Moves what the stage moves by this share of its way.
+void Analysis::drive(double share) {
+    prediction_.driven.resize(0);
+    if (model_.driven.empty()) return;
+    prediction_.driven = Eigen::VectorXd::Zero(model_.dofs());
+    for (const Model::Driven& each : model_.driven) prediction_.driven[each.dof] = share * each.by;
+}
+
+/// What pushes the edges that the stage moves, per metre of thickness, step by step.
+void Analysis::note_reactions(const Stage& stage) {
+    if (stage.displacements.empty()) return;
+    Eigen::VectorXd applied = prediction_.external;
+    if (!stage.undrained.empty()) add_pressure_force(model_, motion_.p, applied);
+    auto& facts = session_.result()["geostatic"][stage.name]["displaced"];
+    for (const scene::Displacement& each : stage.displacements) {
+        Vec2 force = Vec2::Zero();
+        for (const std::size_t i : nodes_on(model_.mesh, each.from, each.to)) {
+            const auto d = static_cast<Eigen::Index>(2 * i);
+            force += (motion_.force - applied).segment<2>(d) / model_.thickness;
+        }
+        facts[each.name].push_back({{"load", position_.load},
+                                    {"force_x", each.x ? force.x() : 0.0},
+                                    {"force_y", each.y ? force.y() : 0.0}});
+    }
 }
 
 /// The load beyond which the body finds no equilibrium: `motion_` is the last one.

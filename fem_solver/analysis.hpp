@@ -33,8 +33,13 @@ class Analysis {
 
     StageEnd static_stage(const scene::Stage& stage);
     StageEnd dynamic_stage(const scene::Stage& stage);
+    void place_stage();
     void make_newton(const scene::Stage& stage, const NewtonCounts& counts);
     void begin_stage(const scene::Stage& stage);
+    void set_softening(const scene::Stage& stage);
+    void set_steady_pressure();
+    void drive(double share);
+    void note_reactions(const scene::Stage& stage);
     void begin_laws(const scene::Stage& stage);
     void begin_motion();
     void check_changes() const;

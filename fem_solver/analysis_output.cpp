@@ -121,6 +121,8 @@ void Analysis::resume() {
     const auto file = session_.output(phases::files::checkpoint);
     const exchange::Archive archive =
         exchange::read_archive(file, checkpoint_kind, checkpoint_version, exchange::Reals::finite);
+    position_ = position_in(archive, session_.scene(), file.string());
+    place_stage();
     Checkpoint checkpoint = checkpoint_from(archive, session_.scene(), model_, file.string());
     if (const auto kept = archive.texts.find(geostatic); kept != archive.texts.end()) {
         session_.result()[geostatic] = nlohmann::json::parse(kept->second);
@@ -129,7 +131,6 @@ void Analysis::resume() {
         entanglement_ =
             entanglement_from(nlohmann::json::parse(noted->second), session_.scene().section);
     }
-    position_ = checkpoint.position;
     motion_ = std::move(checkpoint.motion);
     trial_ = motion_;
     beginning_ = std::move(checkpoint.beginning);

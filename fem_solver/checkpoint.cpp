@@ -92,6 +92,7 @@ void put(exchange::Archive& archive, const Motion& motion) {
     archive.reals["epsilon_q"] = std::move(epsilon_q);
     archive.reals["strain"] = std::move(strain);
     put_memory(archive, motion);
+    if (!motion.turned.empty()) archive.reals["turned"] = motion.turned;
     if (motion.hourglass.empty()) return;
     Reals& hourglass = archive.reals["hourglass"];
     for (const Hourglass& h : motion.hourglass) {
@@ -119,6 +120,7 @@ Motion motion_from(const exchange::Archive& archive, const Model& model) {
         motion.strain.push_back(tensor_at(strain, p));
     }
     take_memory(archive, model, motion);
+    if (archive.reals.contains("turned")) motion.turned = archive.reals.at("turned");
     if (!archive.reals.contains("hourglass")) return motion;
     const Reals& h = archive.reals.at("hourglass");
     for (std::size_t i = 0; i + 3 < h.size(); i += 4) {
@@ -177,10 +179,9 @@ bool fits(const Beginning& beginning, const Model& model) {
            empty_or(beginning.skeleton_modulus, model.water.elements.size());
 }
 
-/// Everything but whose it is. Throws std::out_of_range when a number is missing or one is left over.
+/// Everything but whose it is and where. Throws std::out_of_range when a number is missing or one is left over.
 Checkpoint read(const exchange::Archive& archive, const Model& model) {
     Checkpoint c;
-    c.position = position_from(archive);
     c.motion = motion_from(archive, model);
     c.beginning = beginning_from(archive);
     c.stage_force = vector_from(archive.reals.at("stage_force"));
@@ -207,6 +208,10 @@ Checkpoint read(const exchange::Archive& archive, const Model& model) {
     throw fault::BadInput(file, {{where, cause, "resume with the same scene, or start afresh"}});
 }
 
+[[noreturn]] void refuse_arrays(const std::string& file) {
+    refuse(file, "/breachline/reals", "the checkpoint's arrays are not those of this mesh");
+}
+
 }  // namespace
 
 exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene) {
@@ -231,23 +236,35 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
     return archive;
 }
 
-Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
-                           const Model& model, const std::string& file) {
+Position position_in(const exchange::Archive& archive, const scene::Scene& scene,
+                     const std::string& file) {
     const auto scene_there = archive.texts.find("scene");
     if (scene_there == archive.texts.end() ||
         scene_there->second != exchange::sha256_of_text(scene.completed)) {
         refuse(file, "/breachline/texts/scene", "the checkpoint belongs to another scene");
     }
     try {
+        const Position position = position_from(archive);
+        if (fits(position, scene::fem_of(scene))) return position;
+    } catch (const std::out_of_range&) {
+        // A number is missing: said below.
+    }
+    refuse_arrays(file);
+}
+
+Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
+                           const Model& model, const std::string& file) {
+    const Position position = position_in(archive, scene, file);
+    try {
         Checkpoint checkpoint = read(archive, model);
-        const bool whole = fits(checkpoint.position, scene::fem_of(scene)) &&
-                           fits(checkpoint.motion, model) && fits(checkpoint.beginning, model) &&
+        checkpoint.position = position;
+        const bool whole = fits(checkpoint.motion, model) && fits(checkpoint.beginning, model) &&
                            empty_or(checkpoint.stage_force, model.mesh.nodes.size() * 2);
         if (whole) return checkpoint;
     } catch (const std::out_of_range&) {
         // An array is missing or too short: said below.
     }
-    refuse(file, "/breachline/reals", "the checkpoint's arrays are not those of this mesh");
+    refuse_arrays(file);
 }
 
 }  // namespace breach::fem

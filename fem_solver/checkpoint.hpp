@@ -41,7 +41,10 @@ struct Checkpoint {
 };
 
 exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene);
-/// Throws BadInput when the archive belongs to another scene or mesh, or lacks something.
+/// Where the archive's analysis was. Throws BadInput when it belongs to another scene.
+Position position_in(const exchange::Archive& archive, const scene::Scene& scene,
+                     const std::string& file);
+/// model: as the stage of that position has it. Throws BadInput when the archive belongs to another scene or mesh, or lacks something.
 Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
                            const Model& model, const std::string& file);
 

@@ -66,8 +66,19 @@ PlanLine cells_line(const scene::Transfer& settings) {
         "/transfer/points_per_cell"};
 }
 
-PlanLine liquefied_line(const scene::Transfer& settings) {
-    if (!settings.liquefied)
+PlanLine collapse_line(const scene::Scene& scene, const scene::Transfer& settings) {
+    const auto by_state = [&](std::size_t region) { return collapses(scene, region); };
+    if (!settings.liquefied || std::ranges::none_of(settings.liquefied->regions, by_state))
+        return {"strengths of NorSand", Use::left_out, "no region of it is to liquefy",
+                "/transfer/liquefied/regions"};
+    return {"strengths of NorSand", Use::on,
+            "wet points by stress and psi; residual where past the instability line and strained",
+            "/transfer/liquefied/regions"};
+}
+
+PlanLine liquefied_line(const scene::Scene& scene, const scene::Transfer& settings) {
+    const auto by_state = [&](std::size_t region) { return collapses(scene, region); };
+    if (!settings.liquefied || std::ranges::all_of(settings.liquefied->regions, by_state))
         return {"liquefied layers", Use::left_out, "the scene names none", "/transfer/liquefied"};
     if (settings.liquefied->layers.empty())
         return {"liquefied layers", Use::on,
@@ -145,7 +156,8 @@ process::Plan plan(const scene::Scene& scene) {
             gauss_line(settings),
             interpolation_line(settings),
             stress_line(scene, settings),
-            liquefied_line(settings),
+            liquefied_line(scene, settings),
+            collapse_line(scene, settings),
             cells_line(settings),
             entangled_line(settings),
             round_trip_line(settings),

@@ -4,6 +4,7 @@
 
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
+#include "core/words/number.hpp"
 #include "transfer_tool/transfer.hpp"
 
 namespace breach::transfer {
@@ -61,6 +62,11 @@ nlohmann::json rebuilt_as_json(const std::vector<RebuiltElement>& rebuilt) {
     return elements;
 }
 
+std::string collapse_criterion(const CollapseReport& collapse) {
+    return "eta / eta_L >= " + words::text_of(instability) + " and epsilon_q > " +
+           words::text_of(collapse.epsilon_q);
+}
+
 /// What only some transfers have.
 void report_options(const Transferred& t, nlohmann::json& result) {
     if (t.supply)
@@ -73,6 +79,13 @@ void report_options(const Transferred& t, nlohmann::json& result) {
         if (t.liquefaction->nodes > 0)
             result["deepest_liquefied_level"] = t.liquefaction->deepest_level;
     }
+    if (t.collapse)
+        result["collapse"] = {{"criterion", collapse_criterion(*t.collapse)},
+                              {"points_of_norsand", t.collapse->points},
+                              {"saturated", t.collapse->saturated},
+                              {"past_instability_line", t.collapse->past_line},
+                              {"collapsed", t.collapse->collapsed},
+                              {"collapsed_mass", t.collapse->mass}};
     if (t.round_trip)
         result["round_trip"] = {{"stress_rms", t.round_trip->stress_rms},
                                 {"stress_largest", t.round_trip->stress_largest},
@@ -97,6 +110,10 @@ void log(const Transferred& t) {
             "rebuilt: {:.4g} m2 instead of {:.4g} m2",
             each.element, each.region, each.centre.x(), each.centre.y(), each.least, each.area,
             each.area_on_mesh);
+    if (t.collapse)
+        spdlog::info("collapsed ({}): {} of {} saturated points of NorSand, {} past the line",
+                     collapse_criterion(*t.collapse), t.collapse->collapsed, t.collapse->saturated,
+                     t.collapse->past_line);
     if (t.supply && t.supply->short_cells > 0)
         spdlog::warn("{} cells have fewer points than asked", t.supply->short_cells);
     spdlog::info(

@@ -37,9 +37,22 @@ std::vector<std::size_t> match_regions(const MeshSnapshot& mesh, const scene::Sc
     return match;
 }
 
-void check_snapshot(const MeshSnapshot& mesh, const scene::Transfer& settings,
+void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                     std::vector<fault::Fault>& faults) {
-    if (settings.liquefied && mesh.sigma_v0.empty())
+    const auto& liquefied = scene::transfer_of(scene).liquefied;
+    if (!liquefied) return;
+    const auto by_state = [&](std::size_t region) { return collapses(scene, region); };
+    if (std::ranges::any_of(liquefied->regions, by_state)) {
+        if (!liquefied->layers.empty())
+            faults.push_back({"/transfer/liquefied/layers",
+                              "are by pore pressure, and NorSand's strengths come from its state",
+                              "leave the layers out, or NorSand's regions"});
+        if (mesh.psi.empty())
+            faults.push_back({"/transfer/liquefied",
+                              "the snapshot has no state parameter: its NorSand soil has not begun",
+                              "give a snapshot of a stage with the scene's laws"});
+    }
+    if (!std::ranges::all_of(liquefied->regions, by_state) && mesh.sigma_v0.empty())
         faults.push_back({"/transfer/liquefied",
                           "the snapshot has no sigma_v0 and pore_pressure_0: nobody can tell what "
                           "has liquefied",
@@ -59,7 +72,7 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     const scene::Transfer& settings = scene::transfer_of(scene);
     std::vector<fault::Fault> faults;
     const std::vector<std::size_t> match = match_regions(mesh, scene, faults);
-    check_snapshot(mesh, settings, faults);
+    check_snapshot(mesh, scene, faults);
     if (!faults.empty()) throw fault::BadInput(file, faults);
 
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
@@ -82,11 +95,13 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     if (!faults.empty()) throw fault::BadInput(file, faults);
     phreatic_line_ = settings.phreatic_line;
     if (!settings.liquefied) return;
+    collapse_ = Collapse(mesh, scene, match);
     for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
         layer_ends_.push_back(layer.to);
     std::vector<char> can_liquefy;
     for (const RegionRule& rule : rules_) can_liquefy.push_back(rule.liquefies ? 1 : 0);
-    liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u);
+    if (std::ranges::count(can_liquefy, 1) > 0)
+        liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u);
 }
 
 void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
@@ -96,11 +111,12 @@ void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>
         return static_cast<std::int32_t>(std::ranges::find(soils, scene::Soil{region, material}) -
                                          soils.begin());
     };
-    RegionRule rule{static_cast<std::int32_t>(region), std::nullopt, {}, false, region};
+    RegionRule rule{.soil = static_cast<std::int32_t>(region), .region = region};
     for (const scene::SoilMapping& each : settings.mapping)
         if (each.region == region && each.saturated) rule.saturated = index(*each.saturated);
-    rule.liquefies =
-        settings.liquefied && std::ranges::count(settings.liquefied->regions, region) > 0;
+    rule.collapses = collapses(scene, region);
+    rule.liquefies = !rule.collapses && settings.liquefied &&
+                     std::ranges::count(settings.liquefied->regions, region) > 0;
     if (rule.liquefies)
         for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
             rule.layers.push_back(index(layer.material));
@@ -125,6 +141,11 @@ materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& x
     const auto& profile = soils_[at(element, xi)].strength;
     if (!profile) return {};
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
+    if (rule.collapses)
+        if (const auto soil = collapse_.at(element, xi)) {
+            const auto& [peak, critical] = soil->strength;
+            return {soil->collapsed ? critical : peak, 0.0, critical, 0.0};
+        }
     const Vec2 place = undeformed_corners(mesh_, element) * shape_functions(xi);
     const bool flows = rule.liquefies && liquefied_->holds(place);
     return materials::strength_of_point(
@@ -166,6 +187,27 @@ void assign_soils(const SoilMap& map, Points& points) {
         for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
             s.region[p] = map.at(e, points.xi[p]);
     assign_strengths(map, points);
+}
+
+std::optional<CollapseReport> SoilMap::collapse_report(const Points& points) const {
+    CollapseReport report{.epsilon_q = collapse_.strain()};
+    bool any = false;
+    for (std::size_t e = 0; e + 1 < points.first.size(); ++e) {
+        if (!rules_[mesh_.region_of_element[e]].collapses) continue;
+        any = true;
+        report.points += points.first[e + 1] - points.first[e];
+        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
+            const auto soil = collapse_.at(e, points.xi[p]);
+            if (!soil) continue;
+            ++report.saturated;
+            if (soil->past_line) ++report.past_line;
+            if (!soil->collapsed) continue;
+            ++report.collapsed;
+            report.mass += points.state.mass[p];
+        }
+    }
+    if (!any) return std::nullopt;
+    return report;
 }
 
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,

@@ -9,6 +9,7 @@
 #include "core/geometry/polyline.hpp"
 #include "core/scene/ground.hpp"
 #include "core/scene/scene.hpp"
+#include "transfer_tool/collapse.hpp"
 #include "transfer_tool/liquefied_zone.hpp"
 #include "transfer_tool/points.hpp"
 
@@ -39,18 +40,24 @@ class SoilMap {
     /// are those of the undeformed mesh: soil takes its past along.
     std::int32_t at(std::size_t element, const Vec2& xi) const;
     /// Of such a point: by its soil's profile and where it lay in the undeformed section; zero
-    /// where the soil has none. A liquefied one has its residual strength.
+    /// where the soil has none. A liquefied one has its residual strength. Wet NorSand has the
+    /// strengths of its state, and its residual one where it has collapsed.
     materials::PointStrength strength_at(std::size_t element, const Vec2& xi) const;
-    /// Nothing when the scene names no liquefied layers.
+    /// Nothing when the scene names no soil that liquefies by its pore pressure.
     const std::optional<LiquefiedZone>& liquefied() const { return liquefied_; }
+    /// Of NorSand soil that /transfer/liquefied names.
+    const Collapse& collapse() const { return collapse_; }
+    /// What became of that soil; nothing where there is none.
+    std::optional<CollapseReport> collapse_report(const Points& points) const;
 
   private:
     struct RegionRule {
-        std::int32_t soil;                      ///< of what is neither saturated nor liquefied
-        std::optional<std::int32_t> saturated;  ///< below the phreatic line
-        std::vector<std::int32_t> layers;       ///< of liquefied soil; empty: it keeps its own
-        bool liquefies = false;
-        std::size_t region = 0;  ///< of the section
+        std::int32_t soil;                        ///< of what is neither saturated nor liquefied
+        std::optional<std::int32_t> saturated{};  ///< below the phreatic line
+        std::vector<std::int32_t> layers{};       ///< of liquefied soil; empty: it keeps its own
+        bool liquefies = false;                   ///< by its pore pressure
+        bool collapses = false;                   ///< NorSand: by its state
+        std::size_t region = 0;                   ///< of the section
     };
     void add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
                   std::size_t region);
@@ -61,6 +68,7 @@ class SoilMap {
     std::vector<Vec2> phreatic_line_;
     std::vector<double> layer_ends_;  ///< [Pa]
     std::optional<LiquefiedZone> liquefied_;
+    Collapse collapse_;
     scene::Ground ground_;
 };
 

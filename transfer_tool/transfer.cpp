@@ -56,6 +56,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.shares = shares_of_soils(map, points.state);
     t.softening = softening_of(laws, points.state);
     t.liquefaction = liquefaction_of(map);
+    t.collapse = map.collapse_report(points);
     t.state = std::move(points.state);
     t.state.base_motion = mesh.base_motion;
     return t;

@@ -26,6 +26,7 @@ struct Transferred {
     std::vector<SoilShare> shares;
     std::vector<SofteningShare> softening;
     std::optional<LiquefactionReport> liquefaction;
+    std::optional<CollapseReport> collapse;
     GaussFieldReport gauss_fields;
     YieldReport yield;
     std::optional<RoundTrip> round_trip;

@@ -18,12 +18,9 @@ const char* name_of_law_with_memory(const scene::Scene& scene) {
     return nullptr;
 }
 
-/// Histories per component do not turn with a moving mesh, and an elastic stage would lose them.
+/// An elastic stage would lose what points remember.
 void check_memory(const scene::Scene& scene, const std::string& law, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
-    if (fem.kinematics == scene::Kinematics::updated_lagrangian)
-        refuse(findings, "/fem/kinematics",
-               "is updated_lagrangian, where " + law + " cannot follow", "use small_strain");
     bool began = false;
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const bool elastic = fem.stages[i].laws == scene::StageLaws::elastic;
@@ -62,6 +59,40 @@ void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& fil
     }
 }
 
+/// Where a stage that moves the water says so.
+std::string moved_water_of(const scene::Stage& stage, const std::string& pointer) {
+    return pointer + (stage.phreatic_line ? "/phreatic_line" : "/water_boundaries");
+}
+
+/// Undrained stages: there is water, it was at rest before, and nothing begins or moves in them that
+/// needs drainage.
+void check_undrained(const scene::Scene& scene, Findings& findings) {
+    const scene::Fem& fem = *scene.fem;
+    const bool remembers = name_of_law_with_memory(scene) != nullptr;
+    bool began = false;
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const scene::Stage& stage = fem.stages[i];
+        const std::string pointer = "/fem/stages/" + std::to_string(i);
+        const bool begins = !began && stage.laws == scene::StageLaws::scene;
+        began = began || begins;
+        if (stage.undrained.empty()) continue;
+        if (!fem.water)
+            refuse(findings, pointer + "/undrained", "has no water that could be held back",
+                   "give /fem/water, or leave it out");
+        if (i == 0)
+            refuse(findings, pointer + "/undrained",
+                   "is the first stage's: no pressure is there yet",
+                   "put a drained stage before it");
+        if (begins && remembers)
+            refuse(findings, pointer + "/undrained",
+                   "is of the stage in which the scene's laws begin",
+                   "put a drained stage with \"laws\": \"scene\" before it");
+        if (stage.moves_the_water())
+            refuse(findings, moved_water_of(stage, pointer), "moves in a stage that does not drain",
+                   "move the water in a stage of its own");
+    }
+}
+
 /// Regions come and go once each, in an order that can be; what cannot change says so.
 void check_changes(const scene::Scene& scene, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
@@ -80,6 +111,10 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
         if (stage.changes_the_body() && fem.free_field)
             refuse(findings, pointer, "changes the body between free-field columns",
                    "leave out /fem/free_field: it is for shaking");
+        if (stage.moves_the_water() && !fem.water)
+            refuse(findings, moved_water_of(stage, pointer),
+                   "moves water that the scene does not have",
+                   "give /fem/water with the line before this stage");
         for (std::size_t k = 0; k < stage.activates.size(); ++k) {
             const std::size_t r = stage.activates[k];
             if (r >= there.size()) continue;
@@ -115,6 +150,7 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
 
 void check_stages(const scene::Scene& scene, Findings& findings) {
     if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
+    check_undrained(scene, findings);
     check_changes(scene, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }

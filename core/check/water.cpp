@@ -17,8 +17,8 @@ double certainly_wet(const GroundWater& water, const scene::Region& region) {
                                                  : 1e-6 * element_size(region);
 }
 
-void check_wet_soil(const scene::Scene& scene, const GroundWater& water, Findings& findings) {
-    std::vector<std::size_t> told;
+void check_wet_soil(const scene::Scene& scene, const GroundWater& water,
+                    std::vector<std::size_t>& told, Findings& findings) {
     for (const scene::Region& region : scene.section.regions) {
         const scene::Material* material = material_of(scene, region);
         if (region.polygon.empty() || material == nullptr) continue;
@@ -79,6 +79,52 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+/// No stretch of the line lies over the section: it would be level there, at the height of an end.
+bool is_beside(const scene::Scene& scene, const std::vector<Vec2>& line) {
+    const scene::Box box = extent(scene);
+    return line.size() > 1 && (line.back().x() <= box.low.x() || line.front().x() >= box.high.x());
+}
+
+/// Lines of stages: within the soil that is there then.
+void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Findings& findings) {
+    const auto& regions = scene.section.regions;
+    for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
+        const auto& line = scene.fem->stages[i].phreatic_line;
+        if (!line || line->empty()) continue;
+        const std::string pointer = "/fem/stages/" + std::to_string(i) + "/phreatic_line";
+        const scene::Box box = extent(scene);
+        const Depth deepest = deepest_below(scene, *line, level_at);
+        if (is_beside(scene, *line)) {
+            refuse(findings, pointer,
+                   "runs from x = " + metres(line->front().x()) + " to " +
+                       metres(line->back().x()) + ", beside the section",
+                   "the section reaches from " + metres(box.low.x()) + " to " +
+                       metres(box.high.x()) + ": draw the line over it");
+            continue;
+        }
+        if (deepest.below <= 0.0) {
+            refuse(findings, pointer,
+                   "runs below all soil, by at least " + metres(-deepest.below) +
+                       " at x = " + metres(deepest.place.x()),
+                   "raise the line above the section's lowest level, " + metres(box.low.y()));
+            continue;
+        }
+        const GroundWater water = *scene.fem->water_in(i);
+        check_wet_soil(scene, water, told, findings);
+        const std::vector<bool> gone = scene.fem->regions_gone(regions.size(), i);
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            if (!gone[r] || regions[r].polygon.empty()) continue;
+            const Depth depth = deepest_below(regions[r].polygon, *line, level_at);
+            if (depth.below <= certainly_wet(water, regions[r])) continue;
+            refuse(findings, pointer,
+                   "stands " + metres(depth.below) + " above " + text(depth.place) + " of \"" +
+                       regions[r].name + "\", which is not there in this stage",
+                   "draw the line below \"" + regions[r].name +
+                       "\", or move the water in a stage in which it is there");
+        }
+    }
+}
+
 }  // namespace
 
 void check_water(const scene::Scene& scene, Findings& findings) {
@@ -94,7 +140,9 @@ void check_water(const scene::Scene& scene, Findings& findings) {
                    ", or leave out /fem/water");
         return;
     }
-    check_wet_soil(scene, water, findings);
+    std::vector<std::size_t> told;
+    check_wet_soil(scene, water, told, findings);
+    check_lines(scene, told, findings);
     if (scene.fem->liquefaction) check_watch(scene, findings);
 }
 

@@ -59,4 +59,8 @@ std::string sha256_of_text(const std::string& text) {
     return sha256.hexadecimal();
 }
 
+bool is_sha256(const std::string& text) {
+    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 }  // namespace breach::exchange

@@ -131,6 +131,9 @@ void write_exact(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(here + "/gauss/strain", flat<4>(s.strain), 4, "1");
     image.array(here + "/gauss/epsilon_q", s.epsilon_q, 0, "1");
     image.array(here + "/gauss/epsilon_q_plastic", s.epsilon_q_plastic, 0, "1");
+    if (s.psi.empty()) return;
+    image.array(here + "/gauss/psi", s.psi, 0, "1");
+    image.array(here + "/gauss/instability_ratio", s.instability_ratio, 0, "1");
 }
 
 void read_nodes(Hdf5Reader& reader, MeshSnapshot& s, std::size_t nodes, bool has_pore_pressure) {
@@ -171,6 +174,10 @@ void read_elements(Hdf5Reader& reader, MeshSnapshot& s, std::size_t elements, st
     reader.array(at_gauss + "strain", flat<4>(s.strain), 4);
     reader.array(at_gauss + "epsilon_q", s.epsilon_q, 0);
     reader.array(at_gauss + "epsilon_q_plastic", s.epsilon_q_plastic, 0);
+    if (!reader.exists(at_gauss + "psi")) return;
+    for (auto* field : {&s.psi, &s.instability_ratio}) field->resize(elements * gauss);
+    reader.array(at_gauss + "psi", s.psi, 0);
+    reader.array(at_gauss + "instability_ratio", s.instability_ratio, 0);
 }
 
 void check_meaning(Hdf5Reader& reader, const MeshSnapshot& s) {

@@ -52,7 +52,7 @@ struct MeshSnapshot {
     std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]
     std::vector<double> epsilon_q_plastic;  ///< accumulated by the law [-]
     /// NorSand's state parameter and stress ratio over the limiting one; 0 at other points. Both or
-    /// none; to be looked at, and not read back.
+    /// none.
     std::vector<double> psi;
     std::vector<double> instability_ratio;
 

@@ -26,5 +26,7 @@ struct Provenance {
 /// SHA-256 of a file as 64 hexadecimal digits. Throws IoError.
 std::string sha256_of_file(const std::filesystem::path& path);
 std::string sha256_of_text(const std::string& text);
+/// 64 hexadecimal digits, as these give them.
+bool is_sha256(const std::string& text);
 
 }  // namespace breach::exchange

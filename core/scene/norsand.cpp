@@ -140,27 +140,24 @@ std::vector<Fault> check_norsand(const json& law, const std::string& pointer) {
 
 namespace {
 
+std::optional<materials::Table> profile_from(const json& law) {
+    if (!law.contains("psi_0_profile")) return std::nullopt;
+    const json& profile = law.at("psi_0_profile");
+    return materials::Table{
+        profile.at("by") == "elevation" ? materials::Along::elevation : materials::Along::depth,
+        profile.at("points").get<std::vector<std::array<double, 2>>>()};
+}
+
 /// Level ground with this K_0 at 100 kPa of mean stress [Pa, tension positive].
 mechanics::Voigt level_ground(double K_0) {
     const double sigma_v = 300e3 / (1.0 + 2.0 * K_0);
     return {-K_0 * sigma_v, -sigma_v, -K_0 * sigma_v, 0.0};
 }
 
-}  // namespace
-
-std::vector<Fault> check_norsand_in_scene(const json& law, const std::string& pointer) {
-    std::vector<Fault> faults = check_norsand(law, pointer);
-    if (!faults.empty()) return faults;
-    if (law.contains("psi_0") == law.contains("e_0")) {
-        return {{pointer + "/psi_0",
-                 law.contains("psi_0") ? "stands beside e_0: two initial states"
-                                       : "is missing: NorSand must know how loose it is",
-                 "give psi_0 or e_0"}};
-    }
-    const materials::NorSand made = norsand_law(law);
-    const double K_0 = law.at("K_0");
+/// What level ground of a law is like that begins so; `loose` is where its state stands.
+std::vector<Fault> check_start(const materials::NorSand& made, double K_0, const std::string& loose,
+                               const std::string& pointer) {
     const norsand::Beginning begun = beginning(made, level_ground(K_0));
-    const std::string loose = pointer + (made.e_0 ? "/e_0" : "/psi_0");
     if (!(begun.state.e > 0.0))
         return {{loose, "makes the void ratio " + three_digits(begun.state.e) + " at 100 kPa",
                  "raise it"}};
@@ -184,6 +181,37 @@ std::vector<Fault> check_norsand_in_scene(const json& law, const std::string& po
              "give K_0 above " + three_digits((3.0 - limit) / (3.0 + 2.0 * limit))}};
 }
 
+}  // namespace
+
+std::vector<Fault> check_norsand_in_scene(const json& law, const std::string& pointer) {
+    std::vector<Fault> faults = check_norsand(law, pointer);
+    if (!faults.empty()) return faults;
+    int given = 0;
+    for (const char* key : {"psi_0", "psi_0_profile", "e_0"}) given += law.contains(key) ? 1 : 0;
+    if (given != 1) {
+        return {{pointer + "/psi_0",
+                 given > 1 ? "is one of several initial states"
+                           : "is missing: NorSand must know how loose it is",
+                 "give psi_0, psi_0_profile or e_0, one of them"}};
+    }
+    if (!law.contains("psi_0_profile")) {
+        const std::string loose = pointer + (law.contains("e_0") ? "/e_0" : "/psi_0");
+        return check_start(norsand_law(law), law.at("K_0"), loose, pointer);
+    }
+    const json& points = law.at("psi_0_profile").at("points");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::string row = pointer + "/psi_0_profile/points/" + std::to_string(i);
+        if (i > 0 && points[i - 1][0] >= points[i][0])
+            faults.push_back({row, "is out of order", "give ascending places, each once"});
+        materials::NorSand there = norsand_law(law);
+        there.psi_0_profile.reset();
+        there.psi_0 = points[i][1].get<double>();
+        const auto found = check_start(there, law.at("K_0"), row, pointer);
+        faults.insert(faults.end(), found.begin(), found.end());
+    }
+    return faults;
+}
+
 materials::NorSand norsand_law(const json& law) {
     norsand::Parameters parameters = norsand_parameters(law);
     parameters.S = law.at("S");
@@ -195,7 +223,8 @@ materials::NorSand norsand_law(const json& law) {
             .options = norsand_options(law),
             .psi_0 = start.psi_0,
             .e_0 = start.e_0,
-            .R = start.R};
+            .R = start.R,
+            .psi_0_profile = profile_from(law)};
 }
 
 }  // namespace breach::scene

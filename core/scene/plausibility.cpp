@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/geometry/polyline.hpp"
 #include "core/scene/slips.hpp"
@@ -91,35 +92,46 @@ void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& p
     }
 }
 
-/// One water table, drawn in three places for three phases.
+/// The largest distance of two water tables within the section, and at which x [m].
+std::pair<double, double> farthest_apart(const Doubter& d, const std::vector<Vec2>& a,
+                                         const std::vector<Vec2>& b) {
+    std::pair<double, double> farthest{0.0, d.extent.low.x()};
+    const auto compare = [&](double x) {
+        if (x < d.extent.low.x() || x > d.extent.high.x()) return;
+        const double here = std::abs(geometry::level_at(a, x) - geometry::level_at(b, x));
+        if (here > farthest.first) farthest = {here, x};
+    };
+    for (const double x : {d.extent.low.x(), d.extent.high.x()}) compare(x);
+    for (const auto* line : {&a, &b})
+        for (const Vec2& point : *line) compare(point.x());
+    return farthest;
+}
+
+/// One water table, drawn in three places for three phases. Stages of the FEM may move it: any of theirs will do.
 void doubt_tables(Doubter& d) {
     struct Table {
-        const char* pointer;
-        const std::vector<Vec2>* line;
+        std::string pointer;
+        std::vector<const std::vector<Vec2>*> lines;
     };
     std::vector<Table> tables;
-    if (d.scene.fem && d.scene.fem->water)
-        tables.push_back({"/fem/water/line", &d.scene.fem->water->line});
+    if (d.scene.fem && d.scene.fem->water) {
+        tables.push_back({"/fem/water/line", {&d.scene.fem->water->line}});
+        for (const Stage& stage : d.scene.fem->stages)
+            if (stage.phreatic_line) tables[0].lines.push_back(&*stage.phreatic_line);
+    }
     if (d.scene.lem && d.scene.lem->water)
-        tables.push_back({"/lem/water/line", &d.scene.lem->water->line});
+        tables.push_back({"/lem/water/line", {&d.scene.lem->water->line}});
     if (d.scene.transfer && !d.scene.transfer->phreatic_line.empty())
-        tables.push_back({"/transfer/phreatic_line", &d.scene.transfer->phreatic_line});
+        tables.push_back({"/transfer/phreatic_line", {&d.scene.transfer->phreatic_line}});
     for (const Table& table : tables) {
         if (!d.reader.sound(table.pointer)) return;
     }
     constexpr double much = 0.05;  // of the section's height
     for (std::size_t i = 1; i < tables.size(); ++i) {
-        double apart = 0.0, place = d.extent.low.x();
-        const auto compare = [&](double x) {
-            if (x < d.extent.low.x() || x > d.extent.high.x()) return;
-            const double here = std::abs(geometry::level_at(*tables[i].line, x) -
-                                         geometry::level_at(*tables[0].line, x));
-            if (here > apart) place = x;
-            apart = std::max(apart, here);
-        };
-        for (const double x : {d.extent.low.x(), d.extent.high.x()}) compare(x);
-        for (const Vec2& point : *tables[0].line) compare(point.x());
-        for (const Vec2& point : *tables[i].line) compare(point.x());
+        std::pair<double, double> nearest{std::numeric_limits<double>::infinity(), 0.0};
+        for (const auto* line : tables[0].lines)
+            nearest = std::min(nearest, farthest_apart(d, *line, *tables[i].lines[0]));
+        const auto [apart, place] = nearest;
         if (apart <= much * d.height()) continue;
         d.doubt(tables[i].pointer, "this water table lies " + metres(apart) + " from that of " +
                                        tables[0].pointer + " at x = " + metres(place) +

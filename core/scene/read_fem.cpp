@@ -60,6 +60,33 @@ std::vector<Surcharge> loads_from(Reader& reader, const json& loads, const std::
     return result;
 }
 
+std::vector<PressureBoundary> boundaries_from(const json& boundaries) {
+    std::vector<PressureBoundary> result;
+    for (const json& each : boundaries)
+        result.push_back({each.at("name"), point_from(each.at("from")), point_from(each.at("to")),
+                          if_given(each, "level")});
+    return result;
+}
+
+/// What a stage does to edges of the soil.
+void read_edges(Reader& reader, const json& entry, const std::string& pointer, Stage& stage) {
+    for (const json& each : entry.value("displace", json::array())) {
+        const std::string here =
+            pointer + "/displace/" + std::to_string(stage.displacements.size());
+        stage.displacements.push_back({each.at("name"), point_from(each.at("from")),
+                                       point_from(each.at("to")), if_given(each, "x"),
+                                       if_given(each, "y")});
+        if (!each.contains("x") && !each.contains("y"))
+            reader.add(here, "moves in no direction", "give x, y or both");
+    }
+    if (!entry.contains("pressures")) return;
+    stage.pressures.emplace();
+    for (const json& each : entry.at("pressures"))
+        stage.pressures->push_back({each.at("name"), point_from(each.at("from")),
+                                    point_from(each.at("to")),
+                                    1e3 * each.at("pressure_kPa").get<double>()});
+}
+
 /// What a stage does to the body, its supports and its loads.
 void read_changes(Reader& reader, const Scene& scene, const std::vector<Support>& supports,
                   const json& entry, const std::string& pointer, Stage& stage) {
@@ -77,6 +104,14 @@ void read_changes(Reader& reader, const Scene& scene, const std::vector<Support>
     stage.releases = names("release", supports, "/fem/supports");
     if (entry.contains("surcharge"))
         stage.surcharge = loads_from(reader, entry.at("surcharge"), pointer + "/surcharge");
+    if (entry.contains("phreatic_line"))
+        stage.phreatic_line =
+            line_from(reader, entry.at("phreatic_line"), pointer + "/phreatic_line");
+    if (entry.contains("water_boundaries"))
+        stage.water_boundaries = boundaries_from(entry.at("water_boundaries"));
+    stage.undrained = names("undrained", scene.section.regions, "/section/regions");
+    stage.seismic_coefficient = if_given(entry, "seismic_coefficient");
+    read_edges(reader, entry, pointer, stage);
     if (entry.contains("ramp")) stage.ramp = entry.at("ramp");
     stage.goes_on_at_limit = entry.value("at_limit", "stop") == "go_on";
 }
@@ -98,13 +133,7 @@ GroundWater water_from(Reader& reader, const json& water) {
         .above = word_at<AboveWater>(water, "above"),
         .pressure_stabilisation = water.at("pressure_stabilisation"),
         .pressure_integration = word_at<PressureIntegration>(water, "pressure_integration"),
-        .boundaries = {}};
-    for (const json& each : water.at("boundaries")) {
-        PressureBoundary boundary{each.at("name"), point_from(each.at("from")),
-                                  point_from(each.at("to")), std::nullopt};
-        if (each.contains("level")) boundary.level = each.at("level").get<double>();
-        result.boundaries.push_back(std::move(boundary));
-    }
+        .boundaries = boundaries_from(water.at("boundaries"))};
     return result;
 }
 

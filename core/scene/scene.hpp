@@ -250,6 +250,31 @@ enum class StageLaws { elastic, scene };
 /// free_drainage: 1 m/s everywhere; scene: the materials' own.
 enum class StagePermeability { free_drainage, scene };
 
+/// Nodes on the segment have the pressure of water standing at `level`; without one p = 0.
+struct PressureBoundary {
+    std::string name;
+    Vec2 from;
+    Vec2 to;
+    std::optional<double> level;  ///< [m]
+};
+
+/// Nodes on the segment are held in the directions given, and moved by so much over a stage.
+struct Displacement {
+    std::string name;
+    Vec2 from;
+    Vec2 to;
+    std::optional<double> x;  ///< [m]
+    std::optional<double> y;  ///< [m]
+};
+
+/// Pressure on the soil's outer edges that lie on the segment.
+struct EdgePressure {
+    std::string name;
+    Vec2 from;
+    Vec2 to;
+    double pressure;  ///< into the soil [Pa]
+};
+
 struct Stage {
     std::string name;
     StageKind kind;
@@ -265,24 +290,29 @@ struct Stage {
     std::vector<std::size_t> releases{};   ///< supports that hold no longer
     /// From this stage on, in place of what lay on the ground before
     std::optional<std::vector<Surcharge>> surcharge{};
+    /// static: from this stage on, in place of the one before; ascending in x [m]
+    std::optional<std::vector<Vec2>> phreatic_line{};
+    /// static: from this stage on, in place of those before
+    std::optional<std::vector<PressureBoundary>> water_boundaries{};
+    /// static: regions whose water does not flow in this stage
+    std::vector<std::size_t> undrained{};
+    /// From this stage on, in place of what was before
+    std::optional<double> seismic_coefficient{};  ///< horizontal body force over weight [-]
+    std::optional<std::vector<EdgePressure>> pressures{};
+    std::vector<Displacement> displacements{};  ///< static: held from this stage on
     double ramp = 0.0;              ///< dynamic: what is out of balance comes in this time [s]
     bool goes_on_at_limit = false;  ///< static: a limit point ends the stage, not the run
 
+    bool moves_the_water() const { return phreatic_line || water_boundaries; }
     bool changes_the_body() const {
-        return !activates.empty() || !removes.empty() || !releases.empty() || surcharge;
+        return !activates.empty() || !removes.empty() || !releases.empty() || surcharge ||
+               moves_the_water() || !undrained.empty() || seismic_coefficient || pressures ||
+               !displacements.empty();
     }
 };
 
 /// Soil above the phreatic line: p = 0 at its nodes, or no pore water at all.
 enum class AboveWater { drained, dry };
-
-/// Nodes on the segment have the pressure of water standing at `level`; without one p = 0.
-struct PressureBoundary {
-    std::string name;
-    Vec2 from;
-    Vec2 to;
-    std::optional<double> level;  ///< [m]
-};
 
 /// How the ssp quad integrates storage and conduction: at one point, which is blind to a pressure
 /// that alternates from node to node, or fully.
@@ -297,6 +327,7 @@ struct GroundWater {
     double pressure_stabilisation;  ///< alpha over h^2 / (K + 4G/3) [-]
     PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
+    std::string boundaries_at = "/fem/water/boundaries";  ///< where the scene gives them
 };
 
 /// What a motion from below is: of the rock's free surface (twice the up-going wave), or that wave.
@@ -367,11 +398,41 @@ struct Fem {
     double snapshot_interval;            ///< no step is cut for these; 0: none [s]
     double telemetry_interval;           ///< [s]
 
-    /// A stage activates, removes, releases or loads.
+    /// A stage does something to the body, its supports, its loads or its water.
     bool changes_the_body() const {
         for (const Stage& stage : stages)
             if (stage.changes_the_body()) return true;
         return false;
+    }
+    bool moves_the_water() const {
+        for (const Stage& stage : stages)
+            if (stage.moves_the_water()) return true;
+        return false;
+    }
+    /// The water with the phreatic line and the boundaries that are in force in a stage.
+    std::optional<GroundWater> water_in(std::size_t stage) const {
+        std::optional<GroundWater> now = water;
+        for (std::size_t s = 0; now && s <= stage; ++s) {
+            if (stages[s].phreatic_line) now->line = *stages[s].phreatic_line;
+            if (!stages[s].water_boundaries) continue;
+            now->boundaries = *stages[s].water_boundaries;
+            now->boundaries_at = "/fem/stages/" + std::to_string(s) + "/water_boundaries";
+        }
+        return now;
+    }
+    /// Regions [regions of the section] that are not there in a stage: yet to be placed, or removed.
+    std::vector<bool> regions_gone(std::size_t regions, std::size_t stage) const {
+        std::vector<bool> gone(regions, false);
+        for (const Stage& each : stages)
+            for (const std::size_t r : each.activates)
+                if (r < regions) gone[r] = true;
+        for (std::size_t s = 0; s <= stage; ++s) {
+            for (const std::size_t r : stages[s].activates)
+                if (r < regions) gone[r] = false;
+            for (const std::size_t r : stages[s].removes)
+                if (r < regions) gone[r] = true;
+        }
+        return gone;
     }
 };
 

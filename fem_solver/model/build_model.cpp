@@ -25,7 +25,7 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
 
 }  // namespace
 
-void set_weights(double gravity, Model& model) {
+void set_weights(double gravity, double seismic_coefficient, Model& model) {
     const Mesh& mesh = model.mesh;
     model.nodal_mass.assign(mesh.nodes.size(), 0.0);
     for (const Zone& zone : model.zones) {
@@ -42,6 +42,7 @@ void set_weights(double gravity, Model& model) {
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
         const auto d = static_cast<Eigen::Index>(2 * i);
         model.mass.segment<2>(d).setConstant(model.nodal_mass[i]);
+        model.external_force[d] = seismic_coefficient * model.nodal_mass[i] * gravity;
         model.external_force[d + 1] = -model.nodal_mass[i] * gravity;
     }
 }
@@ -96,9 +97,9 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
             1.0 / model.column_thickness;
     }
     model.mesh = std::move(mesh);
-    set_weights(decided.gravity.value, model);
+    set_weights(decided.gravity.value, 0.0, model);
     add_ground_loads(decided, model);
-    if (decided.water.value) model.water = ground_water(scene, model);
+    if (decided.water.value) model.water = ground_water(scene, *decided.water.value, model);
     if (base) {
         model.base =
             absorbing_base(model, base->density * base->V_s,

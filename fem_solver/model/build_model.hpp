@@ -10,7 +10,8 @@ Model build_model(const scene::Scene& scene, Mesh mesh);
 /// The same with what was decided about the scene.
 Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh mesh);
 
-/// Masses, and the weight as the external force, of the elements that are there.
-void set_weights(double gravity, Model& model);
+/// Masses, and as the external force the weight and this share of it towards +x, of the elements
+/// that are there.
+void set_weights(double gravity, double seismic_coefficient, Model& model);
 
 }  // namespace breach::fem

@@ -113,12 +113,18 @@ Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::Ela
     return c;
 }
 
+std::vector<std::size_t> nodes_on(const Mesh& mesh, const Vec2& from, const Vec2& to) {
+    const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+        if (scene::distance_to_segment(mesh.nodes[i], from, to) <= tolerance) found.push_back(i);
+    return found;
+}
+
 std::size_t hold_nodes(const scene::Support& support, const Mesh& mesh,
                        const std::vector<bool>& lonely, std::vector<bool>& held) {
-    const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
     std::size_t found = 0;
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-        if (!is_on(support, mesh.nodes[i], tolerance)) continue;
+    for (const std::size_t i : nodes_on(mesh, support.from, support.to)) {
         found += lonely[i] ? 0 : 1;
         if (support.fixes_x) held[2 * i] = true;
         if (support.fixes_y) held[2 * i + 1] = true;

@@ -35,8 +35,9 @@ struct Constraints {
 
 /// Which of the unknowns a stage has.
 enum class Solved {
-    displacement,         ///< statics: the base is held, pressures are known
-    motion_and_pressure,  ///< dynamics: the base is free in x
+    displacement,               ///< statics: the base is held, pressures are known
+    displacement_and_pressure,  ///< statics without drainage: the base is held
+    motion_and_pressure,        ///< dynamics: the base is free in x
 };
 
 /// ties: in both directions of u. pressure_ties: in p. Throws BadInput when a support holds no
@@ -49,6 +50,9 @@ Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::Ela
 /// Holds what a support holds in `held` [dofs]; how many of its nodes are not lonely [nodes].
 std::size_t hold_nodes(const scene::Support& support, const Mesh& mesh,
                        const std::vector<bool>& lonely, std::vector<bool>& held);
+
+/// Nodes on a segment, within a millionth of the shortest edge.
+std::vector<std::size_t> nodes_on(const Mesh& mesh, const Vec2& from, const Vec2& to);
 
 /// No support and no tie: every displacement of these nodes is its own.
 Constraints unconstrained(std::size_t nodes);

@@ -6,7 +6,15 @@
 
 namespace breach::fem {
 
-std::vector<GroundEdge> ground_edges(const Model& model) {
+namespace {
+
+struct OuterEdge {
+    GroundEdge edge;
+    std::size_t element;
+};
+
+/// Edges that two elements do not share, of those that are there.
+std::vector<OuterEdge> outer_edges(const Model& model) {
     const Mesh& mesh = model.mesh;
     std::map<std::array<std::int32_t, 2>, int> count;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
@@ -16,12 +24,7 @@ std::vector<GroundEdge> ground_edges(const Model& model) {
             ++count[{std::min(quad[k], quad[(k + 1) % 4]), std::max(quad[k], quad[(k + 1) % 4])}];
         }
     }
-    double left = std::numeric_limits<double>::infinity(), right = -left;
-    for (std::size_t i = 0; i < model.body.nodes; ++i) {
-        left = std::min(left, mesh.nodes[i].x());
-        right = std::max(right, mesh.nodes[i].x());
-    }
-    std::vector<GroundEdge> ground;
+    std::vector<OuterEdge> outer;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         if (model.is_absent(e)) continue;
         const Quad& quad = mesh.quads[e];
@@ -29,16 +32,46 @@ std::vector<GroundEdge> ground_edges(const Model& model) {
             const std::int32_t a = quad[k], b = quad[(k + 1) % 4];
             if (count[{std::min(a, b), std::max(a, b)}] > 1) continue;
             const Vec2 along = mesh.nodes[b] - mesh.nodes[a];
-            const double length = along.norm(), small = 1e-6 * length;
-            const double x = 0.5 * (mesh.nodes[a] + mesh.nodes[b]).x();
-            const bool upwards = -along.x() > small;
-            const bool within = e < model.body.elements && std::abs(along.x()) <= small &&
-                                x > left + small && x < right - small;
-            if (!upwards && !within) continue;
-            ground.push_back({a, b, model.thickness_of(e) * Vec2(along.y(), -along.x())});
+            outer.push_back({{a, b, model.thickness_of(e) * Vec2(along.y(), -along.x())}, e});
         }
     }
+    return outer;
+}
+
+}  // namespace
+
+std::vector<GroundEdge> ground_edges(const Model& model) {
+    const Mesh& mesh = model.mesh;
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    for (std::size_t i = 0; i < model.body.nodes; ++i) {
+        left = std::min(left, mesh.nodes[i].x());
+        right = std::max(right, mesh.nodes[i].x());
+    }
+    std::vector<GroundEdge> ground;
+    for (const auto& [edge, e] : outer_edges(model)) {
+        const Vec2 along = mesh.nodes[edge.b] - mesh.nodes[edge.a];
+        const double small = 1e-6 * along.norm();
+        const double x = 0.5 * (mesh.nodes[edge.a] + mesh.nodes[edge.b]).x();
+        const bool upwards = -along.x() > small;
+        const bool within = e < model.body.elements && std::abs(along.x()) <= small &&
+                            x > left + small && x < right - small;
+        if (upwards || within) ground.push_back(edge);
+    }
     return ground;
+}
+
+std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model) {
+    std::vector<bool> on(model.mesh.nodes.size(), false);
+    for (const std::size_t i : nodes_on(model.mesh, load.from, load.to)) on[i] = true;
+    std::size_t found = 0;
+    for (const auto& [edge, e] : outer_edges(model)) {
+        if (!on[edge.a] || !on[edge.b]) continue;
+        ++found;
+        for (const std::int32_t node : {edge.a, edge.b})
+            model.external_force.segment<2>(2 * static_cast<Eigen::Index>(node)) -=
+                0.5 * load.pressure * edge.outwards;
+    }
+    return found;
 }
 
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x) {

@@ -16,6 +16,9 @@ struct GroundEdge {
 };
 std::vector<GroundEdge> ground_edges(const Model& model);
 
+/// Adds a pressure on outer edges to the external force; on how many edges.
+std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model);
+
 /// Pressure of free water with its surface at `line` on a point of the ground, 0 above it [Pa].
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x);
 

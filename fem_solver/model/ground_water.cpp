@@ -54,7 +54,7 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
             prescribed[i] = boundary.level ? weight * std::max(0.0, *boundary.level - x.y()) : 0.0;
         }
         if (found) continue;
-        faults.push_back({"/fem/water/boundaries/" + std::to_string(b),
+        faults.push_back({water.boundaries_at + "/" + std::to_string(b),
                           "boundary '" + boundary.name + "' holds no node of the mesh",
                           "let its segment run along an edge of a region"});
     }
@@ -63,12 +63,9 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
 
 /// On and above the line p = 0; on submerged ground the pond's pressure; between wet and dry
 /// elements the hydrostatic one.
-std::vector<std::optional<double>> prescribed_pressures(const scene::Scene& scene,
-                                                        const Model& model,
-                                                        const std::vector<double>& depth,
-                                                        const std::vector<bool>& wet,
-                                                        double tolerance) {
-    const GroundWater& water = *scene::fem_of(scene).water;
+std::vector<std::optional<double>> prescribed_pressures(
+    const scene::Scene& scene, const GroundWater& water, const Model& model,
+    const std::vector<double>& depth, const std::vector<bool>& wet, double tolerance) {
     const double weight = water.density * scene.gravity;
     std::vector<std::optional<double>> prescribed(depth.size());
     std::vector<bool> meets_dry(depth.size(), false);
@@ -97,9 +94,8 @@ std::vector<std::optional<double>> prescribed_pressures(const scene::Scene& scen
 }
 
 /// One entry per zone that has a wet element.
-std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const Model& model,
-                                            const std::vector<bool>& wet) {
-    const GroundWater& water = *scene::fem_of(scene).water;
+std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const GroundWater& water,
+                                            const Model& model, const std::vector<bool>& wet) {
     std::vector<std::optional<Fluid>> fluids(model.zones.size());
     std::vector<fault::Fault> faults;
     for (std::size_t z = 0; z < model.zones.size(); ++z) {
@@ -135,13 +131,12 @@ double unit_weight(const scene::Scene& scene) {
 
 }  // namespace
 
-PoreWater ground_water(const scene::Scene& scene, const Model& model) {
-    const GroundWater& water = *scene::fem_of(scene).water;
+PoreWater ground_water(const scene::Scene& scene, const GroundWater& water, const Model& model) {
     const double tolerance = 1e-6 * quality_of(model.mesh).shortest_edge;
     const std::vector<double> depth = depths_below(water, model.mesh, tolerance);
     std::vector<bool> wet = wet_elements(water, model.mesh, depth);
-    auto fluids = fluids_of(scene, model, wet);
-    auto prescribed = prescribed_pressures(scene, model, depth, wet, tolerance);
+    auto fluids = fluids_of(scene, water, model, wet);
+    auto prescribed = prescribed_pressures(scene, water, model, depth, wet, tolerance);
     return build_pore_water(model, {.fluids = std::move(fluids),
                                     .wet = std::move(wet),
                                     .prescribed = std::move(prescribed),
@@ -161,6 +156,12 @@ void set_permeability(const scene::Scene& scene, scene::StagePermeability permea
         }
         fluid->mobility = conductivity / unit_weight(scene);
     }
+    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), model.water);
+}
+
+void close_to_flow(Model& model) {
+    for (auto& fluid : model.water.fluids)
+        if (fluid) fluid->mobility.setZero();
     evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), model.water);
 }
 

@@ -6,12 +6,16 @@
 
 namespace breach::fem {
 
-/// Water below the scene's phreatic line. Throws BadInput when a wet material lacks void_ratio or
+/// Water below its phreatic line, which is the scene's or a stage's. Throws BadInput when a wet material lacks void_ratio or
 /// permeability, when a boundary holds no node, or when the pressure is not determined.
-PoreWater ground_water(const scene::Scene& scene, const Model& model);
+PoreWater ground_water(const scene::Scene& scene, const scene::GroundWater& water,
+                       const Model& model);
 
 /// Puts the stage's permeability in force: free drainage, or the materials' own.
 void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,
                       Model& model);
+
+/// No water flows: what an undrained stage has.
+void close_to_flow(Model& model);
 
 }  // namespace breach::fem

@@ -80,6 +80,14 @@ struct Model {
     /// What a stage does not let act yet, per dof [N], and when it lets go of it [s]; empty: nothing
     Eigen::VectorXd withheld;
     double withheld_from = 0.0, withheld_for = 0.0;
+    /// [nodes] whose pore pressure an undrained static stage seeks; empty in all other stages
+    std::vector<bool> undrained;
+    /// What a static stage moves over its load: held nodes [m].
+    struct Driven {
+        Eigen::Index dof;
+        double by;
+    };
+    std::vector<Driven> driven;
 
     bool is_absent(std::size_t element) const { return !absent.empty() && absent[element] != 0; }
     std::size_t points() const { return mesh.quads.size() * points_per_element; }
@@ -87,7 +95,9 @@ struct Model {
         return element < body.elements ? thickness : column_thickness * thickness;
     }
     Unknowns unknowns(Solved solved) const {
-        return number_unknowns(constraints, water.is_unknown, solved);
+        return number_unknowns(
+            constraints, solved == Solved::displacement_and_pressure ? undrained : water.is_unknown,
+            solved);
     }
     Eigen::Index dofs() const { return static_cast<Eigen::Index>(2 * mesh.nodes.size()); }
 };
@@ -115,6 +125,9 @@ struct Motion {
     /// [zones] what points remember beside State; empty where no law asks for it, and in the
     /// elastic stages before
     std::vector<materials::LawMemory> memory;
+    /// [points] how far the axes in which a point remembers have turned with it [rad]; empty on a
+    /// mesh that does not move, and without memory
+    std::vector<double> turned;
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 

@@ -1,23 +1,13 @@
 #include "fem_solver/model/stages.hpp"
 
+#include <algorithm>
+
 #include "fem_solver/model/build_model.hpp"
 #include "fem_solver/model/ground.hpp"
+#include "fem_solver/model/ground_water.hpp"
 
 namespace breach::fem {
 namespace {
-
-/// [regions] not there in this stage: yet to be placed, or removed.
-std::vector<bool> regions_gone(const scene::Scene& scene, std::size_t stage) {
-    const auto& stages = scene::fem_of(scene).stages;
-    std::vector<bool> gone(scene.section.regions.size(), false);
-    for (const scene::Stage& each : stages)
-        for (const std::size_t r : each.activates) gone[r] = true;
-    for (std::size_t s = 0; s <= stage; ++s) {
-        for (const std::size_t r : stages[s].activates) gone[r] = false;
-        for (const std::size_t r : stages[s].removes) gone[r] = true;
-    }
-    return gone;
-}
 
 /// [nodes] of no element that is there.
 std::vector<bool> lonely_nodes(const Model& model) {
@@ -76,22 +66,98 @@ void hold_what_is_left(const scene::Scene& scene, std::size_t stage, Model& mode
     model.constraints.held = std::move(held);
 }
 
+/// Holds what this stage and those before it displace, and notes what this one moves.
+void displace(const scene::Fem& fem, std::size_t stage, Model& model) {
+    const std::vector<bool> lonely = lonely_nodes(model);
+    model.driven.clear();
+    for (std::size_t s = 0; s <= stage; ++s) {
+        for (std::size_t k = 0; k < fem.stages[s].displacements.size(); ++k) {
+            const scene::Displacement& each = fem.stages[s].displacements[k];
+            bool found = false;
+            for (const std::size_t i : nodes_on(model.mesh, each.from, each.to)) {
+                found = found || !lonely[i];
+                for (const bool y : {false, true}) {
+                    const auto& by = y ? each.y : each.x;
+                    if (!by) continue;
+                    model.constraints.held[2 * i + (y ? 1 : 0)] = true;
+                    if (s == stage && !lonely[i])
+                        model.driven.push_back(
+                            {static_cast<Eigen::Index>(2 * i + (y ? 1 : 0)), *by});
+                }
+            }
+            if (found || s < stage) continue;
+            throw fault::BadInput(
+                "scene", {{"/fem/stages/" + std::to_string(s) + "/displace/" + std::to_string(k),
+                           "'" + each.name + "' holds no node of the soil that is there",
+                           "let its segment run along an edge of a region"}});
+        }
+    }
+}
+
+/// Nodes whose pressure is sought where no water flows: those of undrained regions, but where soil
+/// that drains meets them. The phreatic line drains nothing then.
+void find_undrained(const scene::Fem& fem, std::size_t stage, Model& model) {
+    model.undrained.clear();
+    const auto& regions = fem.stages[stage].undrained;
+    if (regions.empty()) return;
+    model.undrained.resize(model.mesh.nodes.size(), false);
+    for (const bool drains : {false, true}) {
+        for (const PorousElement& each : model.water.elements) {
+            const auto region =
+                static_cast<std::size_t>(model.mesh.region_of_element[each.element]);
+            if ((std::ranges::find(regions, region) == regions.end()) != drains) continue;
+            for (const std::int32_t node : model.mesh.quads[each.element])
+                model.undrained[node] = !drains;
+        }
+    }
+    if (std::ranges::find(model.undrained, true) != model.undrained.end()) return;
+    throw fault::BadInput("scene", {{"/fem/stages/" + std::to_string(stage) + "/undrained",
+                                     "names regions without a node below the phreatic line that is "
+                                     "not drained by its neighbours",
+                                     "name regions with water in them, or leave it out"}});
+}
+
+void press(const scene::Fem& fem, std::size_t stage, Model& model) {
+    std::size_t from = 0;
+    for (std::size_t s = 0; s <= stage; ++s)
+        if (fem.stages[s].pressures) from = s;
+    if (!fem.stages[from].pressures) return;
+    for (std::size_t k = 0; k < fem.stages[from].pressures->size(); ++k) {
+        const scene::EdgePressure& each = (*fem.stages[from].pressures)[k];
+        if (add_edge_pressure(each, model) > 0) continue;
+        throw fault::BadInput(
+            "scene", {{"/fem/stages/" + std::to_string(from) + "/pressures/" + std::to_string(k),
+                       "'" + each.name +
+                           "' presses on no outer edge of the soil that is there in "
+                           "stage " +
+                           std::to_string(stage),
+                       "let its segment run along a whole side of elements, ends included"}});
+    }
+}
+
 }  // namespace
 
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model) {
-    const std::vector<bool> gone = regions_gone(scene, stage);
+    const scene::Fem& fem = scene::fem_of(scene);
+    const std::vector<bool> gone = fem.regions_gone(scene.section.regions.size(), stage);
     model.absent.assign(model.mesh.quads.size(), 0);
     for (std::size_t e = 0; e < model.absent.size(); ++e)
         model.absent[e] = gone[model.mesh.region_of_element[e]] ? 1 : 0;
+    ModelDecisions now = decided;
+    now.water.value = fem.water_in(stage);
+    for (std::size_t s = 0; s <= stage; ++s)
+        if (const auto& loads = fem.stages[s].surcharge) now.surcharge.value = *loads;
+    if (fem.moves_the_water()) model.water = ground_water(scene, *now.water.value, model);
     refuse_wet(scene, model);
     hold_what_is_left(scene, stage, model);
-    set_weights(decided.gravity.value, model);
-    ModelDecisions now = decided;
-    for (std::size_t s = 0; s <= stage; ++s)
-        if (const auto& loads = scene::fem_of(scene).stages[s].surcharge)
-            now.surcharge.value = *loads;
+    displace(fem, stage, model);
+    find_undrained(fem, stage, model);
+    double k_h = 0.0;
+    for (std::size_t s = 0; s <= stage; ++s) k_h = fem.stages[s].seismic_coefficient.value_or(k_h);
+    set_weights(decided.gravity.value, k_h, model);
     add_ground_loads(now, model);
+    press(fem, stage, model);
 }
 
 void forget_absent(const Model& model, Motion& motion) {

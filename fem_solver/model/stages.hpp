@@ -1,5 +1,5 @@
 // Stages that change the body: which elements are there, which supports hold, what lies on the
-// ground.
+// ground, where the water stands.
 #pragma once
 
 #include "fem_solver/model/choose.hpp"
@@ -8,7 +8,8 @@
 namespace breach::fem {
 
 /// Puts in force what the stages up to this one have placed, removed, released and loaded. Asks the
-/// scene alone, so that a resumed run has the same. Throws BadInput where a stage cannot be: it
+/// scene alone, so that a resumed run has the same. Where stages move the water it is made anew,
+/// without permeability and with the modulus of elastic stages. Throws BadInput where a stage cannot be: it
 /// removes all that a support holds, leaves a direction unheld, or changes what is below water.
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model);

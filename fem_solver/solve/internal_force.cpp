@@ -16,13 +16,6 @@ using mechanics::Matrix4;
 
 namespace {
 
-Voigt rotated_strain(Voigt epsilon, double angle) {
-    epsilon[3] *= 0.5;  // engineering to tensor shear and back
-    epsilon = mechanics::rotated_stress(epsilon, angle);
-    epsilon[3] *= 2.0;
-    return epsilon;
-}
-
 Eigen::Matrix3d in_plane(const Matrix4& D) {
     static constexpr int at[3] = {0, 1, 3};
     Eigen::Matrix3d C;
@@ -188,7 +181,11 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
     const Zone& zone = model_.zones[z];
     const std::span all(d_epsilon_);
     const std::span d_epsilon = all.subspan(zone.first * points_, zone.count * points_);
-    return memory_.integrate(law, z, d_epsilon, old, trial) == MemoryPass::Answer::done
+    const std::span half_angles =
+        half_angle_.empty()
+            ? std::span<const double>()
+            : std::span(half_angle_).subspan(zone.first * points_, d_epsilon.size());
+    return memory_.integrate(law, z, d_epsilon, half_angles, old, trial) == MemoryPass::Answer::done
                ? Geometry::sound
                : Geometry::degenerate;
 }
@@ -233,8 +230,8 @@ void InternalForce::accumulate_strain(std::size_t begin, std::size_t end, const 
     }
     for (std::size_t p = begin * points_; p < end * points_; ++p) {
         const double half = half_angle_[p];
-        const Voigt turned = rotated_strain(old.strain[p], half) + d_epsilon_[p];
-        trial.strain[p] = rotated_strain(turned, half);
+        const Voigt turned = mechanics::rotated_strain(old.strain[p], half) + d_epsilon_[p];
+        trial.strain[p] = mechanics::rotated_strain(turned, half);
     }
 }
 

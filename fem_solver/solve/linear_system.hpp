@@ -28,12 +28,14 @@ enum class Factorisation {
 /// How acceleration, velocity and pressure rate hang on what is sought:
 ///   a = c_a (u - u_predicted),  v = v_predicted + c_v (u - u_predicted)        (Newmark 1959)
 ///   p' = p'_predicted + (p - p_old) / (gamma dt),  gamma dt = c_v / c_a
-/// A static step has c_a = c_v = 0.
+/// A static step has c_a = c_v = 0; an undrained one c_a = 0 and c_v = 1/s: what the soil gives and
+/// the water takes are increments.
 struct TimeRule {
     double c_a = 0.0;  ///< 1 / (beta dt^2) [1/s2]
     double c_v = 0.0;  ///< gamma / (beta dt) [1/s]
 
-    double gamma_dt() const { return c_v / c_a; }  ///< [s]
+    bool is_static() const { return c_a == 0.0; }
+    double gamma_dt() const { return is_static() ? 1.0 / c_v : c_v / c_a; }  ///< [s]
 };
 
 class LinearSystem {

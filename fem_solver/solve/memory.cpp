@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "fem_solver/model/place.hpp"
+
 namespace breach::fem {
 
 bool has_memory(const Model& model) {
@@ -49,6 +51,9 @@ std::size_t points_with_memory(const Model& model, const Motion& motion) {
 StressBias begin_memory(const Model& model, Motion& motion) {
     if (!motion.memory.empty() || !has_memory(model)) return stress_bias(model, motion);
     StressBias cut;
+    if (model.kinematics == scene::Kinematics::updated_lagrangian)
+        motion.turned.assign(model.points(), 0.0);
+    const Overburden overburden(model);
     for (const Zone& zone : model.zones) {
         motion.memory.push_back(
             materials::memory_for(zone.law, zone.count * model.points_per_element));
@@ -56,7 +61,8 @@ StressBias begin_memory(const Model& model, Motion& motion) {
         materials::with_memory(zone.law, motion.memory.back(), [&](const auto& law, auto& points) {
             for (auto& each : points) {
                 const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
-                each = first_memory(law, motion.points[p].sigma, epsilon_v);
+                each = first_memory(at_point(law, overburden, model, p), motion.points[p].sigma,
+                                    epsilon_v);
                 Voigt& sigma = motion.points[p++].sigma;
                 const Voigt held = materials::stress(law, each);
                 Voigt lost = held - sigma;
@@ -91,6 +97,19 @@ std::size_t MemoryPass::first_too_large(std::span<const Voigt> d_epsilon) {
         return !(each.cwiseAbs().maxCoeff() <= largest_strain);
     });
     return static_cast<std::size_t>(found - d_epsilon.begin());
+}
+
+std::span<const Voigt> MemoryPass::turn(std::size_t first, std::span<const Voigt> d_epsilon,
+                                        std::span<const double> half_angles, const Motion& old,
+                                        Motion& trial) {
+    if (trial.turned.size() != old.turned.size()) trial.turned = old.turned;
+    in_own_axes_.resize(d_epsilon.size());
+    for (std::size_t i = 0; i < d_epsilon.size(); ++i) {
+        const double halfway = old.turned[first + i] + half_angles[i];
+        in_own_axes_[i] = mechanics::rotated_strain(d_epsilon[i], -halfway);
+        trial.turned[first + i] = halfway + half_angles[i];
+    }
+    return in_own_axes_;
 }
 
 MemoryPass::Answer MemoryPass::refuse(Refusal::Why why, const char* law, const Zone& zone,

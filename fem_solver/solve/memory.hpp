@@ -49,10 +49,12 @@ class MemoryPass {
         refused,  ///< a strain increment beyond `largest_strain` or not finite, or a point that
                   ///< used up its evaluations: the step must be cut
     };
-    /// New memories and stresses of zone `z` after the strain increments [points of the zone].
+    /// New memories and stresses of zone `z` after the strain increments and, on a moving mesh, half turns [rad] of its
+    /// points. A law there works in axes that turn with its point: what it remembers, component by component or not,
+    /// turns exactly.
     template <materials::Remembers Law>
     Answer integrate(const Law& law, std::size_t z, std::span<const Voigt> d_epsilon,
-                     const Motion& old, Motion& trial);
+                     std::span<const double> half_angles, const Motion& old, Motion& trial);
 
     /// Strain increments beyond this belong to a diverged trial [-]. Asking the law would cost much
     /// and tell nothing.
@@ -86,6 +88,10 @@ class MemoryPass {
 
     Answer refuse(Refusal::Why why, const char* law, const Zone& zone, std::size_t point,
                   const Voigt& d_epsilon);
+    /// The increments in the axes of their points; notes how far these have turned.
+    std::span<const Voigt> turn(std::size_t first, std::span<const Voigt> d_epsilon,
+                                std::span<const double> half_angles, const Motion& old,
+                                Motion& trial);
     /// The first increment that no law is asked for; as many as there are: none.
     static std::size_t first_too_large(std::span<const Voigt> d_epsilon);
 
@@ -94,12 +100,14 @@ class MemoryPass {
     int threads_;
     Refusal refusal_;
     decltype(buffers_of(static_cast<const materials::Law*>(nullptr))) buffers_;
+    std::vector<Voigt> in_own_axes_;  ///< increments of a zone, on a moving mesh
     std::int64_t evaluations_ = 0;
 };
 
 template <materials::Remembers Law>
 MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
-                                         std::span<const Voigt> d_epsilon, const Motion& old,
+                                         std::span<const Voigt> d_epsilon,
+                                         std::span<const double> half_angles, const Motion& old,
                                          Motion& trial) {
     const Zone& zone = model_.zones[z];
     const char* name = traits(law).name;
@@ -110,19 +118,22 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
     const std::span to(std::get<materials::ZoneMemory<Law>>(trial.memory[z]).points);
     const std::span updates =
         std::span(std::get<Buffer<Law>>(buffers_).updates).first(d_epsilon.size());
+    const std::size_t first = zone.first * points_;
+    if (!half_angles.empty()) d_epsilon = turn(first, d_epsilon, half_angles, old, trial);
     for_ranges(updates.size(), threads_, [&](std::size_t begin, std::size_t end) {
         const std::size_t count = end - begin;
         materials::integrate(law, from.subspan(begin, count), d_epsilon.subspan(begin, count),
                              updates.subspan(begin, count));
     });
-    State* point = &trial.points[zone.first * points_];
     for (std::size_t i = 0; i < updates.size(); ++i) {
         const auto& each = updates[i];
         if (each.outcome != decltype(each.outcome)::done)
             return refuse(Refusal::Why::evaluations, name, zone, i, d_epsilon[i]);
         evaluations_ += each.counts.evaluations;
         to[i] = each.state;
-        (point++)->sigma = materials::stress(law, each.state);
+        Voigt& sigma = trial.points[first + i].sigma;
+        sigma = materials::stress(law, each.state);
+        if (!half_angles.empty()) sigma = mechanics::rotated_stress(sigma, trial.turned[first + i]);
     }
     return Answer::done;
 }

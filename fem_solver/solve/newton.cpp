@@ -114,14 +114,15 @@ bool Newton::restore(const NewtonMemory& memory) {
 }
 
 void Newton::add_inertia_and_water(const TimeRule& rule) {
-    const double of_mass = rule.c_a + rule.c_v * model_.rayleigh.mass;
-    if (of_mass > 0.0) matrix_.add_diagonal(of_mass, model_.mass);
     if (rule.c_v == 0.0) return;
-    if (model_.base.any()) matrix_.add_diagonal(rule.c_v, model_.base.dashpot);
-    if (elastic_) {
-        internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);
+    if (!rule.is_static()) {
+        matrix_.add_diagonal(rule.c_a + rule.c_v * model_.rayleigh.mass, model_.mass);
+        if (model_.base.any()) matrix_.add_diagonal(rule.c_v, model_.base.dashpot);
+        if (elastic_) {
+            internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);
+        }
+        if (viscous_.size() > 0) internal_force_.add_viscous_damping(rule.c_v, matrix_);
     }
-    if (viscous_.size() > 0) internal_force_.add_viscous_damping(rule.c_v, matrix_);
     matrix_.add_water(rule);
 }
 

@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "fem_solver/model/place.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -15,13 +17,15 @@ constexpr double smallest_cut = 0.9;  // a level nearer to the last one is not w
 /// elsewhere [rad].
 std::vector<double> friction_angles(const Model& model, const Motion& motion) {
     std::vector<double> angles;
+    const Overburden overburden(model);
     for (const Zone& zone : model.zones) {
         angles.push_back(0.0);
         const std::size_t begin = zone.first * model.points_per_element;
         materials::if_remembers(zone.law, [&](const auto& law) {
             double least = 1.0;
             for (std::size_t p = begin; p < begin + zone.count * model.points_per_element; ++p) {
-                const auto first = first_memory(law, motion.points[p].sigma, 0.0);
+                const auto first =
+                    first_memory(at_point(law, overburden, model, p), motion.points[p].sigma, 0.0);
                 least = std::min(least, friction(law, first));
             }
             angles.back() = std::asin(least);

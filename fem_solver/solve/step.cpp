@@ -16,13 +16,26 @@ NewtonOutcome static_step(Newton& newton, const Model& model,
                           const Eigen::VectorXd& start, const Motion& old, Prediction& prediction,
                           Motion& trial) {
     trial.u = old.u;
+    if (prediction.driven.size() > 0) trial.u += prediction.driven;
     trial.p = old.p;
     trial.p_rate = old.p_rate;
     prediction.external = model.external_force;
-    add_pressure_force(model, old.p, prediction.external);
+    const bool drains = model.undrained.empty();
+    if (drains) add_pressure_force(model, old.p, prediction.external);
     prediction.external = load * prediction.external + (1.0 - load) * start;
-    return newton.solve({laws, old, TimeRule{}, prediction.external, old.u, old.v, old.p_rate},
-                        trial);
+    const TimeRule rule = drains ? TimeRule{} : TimeRule{.c_a = 0.0, .c_v = 1.0};
+    if (prediction.driven.size() > 0) {
+        // The edge's own row would take it all: elastic soil shares it out first.
+        const auto elastic = laws_for(model, scene::StageLaws::elastic);
+        newton.forget_matrix();
+        newton.solve({elastic, old, rule, prediction.external, old.u, old.v, old.p_rate}, trial);
+        newton.forget_matrix();
+    }
+    const NewtonOutcome outcome =
+        newton.solve({laws, old, rule, prediction.external, old.u, old.v, old.p_rate}, trial);
+    trial.v.setZero();
+    trial.p_rate.setZero();
+    return outcome;
 }
 
 void set_external_force(const Model& model, const Beginning& beginning, double time,

@@ -17,13 +17,15 @@ struct Prediction {
     Eigen::VectorXd u, v;      ///< per dof
     Eigen::VectorXd p_rate;    ///< per node
     Eigen::VectorXd external;  ///< force at the end of the step, per dof [N]
+    Eigen::VectorXd driven;    ///< static: held nodes move so in the step, per dof; empty: none [m]
 };
 
 Prediction prediction_for(const Model& model);
 
 /// Equilibrium when a share `load` of the way from the force `start` [N] to the external force and
-/// that of the pore pressure, which a static step does not change, has been gone. trial starts at
-/// old.u; velocities stay zero.
+/// that of the pore pressure, which a static step does not change, has been gone. Where the model is
+/// undrained the pressure is sought: neither force holds its own. trial starts at old.u; velocities
+/// stay zero.
 NewtonOutcome static_step(Newton& newton, const Model& model,
                           const std::vector<materials::Law>& laws, double load,
                           const Eigen::VectorXd& start, const Motion& old, Prediction& prediction,

@@ -39,6 +39,11 @@ bool is_this_machine(const std::string& origin) {
     return host.starts_with("localhost") || host.starts_with("127.") || host.starts_with("[::1]");
 }
 
+bool is_about_a_part(const Refused& refused) {
+    return refused.type() == "/problems/hash-mismatch" ||
+           refused.type() == "/problems/other-part" || refused.type() == "/problems/being-sent";
+}
+
 /// Returns how many entries it replaced by references. What is no file here is left: it may be a path
 /// of the server's.
 std::size_t send_files_of(Server& server, json& study, const Console& console) {
@@ -60,19 +65,31 @@ std::size_t send_files_of(Server& server, json& study, const Console& console) {
 
 std::string send_file(Server& server, const fs::path& file, const Console& console) {
     const std::string sha256 = exchange::sha256_of_file(file);
-    const std::string known = server.reference_of(path_of({"files", sha256}));
-    if (!known.empty()) return known;
-    const std::string door =
-        path_of({"files"}) + query_of({{"name", file.filename().string()}, {"sha256", sha256}});
+    bool from_its_beginning = false;
     for (int tries = 1;; ++tries) {
         try {
-            const json answer = server.upload(door, file);
-            console.notes << "sent " << file.string() << " (" << cell(answer, "about") << ")\n";
+            const KnownFile known = server.known_file(path_of({"files", sha256}));
+            if (!known.reference.empty()) return known.reference;
+            const std::size_t from = from_its_beginning ? 0 : known.arrived;
+            const json answer =
+                server.upload(path_of({"files"}) + query_of({{"name", file.filename().string()},
+                                                             {"sha256", sha256},
+                                                             {"from", std::to_string(from)}}),
+                              file, from);
+            console.notes << "sent " << file.string() << " (" << cell(answer, "about") << ")"
+                          << (from > 0 ? ", of which " + std::to_string(from) +
+                                             " bytes had arrived before"
+                                       : "")
+                          << "\n";
             return answer.at("reference");
         } catch (const Unreachable&) {
             if (tries == most_tries) throw;
-            std::this_thread::sleep_for(std::chrono::seconds(tries));
+        } catch (const Refused& refused) {
+            // What had arrived is not what is here, or it is another's turn.
+            if (tries == most_tries || !is_about_a_part(refused)) throw;
+            from_its_beginning = refused.type() == "/problems/hash-mismatch";
         }
+        std::this_thread::sleep_for(std::chrono::seconds(tries));
     }
 }
 

@@ -320,7 +320,7 @@ class FakeRun {
 export class FakeApi {
     /// pace: seconds per submitted run; points: particles per snapshot.
     constructor({ pace = 6, points = 5000 } = {}) {
-        Object.assign(this, { pace, points, runs: [], events: [], requests: [], files: [], most_per_page: 500 });
+        Object.assign(this, { pace, points, runs: [], events: [], requests: [], files: [], most_per_page: 500, workers: null });
     }
 
     add_run(submitted, settings = {}) {
@@ -359,6 +359,7 @@ export class FakeApi {
             return json(response, { runs: this.runs.map((run) => ({ id: run.id, freed_bytes: 12.3e6, shared_bytes: run.pinned ? 0 : 4e6 })) });
         }
         if (kind === "events") return this.serve_events(url, response);
+        if (kind === "workers") return json(response, this.workers);
         if (kind === "examples") {
             return json(response, id ? study : { examples: [{ name: study.name, title: study.title }] });
         }

@@ -767,11 +767,26 @@ test("the database is read as tables: pages, filter, sorting, CSV, addresses", a
     await until("events", async () => (await rows()) === 50);
     await page.screenshot({ path: `${build_folder}/screenshots/page_database.png` });
 
+    const worker = { run: wanted, phase: "mpm_solver", label: "mpm_4.0", variant: "", since: "2026-11-23T02:00:00.000Z", attempt: 1, pid: null,
+                     cores: 1, memory_MB: 800, cpu_seconds: null, memory_used_MB: null, message: "" };
+    api.workers = { executor: "slurm", slots: 40, slots_used: 2, memory_MB: null, memory_asked_MB: 1600, limits: { mpm_solver: 30 },
+                    queue: { ready: 7, retry_wait: 0, blocked: 12 }, slurm: { states: { RUNNING: 1, PENDING: 1 }, reasons: { Priority: 1 } },
+                    workers: [{ ...worker, task: "1", state: "running", host: "node-3", job: "17", job_state: "RUNNING", job_reason: null, progress: 0.4 },
+                              { ...worker, task: "2", state: "starting", host: null, job: "18", job_state: "PENDING", job_reason: "Priority", progress: 0 }] };
+    await page.click("[data-table=workers]");
+    await until("both", async () => (await rows()) === 2);
+    assert.equal(await text_of("#database-slots"), "Slurm: 2 of 40 cores taken; 7 tasks ready; 12 wait for others; at most 30 mpm_solver at once; " +
+                                                   "jobs: 1 RUNNING, 1 PENDING; 1 Priority.");
+    await page.screenshot({ path: `${build_folder}/screenshots/page_workers.png` });
+    api.workers.workers.pop();
+    api.add_run(study, { began: Date.now() });
+    await until("one without being asked", async () => (await rows()) === 1);
+
     api.most_per_page = 10;
     await page.click("[data-table=runs]");
     await until("forty of them", async () => /of 40; the server has more/.test(await count()));
     await page.click("#database-more");
-    await until("all", async () => (await count()).endsWith(`of ${all}.`));
+    await until("all", async () => (await count()).endsWith(`of ${all + 1}.`));
     api.most_per_page = 500;
     await page.fill("#database-table input", `id=${wanted}`);
     await page.click(`#database-table a[href="#/runs/${wanted}"]`);

@@ -233,6 +233,12 @@ test("the database has the run's rows", async () => {
     await until("its tasks", async () => (await page.locator("#database-table tbody tr").count()) === 1 + 2 * study.transfer_times.length);
     await page.click("[data-table=events]");
     await until("events", async () => (await page.locator("#database-table tbody tr").count()) > 20);
+    await page.click("[data-table=transfers]");
+    await until("its transfers", async () => (await page.locator("#database-table tbody tr").count()) === study.transfer_times.length);
+    assert.match(await text_of("#database-table tbody tr:first-child"), /at_time/);
+    await page.click("[data-table=workers]");
+    await until("nothing runs", async () => /^Local: 0 of \d+ cores taken; 0 tasks ready; 0 wait for others\.$/.test(await text_of("#database-slots")));
+    assert.match(await text_of("#database-table p"), /No rows/);
     await page.goBack();
     await page.click("#run-list a");
 });

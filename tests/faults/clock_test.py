@@ -98,6 +98,13 @@ def expect_order(service, runs):
             moved[each["task"]] = detail["to"]
 
 
+def expect_no_hour_of_waiting(metrics):
+    values = dict(line.rsplit(" ", 1) for line in metrics.splitlines() if line[:1] != "#")
+    name = "breachline_queue_wait_seconds"
+    assert 0 < float(values[f"{name}_count"]), metrics
+    assert values[f'{name}_bucket{{le="600"}}'] == values[f"{name}_count"], metrics
+
+
 def fake_slurm(folder):
     """Its commands, and so its nodes, have the true clock: Python cannot sleep under libfaketime 0.9.10."""
     (folder / "commands").mkdir()
@@ -130,6 +137,7 @@ def swings(folder, *arguments):
                 expect_order(again, [*first, *runs])
                 metrics = again.ask("/metrics")[2].decode()
                 assert not [line for line in metrics.splitlines() if line[:1] != "#" and " -" in line], metrics
+                expect_no_hour_of_waiting(metrics)
     finally:
         os.environ.clear()
         os.environ.update(before)

@@ -69,7 +69,7 @@ class Service:
                 status, head, text = answer.status, answer.headers, answer.read()
         except urllib.error.HTTPError as error:
             status, head, text = error.code, error.headers, error.read()
-        return status, head, json.loads(text) if "json" in head.get("Content-Type", "") else text
+        return status, head, json.loads(text) if text and "json" in head.get("Content-Type", "") else text
 
     def submit(self, wanted):
         status, _, body = self.ask("/v1/runs", wanted)

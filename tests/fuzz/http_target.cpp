@@ -89,22 +89,7 @@ class Stand : public httplib::Server {
                    BREACH_ROOT "/workflows"} {
         spdlog::set_level(spdlog::level::off);
         store_.write([](Transaction& transaction) { transaction.add_run(known_run()); });
-        add_run_routes(router_, service_);
-        add_accuracy_routes(router_, service_);
-        add_uncertainty_routes(router_, service_);
-        add_trigger_routes(router_, service_);
-        add_output_routes(router_, service_);
-        add_outflow_routes(router_, service_);
-        add_storage_routes(router_, service_);
-        add_file_routes(router_, service_);
-        add_scene_routes(router_, service_);
-        add_provenance_routes(router_, service_);
-        add_transfer_routes(router_, service_);
-        add_worker_routes(router_, service_);
-        add_event_routes(router_, service_, stopping_);
-        add_example_routes(router_, service_);
-        add_metric_routes(router_, service_);
-        add_page_routes(router_, service_);
+        add_all_routes(router_, service_, stopping_);
         const Handler door = [this](const httplib::Request& request, httplib::Response& response) {
             router_.answer(request, response, Caller{.name = "", .right = Right::admin});
         };

@@ -176,6 +176,24 @@ bool cut_off_tension(State& state) {
     return true;
 }
 
+/// Section 11: strain that every state can follow; where one cannot, cutting it on would not help.
+constexpr double least_followed = 1e-6;
+
+/// Section 11: where the surface shrinks faster than strain can follow (A <= 0), the stress falls
+/// at constant strain, to the critical state of the void ratio or the floor.
+void fall(const Ready& law, State& state) {
+    const Components<double> sigma = stress_of(state);
+    const double p_old = trace(sigma) / 3.0;
+    Components<double> s = deviator(sigma, p_old);
+    const double q = shear_measure(s);
+    const double M = law.parameters.M_tc - law.M_fall * axes_of(s).half_cosine;
+    const double p =
+        std::max(std::min(p_old, critical_pressure(law, state.e)), law.parameters.p_min);
+    if (q > M * p) s = (M * p / q) * s;
+    set_stress(state, {p + s.xx, p + s.yy, p + s.zz, s.xy});
+    state.p_i = image_size(law, {p, std::min(q / p, M), M, state.e, state.chi_i});
+}
+
 bool is_finite(const State& s) {
     for (const double each : {s.xx, s.yy, s.zz, s.xy, s.p_i, s.e, s.epsilon_q, s.sub_step}) {
         if (!std::isfinite(each)) return false;
@@ -239,6 +257,13 @@ double unload(const Ready& law, const Strain& rest, State& state) {
 void finish_call(const Ready& law, const State& old, const Strain& d, Errand& errand) {
     Update& update = *errand.update;
     State& state = update.state;
+    if (update.outcome == Outcome::unresolved && norm(d) <= least_followed) {
+        state = old;
+        fall(law, state);
+        state.sub_step = least_guess;
+        ++update.counts.guarded;
+        update.outcome = Outcome::done;
+    }
     if (update.outcome == Outcome::done) {
         state.e = (1.0 + old.e) * std::exp(-trace(d)) - 1.0;
         if (state.on_floor || trace(stress_of(state)) < 3.0 * law.parameters.p_min) {

@@ -20,6 +20,10 @@ bool may_be_tried(const Strain& d, const Options& options);
 /// The direction of a strain's deviator as a stress of unit measure; zero where it has none.
 Components<double> direction_of(const Strain& d);
 
+/// A guess of a sub-step is no smaller: what a call of round-off (or of nothing) would leave as a
+/// guess costs the next call all its evaluations in doublings.
+inline constexpr double least_guess = 1e-8;  // strain
+
 /// One call in the making: what a lane of a walk does not carry.
 struct Errand {
     Update* update;  ///< the state being changed, and what is counted
@@ -88,7 +92,7 @@ template <class R>
     set_stress(s, norsand::lane(walk.sigma, i));
     s.p_i = lane(walk.p_i, i);
     s.epsilon_q = lane(walk.epsilon_q, i);
-    s.sub_step = lane(walk.proposed, i) * std::max(norm(errand.plastic), 1e-300);
+    s.sub_step = std::max(lane(walk.proposed, i) * norm(errand.plastic), least_guess);
     s.on_floor = lane(walk.floored, i) > 0.0;
     const auto number = [i](const R& count) { return static_cast<int>(lane(count, i)); };
     errand.update->counts += {.evaluations = number(walk.evaluations),

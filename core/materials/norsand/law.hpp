@@ -7,6 +7,7 @@
 
 #include "core/materials/memory.hpp"
 #include "core/materials/norsand/fields.hpp"
+#include "core/materials/strength/profile.hpp"
 #include "core/materials/traits.hpp"
 
 namespace breach::materials {
@@ -18,9 +19,10 @@ struct NorSand {
     mechanics::Elasticity elasticity;  ///< of the stages before norsand::initialise: G = G_ref
     norsand::Ready ready;              ///< S is the material's; stages may set another (with_S)
     norsand::Options options;
-    std::optional<double> psi_0;  ///< state parameter of the beginning [-]; one of the two
+    std::optional<double> psi_0;  ///< state parameter of the beginning [-]; one of the three
     std::optional<double> e_0;    ///< void ratio of the beginning [-]
     double R = 1.0;               ///< overconsolidation [-]
+    std::optional<Table> psi_0_profile{};  ///< psi_0 along depth or elevation
 };
 
 inline const NorSand& ready(const NorSand& law) { return law; }
@@ -65,17 +67,21 @@ inline norsand::State first_memory(const NorSand& law, const Voigt& sigma, doubl
 inline Voigt stress(const NorSand&, const norsand::State& memory) {
     return norsand::stress(memory);
 }
-/// A call that the law wants cut, in halves and these again; what is no more than round-off
+/// A call that the law wants cut, in halves and these again, as far as the evaluations go; what is no more than round-off
 /// changes nothing.
 inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::State& old,
-                                          const Voigt& d_epsilon, int cuts_left) {
+                                          const Voigt& d_epsilon, int cuts_left,
+                                          int& evaluations_left) {
     constexpr double round_off = 1e-14;  // strain
     if (d_epsilon.cwiseAbs().maxCoeff() <= round_off) return {old, norsand::Outcome::done, {}};
     norsand::Update first = norsand::integrate(law.ready, old, d_epsilon, law.options);
-    if (first.outcome != norsand::Outcome::unresolved || cuts_left == 0) return first;
-    first = integrate_in_parts(law, old, 0.5 * d_epsilon, cuts_left - 1);
+    evaluations_left -= first.counts.evaluations;
+    if (first.outcome != norsand::Outcome::unresolved || cuts_left == 0 || evaluations_left < 0)
+        return first;
+    first = integrate_in_parts(law, old, 0.5 * d_epsilon, cuts_left - 1, evaluations_left);
     if (first.outcome != norsand::Outcome::done) return {old, first.outcome, first.counts};
-    norsand::Update second = integrate_in_parts(law, first.state, 0.5 * d_epsilon, cuts_left - 1);
+    norsand::Update second =
+        integrate_in_parts(law, first.state, 0.5 * d_epsilon, cuts_left - 1, evaluations_left);
     second.counts += first.counts;
     if (second.outcome != norsand::Outcome::done) second.state = old;
     return second;
@@ -83,10 +89,12 @@ inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::Sta
 inline void integrate(const NorSand& law, std::span<const norsand::State> old,
                       std::span<const Voigt> d_epsilon, std::span<norsand::Update> updates) {
     norsand::integrate(law.ready, old, d_epsilon, law.options, updates);
-    constexpr int most_cuts = 10;
-    for (std::size_t i = 0; i < updates.size(); ++i)
-        if (updates[i].outcome == norsand::Outcome::unresolved)
-            updates[i] = integrate_in_parts(law, old[i], d_epsilon[i], most_cuts);
+    constexpr int most_cuts = 10, most_calls = 50;  // as dear as so many that used all they may
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+        if (updates[i].outcome != norsand::Outcome::unresolved) continue;
+        int evaluations_left = most_calls * law.options.most_evaluations;
+        updates[i] = integrate_in_parts(law, old[i], d_epsilon[i], most_cuts, evaluations_left);
+    }
 }
 inline Matrix4 elastic_tangent(const NorSand& law, const norsand::State& memory) {
     return norsand::elastic_tangent(law.ready, memory);

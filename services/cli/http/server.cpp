@@ -147,23 +147,26 @@ json Server::remove(const std::string& path) {
     return parsed(good(result, connection_->client, connection_->origin).body);
 }
 
-std::string Server::reference_of(const std::string& path) {
+KnownFile Server::known_file(const std::string& path) {
     const auto result = connection_->client.Head(connection_->prefix + path);
-    if (result && result->status == 404) return {};
-    return good(result, connection_->client, connection_->origin)
-        .get_header_value("X-File-Reference");
+    if (result && result->status == 404)
+        return {{},
+                std::strtoull(result->get_header_value("X-Arrived-Bytes").c_str(), nullptr, 10)};
+    return {good(result, connection_->client, connection_->origin)
+                .get_header_value("X-File-Reference")};
 }
 
-json Server::upload(const std::string& path, const std::filesystem::path& file) {
+json Server::upload(const std::string& path, const std::filesystem::path& file, std::size_t from) {
     std::ifstream in(file, std::ios::binary);
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);
     if (!in || error) throw fault::IoError(file.string() + ": cannot be read");
+    from = std::min<std::size_t>(from, size);
     const auto result = connection_->client.Post(
-        connection_->prefix + path, size,
+        connection_->prefix + path, size - from,
         [&](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
             std::vector<char> part(std::min<std::size_t>(length, 1 << 16));
-            in.seekg(static_cast<std::streamoff>(offset));
+            in.seekg(static_cast<std::streamoff>(from + offset));
             in.read(part.data(), static_cast<std::streamsize>(part.size()));
             const auto count = static_cast<std::size_t>(in.gcount());
             return count > 0 && sink.write(part.data(), count);

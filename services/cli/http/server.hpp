@@ -47,6 +47,11 @@ struct TextAnswer {
     std::optional<std::string> next_offset;  ///< header X-Next-Offset
 };
 
+struct KnownFile {
+    std::string reference;    ///< by which scenes name it; empty: the server does not have it whole
+    std::size_t arrived = 0;  ///< of one that it does not have whole [bytes]
+};
+
 using Headers = std::map<std::string, std::string>;
 
 /// Every call throws Unreachable, Refused, or IoError when the answer is not what the API promises.
@@ -64,10 +69,10 @@ class Server {
     nlohmann::json post(const std::string& path, const nlohmann::json& body,
                         const Headers& headers = {});
     nlohmann::json remove(const std::string& path);
-    /// By which a scene names the file at this path; empty: the server does not have it.
-    std::string reference_of(const std::string& path);
-    /// Streams a file to the server.
-    nlohmann::json upload(const std::string& path, const std::filesystem::path& file);
+    KnownFile known_file(const std::string& path);
+    /// Streams a file to the server, from this byte on.
+    nlohmann::json upload(const std::string& path, const std::filesystem::path& file,
+                          std::size_t from);
     /// "http://host:port", with the prefix.
     std::string origin() const;
     /// Streams the answer into a file, as it may be larger than memory.

@@ -33,10 +33,6 @@ bool is_name(const std::string& text) {
            });
 }
 
-bool is_sha256(const std::string& text) {
-    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
 /// A hash tells nothing, but whoever may write here is admin, and names are nobody else's business.
 void need_private(const std::filesystem::path& file) {
     struct stat status {};
@@ -75,7 +71,7 @@ Token token_from(const json& entry, const std::string& pointer, const std::strin
     if (!is_name(token.name)) refuse("/name", "must have 1 to 64 letters, digits or . _ - @");
     if (token.name == single_token_name)
         refuse("/name", "\"admin\" is the name of the token in --token-file");
-    if (!is_sha256(token.sha256)) refuse("/sha256", "must be 64 hex digits");
+    if (!exchange::is_sha256(token.sha256)) refuse("/sha256", "must be 64 hex digits");
     const auto right = std::ranges::find(rights, text_at(entry, "rights"));
     if (right == rights.end() || right == rights.begin())
         refuse("/rights", "must be read, submit or admin");

@@ -343,18 +343,17 @@ bool Dispatcher::hand_over(Live& live) {
 }
 
 void Dispatcher::note_latency(const Task& task) {
-    const auto ready_at = store_.ready_at(task.id);
-    // Two looks at the clock of the day, which may have been set between them: never below 0.
-    if (ready_at)
-        queue_wait_.add(1e-3 *
-                        static_cast<double>(std::max<std::int64_t>(0, epoch_ms() - *ready_at)));
+    const auto note = [&](Histogram& in, std::int64_t since) {
+        if (const auto waited = clock_.seconds_since(since)) in.add(*waited);
+    };
+    if (const auto ready_at = store_.ready_at(task.id)) note(queue_wait_, *ready_at);
     if (task.release != Release::file_exists) return;
     std::error_code error;
     const auto appeared = std::filesystem::last_write_time(
         data_.input(task, store_.task(*task.parent).value()), error);
     if (error) return;
-    const auto since = std::chrono::file_clock::now() - appeared;
-    snapshot_to_start_.add(std::max(0.0, std::chrono::duration<double>(since).count()));
+    const auto since = std::chrono::file_clock::to_sys(appeared).time_since_epoch();
+    note(snapshot_to_start_, std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
 }
 
 Order Dispatcher::order_for(const Live& live) const {

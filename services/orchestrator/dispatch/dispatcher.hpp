@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "services/orchestrator/dispatch/cache.hpp"
+#include "services/orchestrator/dispatch/clock_of_day.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/dispatch/registrar.hpp"
 #include "services/orchestrator/executors/executor.hpp"
@@ -146,6 +147,7 @@ class Dispatcher {
     std::set<std::string> in_the_cache_;   ///< ready tasks that the cache looks up now
     std::set<std::string> not_cached_;     ///< ready tasks that must run
     std::atomic<bool> unsettled_ = false;
+    ClockOfDay clock_;
     Histogram queue_wait_{{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 60, 600, 3600}};
     Histogram snapshot_to_start_{{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 5, 30}};
     Registrar registrar_;

@@ -16,6 +16,7 @@ std::filesystem::path made(const std::filesystem::path& root) {
     std::filesystem::create_directories(root / "runs", error);
     if (!error) std::filesystem::create_directories(root / "files", error);
     if (!error) std::filesystem::create_directories(root / "scratch", error);
+    if (!error) std::filesystem::create_directories(root / "arriving", error);
     if (error) throw fault::IoError(root.string() + ": cannot be made: " + error.message());
     return std::filesystem::canonical(root);
 }

@@ -55,6 +55,8 @@ class DataPaths {
     std::filesystem::path input(const Task& task, const Task& parent) const;
     AttemptFolder attempt(const Task& task, std::int64_t number) const;
     std::filesystem::path scratch() const { return root_ / "scratch"; }
+    /// Files that are being sent (arriving_file.hpp).
+    std::filesystem::path arriving() const { return root_ / "arriving"; }
     std::filesystem::path instance_lock() const { return root_ / "instance.lock"; }
 
   private:

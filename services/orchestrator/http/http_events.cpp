@@ -90,7 +90,7 @@ bool write(httplib::DataSink& sink, const std::string& text) {
 
 bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& sink,
                      const std::atomic<bool>& stopping) {
-    if (stopping) return false;
+    if (stopping || !sink.is_writable()) return false;  // its place is another's
     std::string text;
     if (service.store.wait_for_event(stream.after, look_at_stopping)) {
         for (const Event& each : service.store.events_after(stream.after, largest_batch)) {

@@ -1,18 +1,12 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include "core/check/mesh_file.hpp"
 #include "core/exchange/provenance.hpp"
-#include "core/exchange/publish.hpp"
 #include "core/motion/plausibility.hpp"
 #include "core/motion/read_motion.hpp"
 #include "core/scene/file_paths.hpp"
+#include "services/orchestrator/files/arriving_file.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/sync_folder.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -49,51 +43,54 @@ std::string sent_name(const Call& call) {
     return name;
 }
 
-/// A file on its way in; whatever happens, nothing of it is left under this name.
-class Arriving {
-  public:
-    explicit Arriving(fs::path path) : path_(std::move(path)) {}
-    ~Arriving() {
-        std::error_code error;
-        fs::remove(path_, error);
-    }
-    Arriving(const Arriving&) = delete;
-    Arriving& operator=(const Arriving&) = delete;
+Problem disk_refused(const std::string& why) {
+    return {503, "/problems/storage", "The disk refused", "nothing was stored: " + why};
+}
 
-    std::int64_t take(const Call& call, std::size_t most) {
-        const int file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-        if (file < 0) throw trouble();
-        std::size_t bytes = 0;
-        bool fits = true, written = true;
-        const bool whole = (*call.body)([&](const char* data, std::size_t size) {
-            bytes += size;
-            fits = bytes <= most;
-            for (std::size_t done = 0; fits && written && done < size;) {
-                const auto step = ::write(file, data + done, size - done);
-                written = step > 0;
-                done += written ? static_cast<std::size_t>(step) : 0;
-            }
-            return bytes <= most + dropped;  // so that its sender hears why
-        });
-        written = written && fsync(file) == 0;
-        written = close(file) == 0 && written;
-        if (!fits)
-            throw Problem{413, "/problems/too-large", "Content too large",
-                          "a file may have " + std::to_string(most) + " bytes (--largest-file)"};
-        if (!written) throw trouble();
-        if (!whole) throw bad_request("the file did not arrive whole; send it again");
-        return static_cast<std::int64_t>(bytes);
-    }
-    const fs::path& path() const { return path_; }
+/// What arrives goes behind what is there. `kept`: for one that goes on another time.
+void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
+    constexpr std::size_t dropped = std::size_t{64} << 20;
+    auto bytes = static_cast<std::size_t>(file.bytes());
+    std::optional<std::string> refused;
+    const bool whole = (*call.body)([&](const char* data, std::size_t size) {
+        bytes += size;
+        try {
+            if (bytes <= most && !refused) file.append(data, size);
+        } catch (const fault::IoError& error) {
+            refused = error.what();
+        }
+        return bytes <= most + dropped;  // so that its sender hears why
+    });
+    if (bytes > most)
+        throw Problem{413, "/problems/too-large", "Content too large",
+                      "a file may have " + std::to_string(most) + " bytes (--largest-file)"};
+    if (refused) throw disk_refused(*refused);
+    if (whole) return;
+    if (kept) file.keep_until_resumed();
+    throw bad_request(kept ? "the file did not arrive whole; go on with from=" +
+                                 std::to_string(file.bytes())
+                           : "the file did not arrive whole; send it again");
+}
 
-  private:
-    static constexpr std::size_t dropped = std::size_t{64} << 20;
-    Problem trouble() const {
-        return {503, "/problems/storage", "The disk refused",
-                std::string("nothing was stored: ") + std::strerror(errno)};
+/// sha256: as its sender announces it; empty: it does not.
+ArrivingFile arriving_file(const Service& service, const std::string& sha256,
+                           const std::string& ending, std::int64_t from) {
+    if (sha256.empty()) {
+        if (from > 0) throw bad_request("from goes with sha256: of which file is this the rest?");
+        return ArrivingFile::of_one_request(service.data.scratch() / (new_run_id() + ending));
     }
-    fs::path path_;
-};
+    if (!exchange::is_sha256(sha256)) throw bad_request("sha256 must be 64 hex digits");
+    auto file = ArrivingFile::resumable(service.data.arriving(), sha256 + ending);
+    if (!file)
+        throw Problem{409, "/problems/being-sent", "Being sent",
+                      "somebody sends this file now; ask again for what has arrived"};
+    if (from == 0) file->begin_anew();
+    if (file->bytes() == from) return std::move(*file);
+    if (file->bytes() > 0) file->keep_until_resumed();
+    throw Problem{
+        409, "/problems/other-part", "Another part",
+        std::to_string(file->bytes()) + " bytes of it have arrived, so from must be that, or 0"};
+}
 
 /// What the file is, by those who will read it. Throws BadInput with the sender's name of it.
 void recognise(const fs::path& path, StoredFile& file) {
@@ -131,7 +128,7 @@ bool is_whole(const Service& service, const StoredFile& file) {
     return !error && static_cast<std::int64_t>(size) == file.bytes;
 }
 
-void keep(Service& service, const Arriving& arriving, const StoredFile& file) {
+void keep(Service& service, const ArrivingFile& arriving, const StoredFile& file) {
     reach(Failpoint::upload_before);
     service.store.write([&](Transaction& transaction) {
         transaction.keep_file(file, [&] {
@@ -144,17 +141,21 @@ void keep(Service& service, const Arriving& arriving, const StoredFile& file) {
 
 /// 201 when it is on the disk; 200 when it was there.
 void upload(Service& service, Call& call) {
-    call.allow_parameters({"name", "sha256"});
+    call.allow_parameters({"name", "sha256", "from"});
     if (call.request.get_header_value("Content-Type") != "application/octet-stream")
         throw Problem{
             415, "/problems/unsupported-media-type", "Unsupported media type",
             "send the file itself with the header Content-Type: application/octet-stream"};
     StoredFile file{.sha256 = {}, .file = {}, .name = sent_name(call), .kind = {}, .about = {}};
     if (call.body == nullptr) throw bad_request("the body must be the file itself");
-    Arriving arriving(service.data.scratch() / (new_run_id() + ending_of(file.name)));
-    file.bytes = arriving.take(call, service.largest_file);
+    const std::string announced = call.parameter("sha256").value_or("");
+    ArrivingFile arriving = arriving_file(service, announced, ending_of(file.name),
+                                          call.whole_number("from", 0, 0, std::int64_t{1} << 53));
+    take(call, arriving, service.largest_file, !announced.empty());
+    arriving.sync();
+    file.bytes = arriving.bytes();
     file.sha256 = exchange::sha256_of_file(arriving.path());
-    if (call.parameter("sha256").value_or(file.sha256) != file.sha256)
+    if (!announced.empty() && announced != file.sha256)
         throw Problem{422, "/problems/hash-mismatch", "Another file",
                       "what arrived has the SHA-256 " + file.sha256 + "; send it again"};
     const auto known = service.store.file(file.sha256);
@@ -182,9 +183,12 @@ StoredFile wanted_file(const Service& service, const std::string& sha256) {
     return std::move(*file);
 }
 
-/// HEAD says whether it need not be sent, and keeps it from being forgotten meanwhile.
+/// HEAD says whether it need not be sent, and keeps it from being forgotten meanwhile; of one that is not here whole, how
+/// much is.
 void show_file(Service& service, Call& call) {
     call.allow_parameters({});
+    if (const auto bytes = arrived_bytes(service.data.arriving(), call.parts[0]); bytes > 0)
+        call.response.set_header("X-Arrived-Bytes", std::to_string(bytes));
     const StoredFile file = wanted_file(service, call.parts[0]);
     if (call.request.method == "HEAD")
         service.store.write([&](Transaction& transaction) { transaction.touch_file(file.sha256); });
@@ -213,8 +217,10 @@ void remove_file(Service& service, Call& call) {
 }  // namespace
 
 std::string keep_motion(Service& service, const std::string& name, const std::string& text) {
-    Arriving arriving(service.data.scratch() / (new_run_id() + ending_of(name)));
-    exchange::publish_text(arriving.path(), text);
+    ArrivingFile arriving =
+        ArrivingFile::of_one_request(service.data.scratch() / (new_run_id() + ending_of(name)));
+    arriving.append(text.data(), text.size());
+    arriving.sync();
     StoredFile file{.sha256 = exchange::sha256_of_file(arriving.path()),
                     .file = {},
                     .name = name,

@@ -96,7 +96,7 @@ void remove_scene(Service& service, Call& call) {
             "versions are not removed one by one: a run may be told by its number; remove the "
             "whole "
             "name, or a content by its SHA-256");
-    const bool content = is_sha256(address);
+    const bool content = exchange::is_sha256(address);
     Removal outcome = Removal::unknown;
     std::int64_t bytes = 0;
     if (content)

@@ -8,7 +8,6 @@
 
 #include "services/orchestrator/access/callers.hpp"
 #include "services/orchestrator/access/rates.hpp"
-#include "services/orchestrator/http/http_drawing.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/listener.hpp"
 
@@ -163,24 +162,7 @@ class HttpServer::Implementation {
           token_rates_(settings_.requests_per_token),
           address_rates_(settings_.requests_per_address),
           server_(certificates_of(settings_), settings_.patience) {
-        add_run_routes(router_, service);
-        add_accuracy_routes(router_, service);
-        add_uncertainty_routes(router_, service);
-        add_trigger_routes(router_, service);
-        add_output_routes(router_, service);
-        add_outflow_routes(router_, service);
-        add_storage_routes(router_, service);
-        add_file_routes(router_, service);
-        add_scene_routes(router_, service);
-        add_provenance_routes(router_, service);
-        add_transfer_routes(router_, service);
-        add_worker_routes(router_, service);
-        add_event_routes(router_, service, stopping_);
-        add_example_routes(router_, service);
-        add_template_routes(router_, service);
-        add_metric_routes(router_, service);
-        add_page_routes(router_, service);
-        add_drawing_routes(router_, service);
+        add_all_routes(router_, service, stopping_);
         server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
         set_doors();
         bind();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/exchange/provenance.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/scene/schema.hpp"
 
@@ -26,24 +27,18 @@ std::optional<std::int64_t> version_in(const std::string& address) {
 
 }  // namespace
 
-bool is_sha256(const std::string& text) {
-    return text.size() == 64 && std::ranges::all_of(text, [](char c) {
-               return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-           });
-}
-
 bool is_scene_name(const std::string& text) {
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     };
     return !text.empty() && text.size() <= 64 && text[0] != '_' && text[0] != '-' &&
-           std::ranges::all_of(text, fits) && !is_sha256(text);
+           std::ranges::all_of(text, fits) && !exchange::is_sha256(text);
 }
 
 std::optional<FoundScene> find_scene(const Store& store, const std::string& address) {
     const std::string digits =
         address.starts_with(by_content) ? address.substr(by_content.size()) : address;
-    if (is_sha256(digits)) {
+    if (exchange::is_sha256(digits)) {
         auto scene = store.scene(digits);
         if (!scene) return std::nullopt;
         return FoundScene{std::move(*scene), {digits, std::nullopt, std::nullopt}};

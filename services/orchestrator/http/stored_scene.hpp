@@ -23,7 +23,6 @@ struct FoundScene {
 /// address: one of the three above, or the 64 digits alone. Nothing: there is no such scene.
 std::optional<FoundScene> find_scene(const Store& store, const std::string& address);
 
-bool is_sha256(const std::string& text);
 /// A name by which a scene may be stored; digits of a hash are none.
 bool is_scene_name(const std::string& text);
 

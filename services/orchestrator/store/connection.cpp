@@ -114,6 +114,12 @@ void Connection::query(const std::string& sql, const std::vector<Value>& values,
     if (code != SQLITE_DONE) refuse(sql);
 }
 
+bool Connection::finds(const std::string& sql, const std::string& value) {
+    bool found = false;
+    query(sql, {value}, [&](const Row&) { found = true; });
+    return found;
+}
+
 std::int64_t Connection::last_row_id() const { return sqlite3_last_insert_rowid(database_.get()); }
 
 sqlite3_stmt* Connection::prepared(const std::string& sql, const std::vector<Value>& values) {

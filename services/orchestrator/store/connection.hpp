@@ -63,6 +63,8 @@ class Connection {
     std::int64_t change(const std::string& sql, const std::vector<Value>& values = {});
     void query(const std::string& sql, const std::vector<Value>& values,
                const std::function<void(const Row&)>& visit);
+    /// Whether the query has any row.
+    bool finds(const std::string& sql, const std::string& value);
     std::int64_t last_row_id() const;
 
   private:

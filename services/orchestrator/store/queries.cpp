@@ -545,6 +545,10 @@ Event event_from(const Row& row) {
 }  // namespace
 
 std::vector<Event> Store::events_after(std::int64_t seq, std::size_t most) const {
+    {
+        const std::lock_guard lock(events_mutex_);
+        if (auto recent = recent_events_.after(seq, most)) return *std::move(recent);
+    }
     std::vector<Event> found;
     read([&](Connection& database) {
         database.query(

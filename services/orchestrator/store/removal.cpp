@@ -9,12 +9,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-bool any(Connection& database, const std::string& sql, const std::string& value) {
-    bool found = false;
-    database.query(sql, {value}, [&](const Row&) { found = true; });
-    return found;
-}
-
 /// Children before parents. Tasks of other runs that took a result from here keep it: their files
 /// are links to the same bytes, or copies.
 constexpr std::array rows_of_run{
@@ -39,11 +33,11 @@ constexpr std::array rows_of_run{
 }  // namespace
 
 Removal Transaction::remove_run(const std::string& run, const std::string& why) {
-    if (!any(database_, "SELECT 1 FROM runs WHERE id=?", run)) return Removal::unknown;
-    if (any(database_, "SELECT 1 FROM runs WHERE id=? AND pinned=1", run)) return Removal::pinned;
+    if (!database_.finds("SELECT 1 FROM runs WHERE id=?", run)) return Removal::unknown;
+    if (database_.finds("SELECT 1 FROM runs WHERE id=? AND pinned=1", run)) return Removal::pinned;
     const bool goes_on =
-        any(database_, "SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", run) ||
-        any(database_,
+        database_.finds("SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", run) ||
+        database_.finds(
             "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", run);
     if (goes_on) return Removal::going_on;
     std::vector<std::string> recipes;
@@ -55,6 +49,7 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
             "DELETE FROM recipes WHERE hash=?1 AND NOT EXISTS (SELECT 1 FROM tasks WHERE "
             "recipe=?1)",
             {each});
+    removes_events_ = true;
     database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
     add_event(run, std::nullopt, "run", {{"event", "remove"}, {"why", why}});
     return Removal::done;
@@ -116,8 +111,8 @@ void Transaction::touch_file(const std::string& sha256) {
 }
 
 Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
-    if (!any(database_, "SELECT 1 FROM files WHERE sha256=?", sha256)) return Removal::unknown;
-    if (any(database_,
+    if (!database_.finds("SELECT 1 FROM files WHERE sha256=?", sha256)) return Removal::unknown;
+    if (database_.finds(
             "SELECT 1 FROM files_of_runs WHERE sha256=?1 UNION ALL SELECT 1 FROM files_of_scenes "
             "WHERE "
             "sha256=?1 LIMIT 1",

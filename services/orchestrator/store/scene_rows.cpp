@@ -9,12 +9,6 @@ namespace breach::orchestrator {
 
 namespace {
 
-bool any(Connection& database, const std::string& sql, const std::string& value) {
-    bool found = false;
-    database.query(sql, {value}, [&](const Row&) { found = true; });
-    return found;
-}
-
 /// Of the newest version; empty: there is no such name.
 std::pair<std::string, std::int64_t> newest_of(Connection& database, const std::string& name) {
     std::pair<std::string, std::int64_t> newest{"", 0};
@@ -50,7 +44,7 @@ void add_users(Connection& database, std::vector<StoredScene>& scenes) {
 void Transaction::add_scene_source(const NewRun& run) {
     if (!run.made_of) return;
     const SceneSource& source = *run.made_of;
-    if (!any(database_, "SELECT 1 FROM scenes WHERE sha256=?", source.sha256))
+    if (!database_.finds("SELECT 1 FROM scenes WHERE sha256=?", source.sha256))
         throw fault::BadInput("study", {{"/scene", "this stored scene was removed meanwhile",
                                          "store it again (POST /v1/scenes; breach scenes add)"}});
     database_.change(
@@ -80,8 +74,8 @@ bool Transaction::keep_scene(const NewScene& scene, const std::optional<std::str
 }
 
 Removal Transaction::forget_scene(const std::string& sha256) {
-    if (!any(database_, "SELECT 1 FROM scenes WHERE sha256=?", sha256)) return Removal::unknown;
-    if (any(database_,
+    if (!database_.finds("SELECT 1 FROM scenes WHERE sha256=?", sha256)) return Removal::unknown;
+    if (database_.finds(
             "SELECT 1 FROM scene_names WHERE sha256=?1 UNION ALL SELECT 1 FROM scenes_of_runs "
             "WHERE sha256=?1",
             sha256))
@@ -96,7 +90,7 @@ Removal Transaction::forget_scene_name(const std::string& name) {
     database_.query("SELECT DISTINCT sha256 FROM scene_names WHERE name=?", {name},
                     [&](const Row& row) { scenes.push_back(row.text(0)); });
     if (scenes.empty()) return Removal::unknown;
-    if (any(database_, "SELECT 1 FROM scenes_of_runs WHERE name=?", name)) return Removal::needed;
+    if (database_.finds("SELECT 1 FROM scenes_of_runs WHERE name=?", name)) return Removal::needed;
     database_.change("DELETE FROM scene_names WHERE name=?", {name});
     for (const std::string& each : scenes) forget_scene(each);  // unless something else needs it
     return Removal::done;

@@ -1,6 +1,8 @@
 #include "services/orchestrator/store/store.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/store/migrations.hpp"
@@ -10,6 +12,8 @@ namespace breach::orchestrator {
 namespace {
 
 constexpr std::size_t largest_group = 256;
+constexpr std::size_t most_idle_readers =
+    32;  // as many as ask at once on a busy day; each has some 100 kB
 
 std::filesystem::path migrated(const std::filesystem::path& file) {
     Connection database(file, Access::read_write);
@@ -55,7 +59,8 @@ void Store::serve(std::stop_token stop) {
 }
 
 void Store::commit(std::deque<Job>& jobs) {
-    std::int64_t newest = 0;
+    std::vector<Event> events;
+    bool removes_events = false;
     try {
         writing_.script("BEGIN IMMEDIATE");
         for (Job& job : jobs) {
@@ -63,7 +68,8 @@ void Store::commit(std::deque<Job>& jobs) {
             try {
                 Transaction transaction(writing_, job.by);
                 job.change(transaction);
-                newest = std::max(newest, transaction.last_event());
+                std::ranges::move(transaction.take_events(), std::back_inserter(events));
+                removes_events = removes_events || transaction.removes_events();
             } catch (...) {
                 job.refused = std::current_exception();
                 writing_.script("ROLLBACK TO job");
@@ -84,10 +90,14 @@ void Store::commit(std::deque<Job>& jobs) {
         return;
     }
     commit_sizes_.add(static_cast<double>(jobs.size()));
-    if (newest > 0) {
+    if (!events.empty()) {
         {
             const std::lock_guard lock(events_mutex_);
-            last_event_ = newest;
+            last_event_ = events.back().seq;
+            if (removes_events)
+                recent_events_.forget();
+            else
+                recent_events_.add(std::move(events));
         }
         event_stored_.notify_all();
     }
@@ -112,7 +122,7 @@ void Store::read(const std::function<void(Connection&)>& read) const {
     if (!connection) connection = std::make_unique<Connection>(file_, Access::read_only);
     read(*connection);
     const std::lock_guard lock(readers_mutex_);
-    idle_readers_.push_back(std::move(connection));
+    if (idle_readers_.size() < most_idle_readers) idle_readers_.push_back(std::move(connection));
 }
 
 bool Store::wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const {

@@ -15,6 +15,7 @@
 
 #include "services/orchestrator/records/result_columns.hpp"
 #include "services/orchestrator/store/histogram.hpp"
+#include "services/orchestrator/store/recent_events.hpp"
 #include "services/orchestrator/store/transaction.hpp"
 
 namespace breach::orchestrator {
@@ -163,6 +164,7 @@ class Store {
     mutable std::mutex events_mutex_;
     mutable std::condition_variable event_stored_;
     std::atomic<std::int64_t> last_event_ = 0;
+    RecentEvents recent_events_;
 
     std::jthread writer_;  // last: stops before what it uses goes
 };

@@ -356,9 +356,15 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
 void Transaction::add_event(const std::string& run, const std::optional<std::string>& task,
                             const std::string& kind, json detail) {
     if (!by_.empty() && kind == "run") detail["by"] = by_;
+    const std::string time = utc_now(), text = text_of(detail);
     database_.change("INSERT INTO events (time, run, task, kind, detail) VALUES (?,?,?,?,?)",
-                     {utc_now(), run, value_or_null(task), kind, text_of(detail)});
-    last_event_ = database_.last_row_id();
+                     {time, run, value_or_null(task), kind, text});
+    events_.push_back({.seq = database_.last_row_id(),
+                       .time = time,
+                       .run = run,
+                       .task = task,
+                       .kind = kind,
+                       .detail = json::parse(text)});
 }
 
 }  // namespace breach::orchestrator

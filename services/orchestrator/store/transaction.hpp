@@ -124,7 +124,10 @@ class Transaction {
     bool add_firing(const Trigger& trigger, const Firing& firing);
     void keep_trigger_result(const std::string& trigger, const nlohmann::json& result);
 
-    std::int64_t last_event() const { return last_event_; }
+    /// That it has made, oldest first.
+    std::vector<Event> take_events() { return std::move(events_); }
+    /// It has taken earlier events away.
+    bool removes_events() const { return removes_events_; }
 
   private:
     void insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
@@ -155,7 +158,8 @@ class Transaction {
 
     Connection& database_;
     std::string by_;
-    std::int64_t last_event_ = 0;
+    std::vector<Event> events_;
+    bool removes_events_ = false;
 };
 
 }  // namespace breach::orchestrator

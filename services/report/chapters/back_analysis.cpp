@@ -3,6 +3,7 @@
 
 #include "services/report/chapters/assessment.hpp"
 #include "services/report/read/samples.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 

@@ -72,6 +72,9 @@ void draw_water(Canvas& canvas, const scene::Scene& scene) {
         add(scene.lem->water->line, "LEM");
     }
     if (scene.fem && scene.fem->water) add(scene.fem->water->line, "FEM");
+    if (scene.fem)
+        for (const scene::Stage& stage : scene.fem->stages)
+            if (stage.phreatic_line) add(*stage.phreatic_line, "FEM, stage " + stage.name);
     if (scene.transfer) add(scene.transfer->phreatic_line, "transfer");
     const std::vector<std::string> dashes{"", " stroke-dasharray=\"9 4\"",
                                           " stroke-dasharray=\"3 3\""};

@@ -72,6 +72,14 @@ export function page_of_runs(cursor, limit) {
     if (cursor) query.set("cursor", cursor);
     return get_json(`/v1/runs?${query}`);
 }
+/// {transfers, next} of all runs, newest first; cursor: as above.
+export function page_of_transfers(cursor, limit) {
+    const query = new URLSearchParams({ limit });
+    if (cursor) query.set("cursor", cursor);
+    return get_json(`/v1/transfers?${query}`);
+}
+/// What runs where, now: {executor, slots, slots_used, queue, workers, slurm, ...}
+export const read_workers = () => get_json("/v1/workers");
 /// {events, next} after the given number.
 export const page_of_events = (after) => get_json(`/v1/events?after=${after}&wait=0`);
 export const read_run = (run) => get_json(path_of("runs", run));

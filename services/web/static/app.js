@@ -113,7 +113,10 @@ async function show_open_run() {
     by_id("compare").hidden = !pair;
     by_id("database").hidden = !tables;
     by_id("missing").hidden = true;
-    if (tables) document.title = "Run database – Breachline";
+    if (tables) {
+        document.title = "Run database – Breachline";
+        await database.look_at_workers();
+    }
     if (pair) document.title = "Comparison – Breachline";
     if (tables || id === "") {
         by_id("run").hidden = true;

@@ -1,5 +1,5 @@
-// The run database as tables: runs, tasks, attempts, events, results of sweeps, firings of triggers. Reads what the API
-// gives, page by page; the address says which table and of which run: #/database/TABLE/RUN.
+// The run database as tables: runs, tasks, attempts, events, results of sweeps, firings of triggers, transfers of all runs,
+// and what runs where now. Reads what the API gives, page by page; the address says which table and of which run: #/database/TABLE/RUN.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { counts_text, flag_codes, rest_text } from "./flags.js";
@@ -44,6 +44,14 @@ const columns = {
                amount("wanted_time", "s"), amount("lag_s", "s", "lag"), amount("fem_step"), amount("fired_ms", "ms", "fired after"),
                amount("start_ms", "ms", "started after"), text("crossed", "crossed", { wide: true, cell: ({ crossed }) => (crossed ? short_json(crossed) : "–") }), text("snapshot"),
                text("sha256", "SHA-256"), text("fem_task"), run],
+    transfers: [amount("transfer_time", "s", "t_T"), text("variant"), state, text("why"), text("condition", "condition", { wide: true }),
+                amount("wanted_time", "s"), amount("fem_step"), amount("snapshot_ms", "ms", "snapshot after"),
+                amount("start_ms", "ms", "started after"), moment("started"), amount("runouts"), text("same_as", "taken from"),
+                text("fault", "fault", { wide: true }), text("task"), run],
+    workers: [text("phase"), text("label"), text("variant"), state, amount("progress"), text("message", "message", { wide: true }), moment("since"),
+              text("host"), text("pid"), text("job"), text("job_state", "job state"), text("job_reason", "job reason", { wide: true }),
+              amount("cores"), amount("cpu_seconds", "s", "CPU"), amount("memory_used_MB", "MB", "memory used"),
+              amount("memory_MB", "MB", "memory asked"), amount("attempt"), text("task"), run],
 };
 const of_one_run = ["tasks", "attempts", "results", "triggers"];
 
@@ -63,6 +71,34 @@ const readers = {
     triggers: async ({ id }) => (await api.read_triggers(id)).flatMap((trigger) =>
         (trigger.firings.length ? trigger.firings : [{}]).map((firing) => ({ run: id, ...trigger, ...firing, lag_s: Number(firing.lag_s?.toFixed(9) ?? NaN) }))),
 };
+
+/// Tables over all runs, a page of records at a time: {records, place of the next page, whether it was the last}.
+const pages = {
+    runs: async (place) => {
+        const { runs, next } = await api.page_of_runs(place, page_size);
+        return { records: runs.map((each) => ({ ...each, flags: counts_text(each.flag_counts) })), next, last: !next };
+    },
+    transfers: async (place) => {
+        const { transfers, next } = await api.page_of_transfers(place, page_size);
+        return { records: transfers, next, last: !next };
+    },
+    events: async (place) => {
+        const { events, next } = await api.page_of_events(place ?? 0);
+        return { records: events, next, last: events.length === 0 };
+    },
+};
+
+const counts_in = (object) => Object.entries(object).map(([word, count]) => `${count} ${word}`).join(", ");
+
+/// What of the machine or cluster is taken, and what waits for it.
+function slots_text({ executor, slots, slots_used, memory_MB, memory_asked_MB, limits, queue, slurm }) {
+    const parts = [`${executor === "slurm" ? "Slurm" : "Local"}: ${slots_used} of ${slots} cores taken`,
+                   memory_MB ? `${memory_asked_MB} of ${memory_MB} MB asked for` : "", `${queue.ready} tasks ready`,
+                   queue.retry_wait ? `${queue.retry_wait} wait to be tried again` : "", `${queue.blocked} wait for others`];
+    if (Object.keys(limits).length > 0) parts.push(`at most ${counts_in(limits)} at once`);
+    if (slurm) parts.push(`jobs: ${counts_in(slurm.states) || "none"}`, counts_in(slurm.reasons));
+    return `${parts.filter(Boolean).join("; ")}.`;
+}
 
 export class Database {
     constructor() {
@@ -86,6 +122,7 @@ export class Database {
             else link.removeAttribute("aria-current");
         }
         by_id("database-of").hidden = !of_one_run.includes(this.name);
+        by_id("database-slots").hidden = this.name !== "workers";
         await this.load();
     }
 
@@ -94,6 +131,7 @@ export class Database {
         set_text(by_id("database-message"), "Reading…");
         try {
             if (of_one_run.includes(name)) await this.load_of_run(name, run);
+            else if (name === "workers") await this.look_at_workers();
             else await this.load_pages(name);
             if (this.name === name && this.run === run) set_text(by_id("database-message"), "");
         } catch (fault) {
@@ -114,17 +152,25 @@ export class Database {
         if (this.name === name && this.run === wanted) this.fill(records, true);
     }
 
-    /// Runs newest first, events oldest first, until there are no more or enough for now.
+    /// They change while one looks: called again whenever something may have.
+    async look_at_workers() {
+        if (this.name !== "workers") return;
+        by_id("database-csv").hidden = true;
+        const answer = await api.read_workers();
+        if (this.name !== "workers") return;
+        set_text(by_id("database-slots"), slots_text(answer));
+        this.fill(answer.workers, true);
+    }
+
+    /// Runs and transfers newest first, events oldest first, until there are no more or enough for now.
     async load_pages(name) {
         by_id("database-csv").hidden = true;
         const records = [...this.records];
         let { place, finished } = this;
         for (let batch = 0; batch < batches_at_once && !finished; batch += 1) {
-            const { runs, events, next } = name === "runs" ? await api.page_of_runs(place, page_size)
-                                                           : await api.page_of_events(place ?? 0);
-            records.push(...(runs?.map((each) => ({ ...each, flags: counts_text(each.flag_counts) })) ?? events));
-            finished = name === "runs" ? !next : events.length === 0;
-            place = next;
+            const page = await pages[name](place);
+            records.push(...page.records);
+            [place, finished] = [page.next, page.last];
         }
         if (this.name !== name) return;
         this.place = place;

@@ -47,14 +47,12 @@ TEST(Check, EffectiveStressOfWetFrictionalSoilCannotGoToTheMpm) {
                 "pore pressure");
 }
 
-TEST(Check, SandAsksForSmallStrainsAndForElasticStagesFirst) {
-    const Checked checked = changed(
-        "mochikoshi",
-        {"/fem/kinematics=updated_lagrangian",
-         R"(/fem/stages/3={"type":"dynamic","name":"after","laws":"elastic","duration":1,"time_step":0.002})"});
-    ASSERT_EQ(checked.faults.size(), 2u) << told(checked.faults);
-    EXPECT_TRUE(has_fault(checked, "/fem/kinematics", "PM4Sand"));
-    EXPECT_TRUE(has_fault(checked, "/fem/stages/3/laws", "after PM4Sand has begun"));
+TEST(Check, SandAsksForElasticStagesFirst) {
+    expect_only(
+        changed(
+            "mochikoshi",
+            {R"(/fem/stages/3={"type":"dynamic","name":"after","laws":"elastic","duration":1,"time_step":0.002})"}),
+        "/fem/stages/3/laws", "after PM4Sand has begun");
 }
 
 TEST(Check, WindowsAreReadAndAskForWhatIsRecorded) {

@@ -77,6 +77,8 @@ TEST_F(RemovalStore, TakesEveryRowOfARunAndNoneOfAnother) {
     store.write([&](Transaction& t) { t.unpin_run(run); });
     EXPECT_EQ(removed(store, run), Removal::done);
     EXPECT_EQ(removed(store, run), Removal::unknown);
+    for (const Event& each : store.events_after(0, 1000))
+        EXPECT_TRUE(each.run == other || each.detail.at("event") == "remove");
     EXPECT_EQ(store.removals(), std::vector<std::string>{run});
     store.write([&](Transaction& t) { t.forget_removal(run); });
     auto after = rows();

@@ -354,6 +354,35 @@ TEST_F(StoreTest, EveryChangeOfStateLeavesItsEventInTheSameTransaction) {
     EXPECT_EQ(events[0].detail.at("to"), "starting");
 }
 
+TEST_F(StoreTest, RecentEventsAreThoseOfTheDatabase) {
+    Store store(file());
+    const auto told = [](const std::vector<Event>& events) {
+        json list;
+        for (const Event& each : events)
+            list.push_back(
+                {each.seq, each.time, each.run, each.task.value_or(""), each.kind, each.detail});
+        return list;
+    };
+    // More than are kept, from jobs of which every tenth is taken back.
+    for (int i = 0; i < 100; ++i) {
+        try {
+            store.write([&](Transaction& t) {
+                for (int k = 0; k < 15; ++k) t.add_run(small_run());
+                if (i % 10 == 0) throw std::runtime_error("changed my mind");
+            });
+        } catch (const std::runtime_error&) {
+        }
+    }
+    const std::int64_t last = store.last_event();
+    ASSERT_GT(last, 1300);
+    Store fresh(file());  // remembers none
+    for (const std::int64_t after : {std::int64_t{0}, last - 1001, last - 1000, last - 999,
+                                     last - 7, last - 1, last, last + 5})
+        for (const std::size_t most : {std::size_t{1}, std::size_t{500}, std::size_t{5000}})
+            EXPECT_EQ(told(store.events_after(after, most)), told(fresh.events_after(after, most)))
+                << after;
+}
+
 TEST_F(StoreTest, OneBadJobInAGroupDoesNotHarmTheOthers) {
     Store store(file());
     std::vector<std::jthread> clients;

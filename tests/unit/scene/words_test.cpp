@@ -21,6 +21,7 @@ const std::set<std::string> without_enum{
     "/$defs/pm4sand/properties/compat",                        // pm4sand::Scheme, in sand.cpp
     "/$defs/norsand/properties/flow",                          // norsand::FlowRule, in norsand.cpp
     "/$defs/norsand/properties/unloading",                     // norsand::Unloading, in norsand.cpp
+    "/$defs/norsand/properties/psi_0_profile/properties/by",   // materials::Along without sigma_v0
     "/$defs/static_stage/properties/at_limit",                 // a flag
     "/properties/mpm/properties/duration/oneOf/1",             // a number, or this word
     "/properties/mpm/properties/longest_duration/oneOf/1",

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/check/check.hpp"
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/model/build_model.hpp"
 #include "tests/folder.hpp"
@@ -85,6 +86,26 @@ class Run {
     process::Session session_;
     Analysis analysis_;
 };
+
+/// Where a scene is refused, by reading, checking or building; empty: nowhere.
+inline std::string place_refused(const json& scene) {
+    try {
+        const scene::Scene parsed = parse(scene);
+        const auto faults = check::findings_of(parsed).faults;
+        if (!faults.empty()) return faults.at(0).pointer;
+        Run run(scene);
+    } catch (const fault::BadInput& bad) {
+        return bad.faults().at(0).pointer;
+    }
+    return "";
+}
+
+/// CJ1 of docs/design/norsand.md.
+inline json cj1(double psi_0, double K_0 = 0.7) {
+    return {{"type", "norsand"}, {"Gamma", 0.9}, {"lambda", 0.02},   {"M_tc", 1.2}, {"N", 0.3},
+            {"chi_tc", 3.5},     {"H_0", 300},   {"G_ref_MPa", 30},  {"m", 1.0},    {"nu", 0.15},
+            {"psi_0", psi_0},    {"K_0", K_0},   {"tolerance", 1e-6}};
+}
 
 /// Prints what was reached beside what is allowed, then checks it.
 inline void expect_error(const std::string& what, double reached, double allowed) {

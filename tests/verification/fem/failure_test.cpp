@@ -281,12 +281,12 @@ TEST(Refusal, SaysWhetherTheStrainLimitOrTheEvaluationsWereHit) {
     Motion trial = motion;
     std::vector<Voigt> d_epsilon(model.points(), Voigt::Zero());
     d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.06);
-    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, motion, trial), MemoryPass::Answer::refused);
+    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, {}, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u) << "four points in each";
     EXPECT_NE(in_words(pass.refusal()).find("beyond the limit of 0.05"), std::string::npos);
     law.options.most_evaluations = 1;
     d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.04);
-    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, motion, trial), MemoryPass::Answer::refused);
+    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, {}, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u);
     EXPECT_NE(in_words(pass.refusal()).find("evaluations were used up"), std::string::npos);
 }

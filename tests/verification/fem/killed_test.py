@@ -8,11 +8,9 @@ import sys
 import tempfile
 import time
 
-import h5py
-import numpy
-
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import coarse_slope
+import runs
 
 SOLVER = f"{os.environ['BREACH_BIN']}/fem_solver"
 END = 2.0
@@ -44,24 +42,10 @@ def kill_after_checkpoint(scene, output):
     return at_checkpoint, lines_of(output)
 
 
-def datasets(file):
-    found = {}
-    with h5py.File(file) as opened:
-        opened.visititems(lambda name, each: found.update({name: each[()]}) if isinstance(each, h5py.Dataset) else None)
-    return found
-
-
 def compare(what, one, two):
     """Datasets that differ."""
-    wrong = []
-    for name in ("history.h5", f"snapshot_{END:.6f}.vtkhdf"):
-        a, b = datasets(one / name), datasets(two / name)
-        assert a.keys() == b.keys() and len(a) > 5, name
-        wrong += [f"{name}:{key}" for key in a if not numpy.array_equal(a[key], b[key])]
-        print(f"    {what}: {len(a)} datasets of {name}, {len(wrong)} differ {wrong}")
-    if (one / "telemetry.jsonl").read_bytes() != (two / "telemetry.jsonl").read_bytes():
-        wrong.append("telemetry.jsonl")
-    return wrong
+    print(f"    {what}:")
+    return runs.differences(one, two, ("history.h5", f"snapshot_{END:.6f}.vtkhdf"))
 
 
 def main():

@@ -3,24 +3,19 @@
 #include <cmath>
 
 #include "core/materials/norsand/instability.hpp"
+#include "core/materials/norsand/undrained.hpp"
 #include "fem_solver/checkpoint.hpp"
 #include "fem_solver/element_bench/specimen.hpp"
 #include "fem_solver/solve/memory.hpp"
-#include "tests/verification/fem/bench.hpp"
+#include "tests/verification/fem/begun_element.hpp"
 
 namespace breach::fem {
 namespace {
 
 namespace norsand = materials::norsand;
+using bench::cj1;
 using bench::expect_error;
 using nlohmann::json;
-
-/// CJ1 of docs/design/norsand.md.
-json cj1(double psi_0) {
-    return {{"type", "norsand"}, {"Gamma", 0.9}, {"lambda", 0.02},   {"M_tc", 1.2}, {"N", 0.3},
-            {"chi_tc", 3.5},     {"H_0", 300},   {"G_ref_MPa", 30},  {"m", 1.0},    {"nu", 0.15},
-            {"psi_0", psi_0},    {"K_0", 0.7},   {"tolerance", 1e-6}};
-}
 
 json element_scene(const std::string& element, double psi_0 = 0.05) {
     json scene = bench::scene_of({.law = cj1(psi_0), .gravity = 0.0});
@@ -29,37 +24,16 @@ json element_scene(const std::string& element, double psi_0 = 0.05) {
 }
 
 /// One element under level ground's stress at K_0 0.7.
-struct Element {
-    Model model;
-    Seconds seconds;
-    InternalForce force;
-    std::vector<materials::Law> laws;
-    Motion now, trial;
-
+struct Element : bench::BegunElement {
     explicit Element(const std::string& element)
-        : model(bench::model_of(bench::parse(element_scene(element)))),
-          force(model, seconds),
-          laws(laws_for(model, scene::StageLaws::scene)),
-          now(at_rest(model)) {
-        for (State& point : now.points) point.sigma = Voigt(-70e3, -100e3, -70e3, 0.0);
-        begin_memory(model, now);
-        trial = now;
-    }
+        : BegunElement(element_scene(element), Voigt(-70e3, -100e3, -70e3, 0.0)) {}
     const materials::NorSand& law() const { return std::get<materials::NorSand>(laws[0]); }
     const norsand::State& memory() const {
         return std::get<materials::ZoneMemory<materials::NorSand>>(now.memory.at(0)).points.at(0);
     }
     /// u = (gamma y + e x, -e y): simple shear, or compression in the plane at constant volume.
     Geometry strain(double gamma, double e) {
-        trial.u = now.u;
-        for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
-            const Vec2& x = model.mesh.nodes[i];
-            trial.u.segment<2>(static_cast<Eigen::Index>(2 * i)) =
-                Vec2(gamma * x.y() + e * x.x(), -e * x.y());
-        }
-        const Geometry geometry = force.evaluate(laws, now, trial);
-        if (geometry == Geometry::sound) std::swap(now, trial);
-        return geometry;
+        return move([&](const Vec2& x) { return Vec2(gamma * x.y() + e * x.x(), -e * x.y()); });
     }
 };
 
@@ -90,6 +64,55 @@ TEST(NorSandInTheMesh, AnElementShearedUndrainedGivesThePointsPathAndTheTablesPe
         expect_error(kind + ": peak of shear against the table",
                      std::abs(peak / 100e3 / 0.253556 - 1.0), 2e-4);
     }
+}
+
+/// A wet column of CJ1 under 100 kPa, 70 kPa against each wall; the right wall's push is let go over
+/// 20 s, and the soil has no time to drain. The top row alone, whose edge is drained, may be stronger.
+json wet_column(const std::string& element, double psi_0) {
+    constexpr int rows = 8;
+    json scene = bench::scene_of({.height = rows, .rows = rows, .law = cj1(psi_0), .gravity = 0.0});
+    scene["materials"]["soil"]["void_ratio"] = 0.85;
+    scene["materials"]["soil"]["permeability"] = {1e-13, 1e-13};
+    json& fem = scene["fem"];
+    fem["element"] = element;
+    fem["water"] = {{"line", {{0, 2 * rows}}}};
+    fem["supports"][2]["fixes"] = "y";
+    fem["telemetry_interval"] = 0.02;
+    fem["stages"] = {{{"type", "static"},
+                      {"name", "load"},
+                      {"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", 100}}}}},
+                     {{"type", "static"}, {"name", "norsand"}, {"laws", "scene"}},
+                     {{"type", "dynamic"},
+                      {"name", "release"},
+                      {"release", {"right"}},
+                      {"ramp", 20},
+                      {"duration", 12},
+                      {"time_step", 0.02}}};
+    return scene;
+}
+
+// sigma_xx falls at constant sigma_yy, both total: the column fails where half their difference is
+// the peak of the law's own undrained path.
+TEST(NorSandInTheMesh, AWetColumnCollapsesAtThePeakOfThePoint) {
+    for (const std::string kind : {"ssp", "bbar"}) {
+        bench::Run run(wet_column(kind, 0.05));
+        const Element point(kind);
+        const double s_u = norsand::undrained_strength(point.law().ready, point.memory(), 1e9).peak;
+        const Analysis& done = run.go();
+        double past = 0.0;
+        for (const Reading& reading : done.history()) {
+            if (reading.past_peak_share < 0.5) continue;
+            past = reading.time;
+            break;
+        }
+        EXPECT_GT(done.history().back().kinetic_energy, 1e3);
+        // Half the difference of the stresses that the stage lets act.
+        const double load = 0.5 * (30e3 + 70e3 * past / 20.0);
+        expect_error(kind + ": load on a wet column past its peak, over s_u",
+                     std::abs(load / s_u - 1.0), 0.02);
+    }
+    bench::Run standing(wet_column("ssp", -0.05));
+    EXPECT_LT(standing.go().history().back().kinetic_energy, 1.0);
 }
 
 TEST(NorSandInTheMesh, AnElementCompressedUndrainedGivesThePointsPath) {

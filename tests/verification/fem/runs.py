@@ -1,6 +1,9 @@
-"""One run of fem_solver from Python: the scene's folder, overrides, and what came out."""
+"""One run of fem_solver from Python: the scene's folder, overrides, what came out, and where two runs differ."""
 import json
 import subprocess
+
+import h5py
+import numpy
 
 
 def run(program, scene, output, **overrides):
@@ -18,3 +21,23 @@ def run(program, scene, output, **overrides):
 def judge(what, reached, allowed):
     print(f"    {what:<66} reached {reached:.3e}, allowed {allowed:.1e}")
     return reached <= allowed
+
+
+def datasets(file):
+    found = {}
+    with h5py.File(file) as opened:
+        opened.visititems(lambda name, each: found.update({name: each[()]}) if isinstance(each, h5py.Dataset) else None)
+    return found
+
+
+def differences(one, two, files):
+    """Datasets of these files that differ between two outputs, and the telemetry if it does."""
+    wrong = []
+    for name in files:
+        a, b = datasets(one / name), datasets(two / name)
+        assert a.keys() == b.keys() and len(a) > 5, name
+        wrong += [f"{name}:{key}" for key in a if not numpy.array_equal(a[key], b[key])]
+        print(f"    {len(a)} datasets of {name}, {len(wrong)} differ {wrong}")
+    if (one / "telemetry.jsonl").read_bytes() != (two / "telemetry.jsonl").read_bytes():
+        wrong.append("telemetry.jsonl")
+    return wrong

@@ -2,7 +2,6 @@
 // surcharge, a support that lets go; and what cannot be.
 #include <cmath>
 
-#include "core/check/check.hpp"
 #include "fem_solver/checkpoint.hpp"
 #include "tests/verification/fem/bench.hpp"
 
@@ -10,6 +9,7 @@ namespace breach::fem {
 namespace {
 
 using bench::expect_error;
+using bench::place_refused;
 using nlohmann::json;
 
 constexpr double E = 20e6, nu = 0.3, rho = 2000.0, g = 9.81;
@@ -113,6 +113,63 @@ TEST(Stages, ASupportThatLetsGoGivesItsReactionBack) {
         1e-8);
 }
 
+/// The column with water up to `level`; of NorSand or elastic.
+json column_with_water(const json& stages, double level) {
+    json scene = column(stages);
+    scene["fem"]["water"] = {{"line", {{0, level}}}};
+    scene["materials"]["soil"]["void_ratio"] = 0.8;
+    scene["materials"]["soil"]["permeability"] = {1e-6, 1e-6};
+    return scene;
+}
+
+json line_at(double level) { return {{"phreatic_line", {{0, level}}}}; }
+
+TEST(Stages, ARisingPhreaticLineHeavesTheGroundAsTheClosedFormSays) {
+    constexpr double of_water = 1000.0 * g;
+    const double own = rho * g * 36.0 / (2.0 * M);
+    const auto heave = [&](double level) { return of_water * level * level / (2.0 * M); };
+    for (const std::string kind : {"ssp", "bbar"}) {
+        json rise = line_at(5);
+        rise["load_steps"] = 4;
+        json scene = column_with_water({static_stage("gravity"), static_stage("rise", rise)}, 1.0);
+        scene["fem"]["element"] = kind;
+        bench::Run run(scene);
+        expect_error(kind + ": settlement after a phreatic rise",
+                     std::abs(settlement_at(run.go(), {1, 6}) / (own - heave(5)) - 1.0), 1e-8);
+        scene["fem"]["stages"].push_back(static_stage("fall", line_at(2)));
+        bench::Run fallen(scene);
+        expect_error(kind + ": settlement after it fell",
+                     std::abs(settlement_at(fallen.go(), {1, 6}) / (own - heave(2)) - 1.0), 1e-8);
+    }
+    // A pond of 3 m loads what its water lifts: the soil is as under water up to the ground.
+    bench::Run pond(
+        column_with_water({static_stage("gravity"), static_stage("pond", line_at(9))}, 1.0));
+    const Analysis& under = pond.go();
+    expect_error("settlement of the ground below a pond",
+                 std::abs(settlement_at(under, {1, 6}) / (own - heave(6)) - 1.0), 1e-8);
+    expect_error("pore pressure at the base below a pond",
+                 std::abs(under.motion().p[0] / (of_water * 9.0) - 1.0), 1e-12);
+}
+
+TEST(Stages, NorSandAnswersAPhreaticRiseDrained) {
+    json scene = column_with_water(
+        {static_stage("gravity"), static_stage("law", {{"laws", "scene"}}),
+         static_stage("rise", {{"laws", "scene"}, {"load_steps", 5}, {"phreatic_line", {{0, 5}}}})},
+        1.0);
+    scene["fem"]["element"] = "ssp";
+    scene["materials"]["soil"]["law"] = bench::cj1(0.03);
+    scene["fem"]["force_tolerance"] = 1e-8;
+    bench::Run run(scene);
+    const Analysis& done = run.go();
+    for (const std::size_t e : {0u, 3u}) {
+        const double y = 0.5 + static_cast<double>(e);
+        const double expected = -(rho * g * (6.0 - y) - 1000.0 * g * (5.0 - y));
+        expect_error("sigma'_yy in NorSand after the rise, row " + std::to_string(e),
+                     std::abs(done.motion().points.at(e).sigma[1] / expected - 1.0), 1e-5);
+    }
+    ASSERT_EQ(done.motion().memory.size(), 2u);
+}
+
 /// A free-standing column of clay (c = 20 kPa, phi = 0) that carries 2 c = 40 kPa, under `pressure`.
 json clay_column(double pressure_kPa, double ramp) {
     json scene = column(
@@ -160,19 +217,6 @@ TEST(Stages, AnUnchangedSceneHasNothingAbsent) {
     EXPECT_TRUE(run.go().model().absent.empty());
 }
 
-/// Where a scene is refused, by reading, checking or building.
-std::string place_refused(const json& scene) {
-    try {
-        const scene::Scene parsed = bench::parse(scene);
-        const auto faults = check::findings_of(parsed).faults;
-        if (!faults.empty()) return faults.at(0).pointer;
-        bench::Run run(scene);
-    } catch (const fault::BadInput& bad) {
-        return bad.faults().at(0).pointer;
-    }
-    return "";
-}
-
 TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {
     EXPECT_EQ(place_refused(column(json::array({static_stage("a", {{"activate", {"nowhere"}}})}))),
               "/fem/stages/0/activate/0");
@@ -192,6 +236,19 @@ TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {
               "/fem/stages/0/release/0");
     EXPECT_EQ(place_refused(column(json::array({static_stage("a", {{"at_limit", "go_on"}})}))),
               "/fem/stages/0/at_limit");
+    EXPECT_EQ(place_refused(column({static_stage("a"), static_stage("b", line_at(3))})),
+              "/fem/stages/1/phreatic_line")
+        << "no water to move";
+    const auto refused_line = [](const json& line, const json& first = static_stage("a")) {
+        return place_refused(
+            column_with_water({first, static_stage("b", {{"phreatic_line", line}})}, 2.0));
+    };
+    EXPECT_EQ(refused_line({{0, -1}}), "/fem/stages/1/phreatic_line") << "below all soil";
+    EXPECT_EQ(refused_line({{5, 2}, {9, 3}}), "/fem/stages/1/phreatic_line") << "beside it";
+    EXPECT_EQ(refused_line({{0, 5}}, static_stage("dig", {{"remove", {"top"}}})),
+              "/fem/stages/1/phreatic_line")
+        << "in soil that is gone";
+    EXPECT_EQ(refused_line({{0, 3.5}}, static_stage("dig", {{"remove", {"top"}}})), "");
     json moving = column({static_stage("a"), static_stage("b", {{"remove", {"top"}}})});
     moving["fem"]["kinematics"] = "updated_lagrangian";
     EXPECT_EQ(place_refused(moving), "/fem/stages/1");

@@ -1,9 +1,10 @@
 // Updated Lagrangian kinematics: stresses turn with the body, exactly and without growing.
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
-#include "tests/verification/fem/bench.hpp"
+#include "tests/verification/fem/begun_element.hpp"
 
 namespace breach::fem {
 namespace {
@@ -67,6 +68,64 @@ TEST(MovingMesh, AddsLogarithmicStrainsInExtension) {
     expect_error("doubled length in 20 steps against ln 2", fine, 2e-4);
     expect_error("order of the midpoint rule: |order - 2|",
                  std::abs(std::log2(coarse / fine) - 2.0), 0.02);
+}
+
+const nlohmann::json laws_with_memory = nlohmann::json::array(
+    {{{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}}, bench::cj1(0.05)});
+
+/// An element under the stress of level ground on a moving mesh, sheared to and fro while it turns.
+struct TurningElement : bench::BegunElement {
+    explicit TurningElement(const nlohmann::json& law)
+        : BegunElement(moving(law), Voigt(-70e3, -100e3, -70e3, 0.0)) {}
+    static nlohmann::json moving(const nlohmann::json& law) {
+        nlohmann::json scene = bench::scene_of({.law = law, .gravity = 0.0});
+        scene["fem"]["kinematics"] = "updated_lagrangian";
+        return scene;
+    }
+    void go(double gamma, double angle) {
+        const mechanics::Matrix2 R = Eigen::Rotation2Dd(angle).toRotationMatrix();
+        ASSERT_EQ(
+            move([&](const Vec2& x) -> Vec2 { return R * (x + Vec2(gamma * x.y(), 0.0)) - x; }),
+            Geometry::sound);
+    }
+    /// Stress in the axes of the body, after a path of so many steps.
+    Voigt stress_after(int steps, const std::function<double(double)>& angle_at) {
+        for (int n = 1; n <= steps; ++n) {
+            const double part = static_cast<double>(n) / steps;
+            go(4e-3 * std::sin(3.0 * pi * part), angle_at(part));
+        }
+        return mechanics::rotated_stress(now.points[0].sigma, -angle_at(1.0));
+    }
+};
+
+TEST(MovingMesh, TurnsWhatLawsRememberExactlyWithARigidRotation) {
+    const auto upright = [](double) { return 0.0; };
+    for (const nlohmann::json& law : laws_with_memory) {
+        const std::string name = law.at("type");
+        const Voigt expected = TurningElement(law).stress_after(300, upright);
+        // Halfway, between two strains, by a quarter turn.
+        TurningElement turned(law);
+        const Voigt reached = [&] {
+            for (int n = 1; n <= 150; ++n) turned.go(4e-3 * std::sin(3.0 * pi * n / 300), 0.0);
+            for (int n = 1; n <= 8; ++n) turned.go(4e-3 * std::sin(1.5 * pi), 0.5 * pi * n / 8);
+            for (int n = 151; n <= 300; ++n)
+                turned.go(4e-3 * std::sin(3.0 * pi * n / 300), 0.5 * pi);
+            return mechanics::rotated_stress(turned.now.points[0].sigma, -0.5 * pi);
+        }();
+        expect_error(name + " sheared, turned a quarter, sheared on: stress",
+                     (reached - expected).norm() / expected.norm(), 1e-8);
+        // All the while: strain and rotation of a step are those of its middle, of second order.
+        const auto turning = [](double part) { return 0.5 * pi * part; };
+        const auto error = [&](int steps) {
+            return (TurningElement(law).stress_after(steps, turning) -
+                    TurningElement(law).stress_after(steps, upright))
+                       .norm() /
+                   expected.norm();
+        };
+        const double coarse = error(300), fine = error(600);
+        expect_error(name + " turned a quarter while sheared in 600 steps: stress", fine, 1e-5);
+        expect_error(name + " the same: error against that of 300 steps", fine / coarse, 0.3);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// Where integration points lie below the ground, for laws that differ from place to place.
+#pragma once
+
+#include "fem_solver/model/ground.hpp"
+
+namespace breach::fem {
+
+/// The ground that is there now.
+class Overburden {
+  public:
+    explicit Overburden(const Model& model) : edges_(ground_edges(model)) {}
+    /// Of an integration point of the mesh; sigma_v0 is left 0.
+    materials::Place place(const Model& model, std::size_t point) const;
+
+  private:
+    std::vector<GroundEdge> edges_;
+};
+
+/// The law of one point: psi_0 is that of its place.
+template <class Law>
+Law at_point(const Law& law, const Overburden& overburden, const Model& model, std::size_t point) {
+    if constexpr (std::same_as<Law, materials::NorSand>)
+        if (law.psi_0_profile)
+            return {.elasticity = law.elasticity,
+                    .ready = law.ready,
+                    .options = law.options,
+                    .psi_0 = law.psi_0_profile->at(overburden.place(model, point)),
+                    .e_0 = {},
+                    .R = law.R};
+    return law;
+}
+
+}  // namespace breach::fem

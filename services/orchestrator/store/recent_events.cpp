@@ -1,0 +1,27 @@
+#include "services/orchestrator/store/recent_events.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace breach::orchestrator {
+
+namespace {
+
+constexpr std::size_t most_kept = 1000;
+
+}  // namespace
+
+void RecentEvents::add(std::vector<Event> committed) {
+    std::ranges::move(committed, std::back_inserter(kept_));
+    if (kept_.size() > most_kept)
+        kept_.erase(kept_.begin(), kept_.end() - static_cast<std::ptrdiff_t>(most_kept));
+}
+
+std::optional<std::vector<Event>> RecentEvents::after(std::int64_t seq, std::size_t most) const {
+    if (kept_.empty() || seq + 1 < kept_.front().seq) return std::nullopt;
+    const auto first = std::ranges::upper_bound(kept_, seq, {}, &Event::seq);
+    const auto count = std::min(most, static_cast<std::size_t>(kept_.end() - first));
+    return std::vector<Event>(first, first + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,26 @@
+// The newest events as the writer committed them: hundreds of listeners are told of one without a question to the
+// database each.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "services/orchestrator/records/records.hpp"
+
+namespace breach::orchestrator {
+
+class RecentEvents {
+  public:
+    /// committed: in the order of their numbers, after all that came before.
+    void add(std::vector<Event> committed);
+    /// Some that are kept here are gone from the database.
+    void forget() { kept_.clear(); }
+    /// At most so many of those after `seq`. Nothing: they may have begun before what is kept.
+    std::optional<std::vector<Event>> after(std::int64_t seq, std::size_t most) const;
+
+  private:
+    std::deque<Event> kept_;
+};
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,81 @@
+// What NorSand carries without drainage, against closed forms; and that a call of nothing costs
+// the next one nothing.
+#include "core/materials/norsand/undrained.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/verification/norsand/soils.hpp"
+
+namespace breach::testing {
+namespace {
+
+using namespace norsand;
+using mechanics::Voigt;
+
+constexpr double sigma_v0 = 100e3, K_0 = 0.7, p_0 = (1.0 + 2.0 * K_0) / 3.0 * sigma_v0;
+constexpr double far = 1e9;  // no bound
+
+Ready cj1() {
+    Parameters parameters = soil("CJ1");
+    parameters.S = 1.0;
+    return ready(parameters);
+}
+State at_rest(const Ready& law, double psi_0) {
+    const Voigt sigma(-K_0 * sigma_v0, -sigma_v0, -K_0 * sigma_v0, 0.0);
+    return initialise(law, sigma, psi_0 + critical_void_ratio(law, p_0)).state;
+}
+
+// docs/design/norsand.md: tau/sigma'_v0 = 0.039360 at psi_0 = 0.05, K_0 = 0.7.
+TEST(NorSandUndrained, TheResidualIsThatOfTheCriticalState) {
+    const Ready law = cj1();
+    const UndrainedStrength loose = undrained_strength(law, at_rest(law, 0.05), far);
+    EXPECT_NEAR(loose.critical / sigma_v0, 0.039360, 5e-6);
+    const double looser = undrained_strength(law, at_rest(law, 0.07), far).critical;
+    EXPECT_NEAR(looser / loose.critical, std::exp(-1.0), 1e-9) << "e^(-d psi / lambda)";
+}
+
+TEST(NorSandUndrained, ThePeakIsThatOfThePathAndThePresentPastIt) {
+    const Ready law = cj1();
+    State state = at_rest(law, 0.05);
+    const UndrainedStrength found = undrained_strength(law, state, far);
+    double peak = plane_shear(state);
+    for (int step = 0; step < 4000; ++step) {
+        state = integrate(law, state, Voigt(1e-5, -1e-5, 0.0, 0.0), {}).state;
+        peak = std::max(peak, plane_shear(state));
+    }
+    EXPECT_NEAR(found.peak / peak, 1.0, 1e-3);
+    EXPECT_GT(found.peak, 1.2 * plane_shear(at_rest(law, 0.05)));
+    const double now = plane_shear(state);
+    ASSERT_LT(now, 0.5 * peak);
+    EXPECT_NEAR(undrained_strength(law, state, far).peak / now, 1.0, 1e-12);
+}
+
+TEST(NorSandUndrained, DenseSoilIsBelievedUpToTheBoundOnly) {
+    const Ready law = cj1();
+    const State dense = at_rest(law, -0.05);
+    const UndrainedStrength bounded = undrained_strength(law, dense, 2.0 * p_0);
+    const double theta = plane_critical_angle(law);
+    const double tau = critical_ratio(law, theta) * std::cos(theta) / std::numbers::sqrt3;
+    EXPECT_NEAR(bounded.peak, tau * 2.0 * p_0, 1e-6);
+    EXPECT_EQ(bounded.critical, bounded.peak);
+    EXPECT_GT(undrained_strength(law, dense, far).peak, 2.0 * bounded.peak);
+}
+
+// A guess of 1e-300 left behind used up the next call's evaluations in doublings.
+TEST(NorSandUndrained, ACallOfNothingCostsTheNextOneNothing) {
+    const Ready law = cj1();
+    const State state = at_rest(law, 0.05);
+    const Update nothing = integrate(law, state, Voigt::Zero(), {});
+    ASSERT_EQ(nothing.outcome, Outcome::done);
+    for (const double size : {1e-12, 1e-9, 1e-6, 1e-3}) {
+        const Update next = integrate(law, nothing.state, Voigt(size, -size, 0.0, 0.0), {});
+        EXPECT_EQ(next.outcome, Outcome::done) << size;
+        EXPECT_LT(next.counts.evaluations, 200) << size;
+    }
+}
+
+}  // namespace
+}  // namespace breach::testing

@@ -1,0 +1,363 @@
+// Static stages in which no water flows, against closed forms and the law's own point; NorSand's
+// collapse in a shear column and in biaxial compression.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/verification/fem/bench.hpp"
+
+namespace breach::fem {
+namespace {
+
+namespace norsand = materials::norsand;
+using bench::cj1;
+using bench::expect_error;
+using bench::place_refused;
+using nlohmann::json;
+
+constexpr double g = 9.81, rho = 2000.0, rho_w = 1000.0;
+
+json stage(const char* name, const json& more = json::object()) {
+    json made{{"type", "static"}, {"name", name}};
+    made.update(more);
+    return made;
+}
+
+/// Saturated up to the ground.
+json wet_block(bench::Block block, const std::string& element) {
+    json scene = bench::scene_of(block);
+    scene["fem"]["element"] = element;
+    scene["fem"]["water"] = {{"line", {{0, block.height}}}};
+    scene["materials"]["soil"]["void_ratio"] = 0.8;
+    scene["materials"]["soil"]["permeability"] = {1e-6, 1e-6};
+    return scene;
+}
+
+json surcharge(double kPa) {
+    return json::array({{{"from", -1}, {"to", 2}, {"pressure_kPa", kPa}}});
+}
+
+TEST(Undrained, AnElasticColumnIsHeldByItsWaterAndSettlesWhenItDrains) {
+    constexpr double E = 20e6, nu = 0.3, q = 50e3, H = 6.0;
+    constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    constexpr double K_w = 2.2e9 * 1.8 / 0.8;  // K_f / n
+    for (const std::string element : {"ssp", "bbar"}) {
+        json scene = wet_block(
+            {.height = H,
+             .rows = 6,
+             .gravity = 0.0,
+             .stages = {stage("rest"), stage("load", {{"undrained", {"block"}},
+                                                      {"load_steps", 2},
+                                                      {"surcharge", surcharge(q / 1e3)}})}},
+            element);
+        scene["fem"]["force_tolerance"] = 1e-10;
+        const std::size_t top = 1;
+        const auto settled = [&](const Analysis& done) {
+            const std::size_t node = nearest_node(done.model().mesh, {1, H});
+            return -done.motion().u[static_cast<Eigen::Index>(2 * node + top)];
+        };
+        bench::Run held(scene);
+        const Analysis& undrained = held.go();
+        expect_error(element + ": undrained settlement",
+                     std::abs(settled(undrained) / (q * H / (M + K_w)) - 1.0), 1e-6);
+        expect_error(element + ": excess pore pressure",
+                     (undrained.motion().p.array() / (q * K_w / (M + K_w)) - 1.0).abs().maxCoeff(),
+                     1e-6);
+        scene["fem"]["stages"].push_back(stage("drain", {{"load_steps", 2}}));
+        bench::Run drained(scene);
+        const Analysis& settles = drained.go();
+        expect_error(element + ": settlement once it has drained",
+                     std::abs(settled(settles) / (q * H / M) - 1.0), 1e-6);
+        EXPECT_EQ(settles.motion().p.cwiseAbs().maxCoeff(), 0.0);
+    }
+}
+
+/// A model whose sides move alike: ground that goes on for ever.
+Model endless(const scene::Scene& scene) {
+    Model model = bench::model_of(scene);
+    const Mesh& mesh = model.mesh;
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+        if (mesh.nodes[i].x() == 0.0) continue;
+        const auto left = static_cast<std::int32_t>(nearest_node(mesh, {0.0, mesh.nodes[i].y()}));
+        const auto right = static_cast<std::int32_t>(i);
+        tie(model.constraints.master, 2 * left, 2 * right);
+        tie(model.constraints.master, 2 * left + 1, 2 * right + 1);
+        tie(model.constraints.pressure_master, left, right);
+    }
+    return model;
+}
+
+/// Runs a scene whose sides move alike.
+struct EndlessRun {
+    bench::Folder folder;
+    process::Session session;
+    Analysis analysis;
+
+    explicit EndlessRun(const json& scene)
+        : session(bench::settings_for(folder.path()), bench::parse(scene)),
+          analysis(session, endless(session.scene())) {
+        analysis.run();
+    }
+};
+
+json without_sides(json scene) {
+    json& supports = scene["fem"]["supports"];
+    supports.erase(1);
+    supports.erase(0);
+    return scene;
+}
+
+TEST(Undrained, ACoupledQuadOfNorSandShearsAsThePointDoes) {
+    constexpr int steps = 50;
+    constexpr double gamma = 0.01;
+    const json shear =
+        stage("shear",
+              {{"laws", "scene"},
+               {"load_steps", steps},
+               {"undrained", {"block"}},
+               {"displace", {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"x", gamma}}}}});
+    for (const std::string element : {"ssp", "bbar"}) {
+        json scene = without_sides(
+            wet_block({.law = cj1(0.05, 0.7),
+                       .density = 8000.0,
+                       .stages = {stage("gravity"), stage("law", {{"laws", "scene"}})}},
+                      element));
+        scene["fem"]["force_tolerance"] = 1e-9;
+        scene["fem"]["largest_iterations"] = 100;
+        EndlessRun before(scene);
+        const auto& zone = std::get<materials::ZoneMemory<materials::NorSand>>(
+            before.analysis.motion().memory.at(0));
+        const auto law = std::get<materials::NorSand>(
+            materials::with_S(before.analysis.model().zones.at(0).law, 1.0));
+        norsand::State point = zone.points.at(0);
+        for (int i = 0; i < steps; ++i)
+            point = norsand::integrate(law.ready, point, Voigt(0, 0, 0, gamma / steps), law.options)
+                        .state;
+        scene["fem"]["stages"].push_back(shear);
+        EndlessRun sheared(scene);
+        const Voigt expected = norsand::stress(point);
+        const Voigt reached = sheared.analysis.motion().points.at(0).sigma;
+        expect_error(element + ": stress of the coupled quad against the point",
+                     (reached - expected).cwiseAbs().maxCoeff() / 50e3, 5e-3);
+        EXPECT_LT(-expected[1], 0.6 * -norsand::stress(zone.points.at(0))[1]) << "past its peak";
+    }
+}
+
+json shear_column(double k_h, int rows, double stabilisation, double duration) {
+    json scene = without_sides(wet_block({.height = 8.0,
+                                          .rows = rows,
+                                          .law = cj1(0.05, 0.7),
+                                          .density = rho,
+                                          .stages = {stage("gravity"),
+                                                     stage("law", {{"laws", "scene"}}),
+                                                     stage("shear", {{"laws", "scene"},
+                                                                     {"load_steps", 40},
+                                                                     {"undrained", {"block"}},
+                                                                     {"seismic_coefficient", k_h},
+                                                                     {"at_limit", "go_on"}}),
+                                                     {{"type", "dynamic"},
+                                                      {"name", "run"},
+                                                      {"duration", duration},
+                                                      {"time_step", std::min(5e-3, duration)},
+                                                      {"ramp", 0.05}}}},
+                                         "ssp"));
+    scene["fem"]["largest_iterations"] = 200;
+    scene["fem"]["water"]["pressure_stabilisation"] = stabilisation;
+    return scene;
+}
+
+// tau = k_h rho g z, sigma'_v0 = (rho - rho_w) g z: at every depth the same ratio.
+constexpr double peak_ratio = 0.253556;  // docs/design/norsand.md 15.2, S = 1
+constexpr double k_peak = peak_ratio * (rho - rho_w) / rho;
+
+TEST(Undrained, AShearColumnOfNorSandCollapsesAtTheElementTestsPeak) {
+    constexpr double k_h = 1.25 * k_peak;
+    for (const double stabilisation : {0.0, 0.25}) {
+        EndlessRun run(shear_column(k_h, 8, stabilisation, 1e-4));
+        const json limit = run.session.result()["geostatic"]["shear"]["limit_point"];
+        ASSERT_TRUE(limit.is_number());
+        expect_error("collapse of the shear column at the element test's peak",
+                     std::abs(limit.get<double>() * k_h / k_peak - 1.0), 5e-3);
+    }
+    EndlessRun stands(shear_column(0.98 * k_peak, 8, 0.0, 1e-4));
+    EXPECT_FALSE(stands.session.result()["geostatic"]["shear"].contains("limit_point"));
+}
+
+TEST(Undrained, BehindItsPeakAShearColumnOfNorSandRuns) {
+    EndlessRun run(shear_column(1.25 * k_peak, 8, 0.0, 0.2));
+    const auto& rows = run.analysis.history();
+    EXPECT_GT(rows.back().kinetic_energy, 4.0 * rows.at(rows.size() / 2).kinetic_energy);
+}
+
+TEST(Undrained, DenseNorSandBiaxiallyCompressedPeaksAsFlacDid) {
+    constexpr double cell = 100.0;  // [kPa]
+    const json top = {{{"from", -1}, {"to", 2}, {"pressure_kPa", cell}}};
+    json scene = bench::scene_of(
+        {.columns = 3,
+         .rows = 3,
+         .law = cj1(-0.05, 0.95),
+         .gravity = 0.0,
+         .stages = {
+             stage("cell", {{"surcharge", top},
+                            {"pressures",
+                             {{{"name", "cell"},
+                               {"from", {1, 0}},
+                               {"to", {1, 1}},
+                               {"pressure_kPa", cell}}}}}),
+             stage("law", {{"laws", "scene"}}),
+             stage("drive",
+                   {{"laws", "scene"},
+                    {"load_steps", 200},
+                    {"displace",
+                     {{{"name", "platen"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -0.05}}}}})}});
+    json& supports = scene["fem"]["supports"];
+    supports.erase(1);
+    supports[1]["fixes"] = "y";
+    scene["fem"]["largest_iterations"] = 100;
+    bench::Run run(scene);
+    run.go();
+    double peak = 0.0, at = 0.0;
+    for (const json& step : run.session().result()["geostatic"]["drive"]["displaced"]["platen"]) {
+        const double sigma_1 = cell - step.at("force_y").get<double>() / 1e3;
+        if (sigma_1 > peak) at = 0.05 * step.at("load").get<double>();
+        peak = std::max(peak, sigma_1);
+    }
+    std::printf("    peak sigma_1 %.2f kPa at a strain of %.4f\n", peak, at);
+    expect_error("peak against FLAC's 383 kPa read off", std::abs(peak / 383.0 - 1.0), 0.03);
+    expect_error("peak against one element's 376.9 kPa", std::abs(peak / 376.9 - 1.0), 5e-3);
+    EXPECT_NEAR(at, 0.034, 0.003);
+}
+
+TEST(StageLoads, PressureOnASideAndADisplacedEdgeGiveTheClosedForms) {
+    constexpr double E = 20e6, nu = 0.3, q = 50e3;
+    constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    json scene = bench::scene_of({.columns = 2,
+                                  .rows = 2,
+                                  .gravity = 0.0,
+                                  .stages = {stage("press", {{"pressures",
+                                                              {{{"name", "side"},
+                                                                {"from", {1, 0}},
+                                                                {"to", {1, 1}},
+                                                                {"pressure_kPa", q / 1e3}}}}})}});
+    json& supports = scene["fem"]["supports"];
+    supports.erase(1);
+    supports[1]["fixes"] = "y";
+    const auto u_at = [](const Analysis& done, const Vec2& x) -> Vec2 {
+        const std::size_t node = nearest_node(done.model().mesh, x);
+        return done.motion().u.segment<2>(static_cast<Eigen::Index>(2 * node));
+    };
+    bench::Run pressed(scene);
+    const Vec2 u = u_at(pressed.go(), {1, 1});
+    expect_error("a side under pressure moves in", std::abs(-u.x() / ((1 - nu * nu) * q / E) - 1.0),
+                 1e-8);
+    scene["fem"]["stages"].push_back(stage("let go", {{"pressures", json::array()}}));
+    bench::Run let_go(scene);
+    EXPECT_NEAR(u_at(let_go.go(), {1, 1}).norm(), 0.0, 1e-12);
+
+    json moved = bench::scene_of({.columns = 2, .rows = 2, .gravity = 0.0});
+    moved["fem"]["stages"] = {
+        stage("rest"),
+        stage("drive",
+              {{"load_steps", 3},
+               {"displace", {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -1e-3}}}}}),
+        stage("hold", {{"surcharge", surcharge(20)}})};
+    bench::Run run(moved);
+    expect_error("stress under a displaced edge, which then stays",
+                 std::abs(run.go().motion().points.at(0).sigma[1] / (-M * 1e-3) - 1.0), 1e-8);
+    const json& path = run.session().result()["geostatic"]["drive"]["displaced"]["top"];
+    ASSERT_EQ(path.size(), 3u);
+    expect_error("what pushes it",
+                 std::abs(path.back().at("force_y").get<double>() / (-M * 1e-3) - 1.0), 1e-8);
+}
+
+TEST(StageLoads, ALocalOverpressureComesAndGoes) {
+    constexpr double E = 20e6, nu = 0.3, H = 6.0, head = 4.0;
+    constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    const json over = {
+        {"water_boundaries",
+         {{{"name", "base"}, {"from", {0, 0}}, {"to", {1, 0}}, {"level", H + head}}}}};
+    json scene = wet_block(
+        {.height = H, .rows = 6, .stages = {stage("gravity"), stage("over", over)}}, "ssp");
+    const auto settled = [H](const Analysis& done) {
+        const std::size_t node = nearest_node(done.model().mesh, {1, H});
+        return -done.motion().u[static_cast<Eigen::Index>(2 * node + 1)];
+    };
+    const double own = (rho - rho_w) * g * H * H / (2.0 * M);
+    bench::Run run(scene);  // the excess falls along a straight line from the base to the ground
+    expect_error("settlement under an overpressure of 4 m of water at the base",
+                 std::abs(settled(run.go()) / (own - rho_w * g * head * H / (2.0 * M)) - 1.0),
+                 1e-8);
+    scene["fem"]["stages"].push_back(stage("gone", {{"water_boundaries", json::array()}}));
+    bench::Run gone(scene);
+    expect_error("settlement when it has gone", std::abs(settled(gone.go()) / own - 1.0), 1e-8);
+}
+
+TEST(StageLoads, PsiOverDepthBeginsEachPointWithItsOwn) {
+    json law = cj1(0.0, 0.7);
+    law.erase("psi_0");
+    law["psi_0_profile"] = {{"points", {{1, 0.05}, {3, -0.03}}}};
+    const auto psi_at = [&](const Analysis& done, std::size_t point) {
+        const auto& zone =
+            std::get<materials::ZoneMemory<materials::NorSand>>(done.motion().memory.at(0));
+        return norsand::read(std::get<materials::NorSand>(done.model().zones.at(0).law).ready,
+                             zone.points.at(point))
+            .psi;
+    };
+    for (const std::string by : {"depth", "elevation"}) {
+        law["psi_0_profile"]["by"] = by;
+        json scene =
+            bench::scene_of({.height = 4.0,
+                             .rows = 4,
+                             .law = law,
+                             .stages = {stage("gravity"), stage("law", {{"laws", "scene"}})}});
+        scene["fem"]["element"] = "ssp";
+        scene["fem"]["force_tolerance"] = 1e-9;
+        bench::Run run(scene);
+        const Analysis& done = run.go();
+        // Rows at 0.5, 1.5, 2.5, 3.5 m from the base; held beyond the table, straight within.
+        const std::vector<double> from_first{0.05, 0.03, -0.01, -0.03};
+        for (std::size_t e = 0; e < 4; ++e)
+            expect_error(by + ": psi in row " + std::to_string(e),
+                         std::abs(psi_at(done, e) - from_first[by == "depth" ? 3 - e : e]), 2e-4);
+    }
+}
+
+TEST(StageLoads, WhatCannotBeIsRefusedWithItsPlace) {
+    const json held{{"undrained", {"block"}}};
+    const auto refused = [](const json& first, const json& second, bool wet = true) {
+        json scene = wet_block({.height = 2.0, .rows = 2, .stages = {first, second}}, "ssp");
+        if (!wet) scene["fem"].erase("water");
+        return place_refused(scene);
+    };
+    const json gravity = stage("a");
+    EXPECT_EQ(refused(gravity, stage("b", held)), "");
+    EXPECT_EQ(refused(stage("a", held), gravity), "/fem/stages/0/undrained");
+    EXPECT_EQ(refused(gravity, stage("b", held), false), "/fem/stages/1/undrained");
+    json rises = held;
+    rises["phreatic_line"] = {{0, 1}};
+    EXPECT_EQ(refused(gravity, stage("b", rises)), "/fem/stages/1/phreatic_line");
+    const auto on = [](const char* key, double x, const json& more) {
+        json each{{"name", "edge"}, {"from", {x, 0}}, {"to", {x, 2}}};
+        each.update(more);
+        return stage("b", {{key, json::array({each})}});
+    };
+    EXPECT_EQ(refused(gravity, on("displace", 5, {{"x", 0.1}})), "/fem/stages/1/displace/0");
+    EXPECT_EQ(refused(gravity, on("displace", 1, json::object())), "/fem/stages/1/displace/0");
+    EXPECT_EQ(refused(gravity, on("pressures", 0.5, {{"pressure_kPa", 1}})),
+              "/fem/stages/1/pressures/0")
+        << "within the soil";
+    json law = cj1(0.0, 0.7);
+    const auto refused_law = [](const json& its) {
+        return place_refused(bench::scene_of({.law = its}));
+    };
+    law["psi_0_profile"] = {{"points", {{0, 0.0}}}};
+    EXPECT_EQ(refused_law(law), "/materials/soil/law/psi_0") << "two states";
+    law.erase("psi_0");
+    EXPECT_EQ(refused_law(law), "");
+    law["psi_0_profile"] = {{"points", {{2, 0.0}, {1, 0.0}}}};
+    EXPECT_EQ(refused_law(law), "/materials/soil/law/psi_0_profile/points/1") << "out of order";
+    law["psi_0_profile"] = {{"points", {{1, 0.0}, {2, 0.3}}}};
+    EXPECT_EQ(refused_law(law), "/materials/soil/law/psi_0_profile/points/1") << "too loose";
+}
+
+}  // namespace
+}  // namespace breach::fem

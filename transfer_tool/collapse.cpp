@@ -1,0 +1,72 @@
+#include "transfer_tool/collapse.hpp"
+
+#include <algorithm>
+
+#include "core/materials/norsand/law.hpp"
+#include "transfer_tool/shapes.hpp"
+
+namespace breach::transfer {
+namespace {
+
+using exchange::MeshSnapshot;
+namespace norsand = materials::norsand;
+
+const materials::NorSand* law_of(const scene::Scene& scene, std::size_t region) {
+    const std::size_t material = scene.section.regions[region].material;
+    return std::get_if<materials::NorSand>(&scene.materials[material].law);
+}
+
+/// Pore pressure at xi, of the present and of the beginning; 0 in a dry snapshot [Pa].
+double pressure_at(const std::vector<double>& pressure, const MeshSnapshot& mesh,
+                   std::size_t element, const Vec2& xi) {
+    return pressure.empty() ? 0.0
+                            : corner_values(pressure, mesh.quads[element]).dot(shape_functions(xi));
+}
+
+}  // namespace
+
+bool collapses(const scene::Scene& scene, std::size_t region) {
+    return scene.transfer && scene.transfer->liquefied &&
+           std::ranges::count(scene.transfer->liquefied->regions, region) > 0 &&
+           law_of(scene, region) != nullptr;
+}
+
+Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
+                   std::span<const std::size_t> regions)
+    : mesh_(&mesh) {
+    const auto any = [&](std::size_t region) { return collapses(scene, region); };
+    if (std::ranges::none_of(regions, any)) return;
+    strain_ = scene::fem_of(scene).failure_strain;
+    soils_.resize(mesh.stress.size());
+    for (std::size_t i = 0; i < soils_.size(); ++i) {
+        const std::size_t gauss = mesh.gauss_positions.size(), e = i / gauss;
+        const std::size_t region = regions[mesh.region_of_element[e]];
+        if (!collapses(scene, region)) continue;
+        const materials::NorSand& law = *law_of(scene, region);
+        const mechanics::Voigt& sigma = mesh.stress[i];
+        const double mean = -(sigma[0] + sigma[1] + sigma[2]) / 3.0;
+        const double p = std::max(mean, law.ready.parameters.p_min);
+        const double e_now = mesh.psi[i] + norsand::critical_void_ratio(law.ready, p);
+        const auto begun = norsand::initialise(law.ready, sigma, e_now, 1.0);
+        // Suction is not counted on.
+        const double u = pressure_at(mesh.pore_pressure, mesh, e, mesh.gauss_positions[i % gauss]);
+        auto strength = norsand::undrained_strength(law.ready, begun.state, p + std::max(u, 0.0));
+        // A stress past the line may have been cut down for the path: it is carried all the same.
+        strength.peak = std::max(strength.peak, std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[3]));
+        const bool past_line = mesh.instability_ratio[i] >= instability;
+        soils_[i] = {strength, past_line, past_line && mesh.epsilon_q[i] > strain_};
+    }
+}
+
+std::optional<Collapse::Soil> Collapse::at(std::size_t element, const Vec2& xi) const {
+    if (soils_.empty()) return std::nullopt;
+    const bool wet = pressure_at(mesh_->pore_pressure, *mesh_, element, xi) > 0.0 ||
+                     pressure_at(mesh_->pore_pressure_0, *mesh_, element, xi) > 0.0;
+    if (!wet) return std::nullopt;
+    const auto& places = mesh_->gauss_positions;
+    const auto nearest = std::ranges::min_element(
+        places, {}, [&](const Vec2& place) { return (place - xi).squaredNorm(); });
+    return soils_[element * places.size() + static_cast<std::size_t>(nearest - places.begin())];
+}
+
+}  // namespace breach::transfer

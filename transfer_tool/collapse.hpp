@@ -1,0 +1,58 @@
+// NorSand soil at the transfer: which of it has collapsed, and what strength it keeps without
+// drainage. Its criterion is not a pore pressure ratio.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/exchange/mesh_snapshot.hpp"
+#include "core/materials/norsand/undrained.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::transfer {
+
+using mechanics::Vec2;
+
+/// Stress ratio over the limiting one from which soil is past its instability line: less than 1, for
+/// what has come to its critical state lies on it (NorSand's own beginning asks for 0.98).
+inline constexpr double instability = 0.98;
+
+/// NorSand in this region, and /transfer/liquefied names it: its points get strengths by state.
+bool collapses(const scene::Scene& scene, std::size_t region);
+
+/// Counts of points, for result.json and people.
+struct CollapseReport {
+    double epsilon_q;           ///< strain from which soil counts as strained
+    std::size_t points = 0;     ///< of these regions
+    std::size_t saturated = 0;  ///< of these, with strengths by state
+    std::size_t past_line = 0;  ///< of these, past the instability line
+    std::size_t collapsed = 0;  ///< of these, strained as well: residual strength from the start
+    double mass = 0.0;          ///< collapsed [kg]
+};
+
+/// Strengths of the Gauss points of NorSand, from their stress and state parameter.
+class Collapse {
+  public:
+    Collapse() = default;
+    /// regions: [regions of the mesh] index into the section's. Nothing is computed where none
+    /// collapses. The mesh has psi there.
+    Collapse(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
+             std::span<const std::size_t> regions);
+
+    struct Soil {
+        materials::norsand::UndrainedStrength strength;
+        bool past_line, collapsed;
+    };
+    /// Of the Gauss point nearest to xi; nothing where the soil is not NorSand's, or dry: above the
+    /// water when the motion began, and now.
+    std::optional<Soil> at(std::size_t element, const Vec2& xi) const;
+    double strain() const { return strain_; }
+
+  private:
+    const exchange::MeshSnapshot* mesh_ = nullptr;
+    double strain_ = 0.0;
+    std::vector<std::optional<Soil>> soils_;  ///< [Gauss points]; empty: no NorSand
+};
+
+}  // namespace breach::transfer
