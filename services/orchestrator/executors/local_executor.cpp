@@ -105,7 +105,7 @@ void LocalExecutor::stop(const AttemptFolder& folder, StopReason reason) {
 }
 
 void LocalExecutor::clear_away(const AttemptFolder&, const std::string& attempt) {
-    for (const pid_t each : marked_processes(attempt)) kill(each, SIGKILL);
+    kill_marked_processes(attempt);
 }
 
 void LocalExecutor::reap() {

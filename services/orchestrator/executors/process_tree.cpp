@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "services/orchestrator/executors/order.hpp"
@@ -89,7 +91,7 @@ std::string host_name() {
     return name.data();
 }
 
-std::vector<pid_t> marked_processes(const std::string& attempt) {
+static std::vector<pid_t> marked_processes(const std::string& attempt) {
     const std::string mark = std::string(attempt_mark) + "=" + attempt;
     std::vector<pid_t> found;
     for (const pid_t pid : all_processes()) {
@@ -102,6 +104,19 @@ std::vector<pid_t> marked_processes(const std::string& attempt) {
         }
     }
     return found;
+}
+
+void kill_marked_processes(const std::string& attempt) {
+    std::set<pid_t> killed{getpid()};
+    // Who is killed may have forked after the look that found it: looked again until nobody is new.
+    for (bool again = true; again;) {
+        again = false;
+        for (const pid_t pid : marked_processes(attempt)) {
+            if (!killed.insert(pid).second) continue;
+            kill(pid, SIGKILL);
+            again = true;
+        }
+    }
 }
 
 }  // namespace breach::orchestrator

@@ -22,8 +22,8 @@ Usage usage_of(pid_t pid);
 
 std::string host_name();
 
-/// Processes whose environment says that they were started for this attempt, wherever they hang in
-/// the tree.
-std::vector<pid_t> marked_processes(const std::string& attempt);
+/// Kills every process but ourselves whose environment says that it was started for this attempt,
+/// wherever it hangs in the tree; also those that were forked meanwhile.
+void kill_marked_processes(const std::string& attempt);
 
 }  // namespace breach::orchestrator

@@ -240,9 +240,7 @@ int supervise(const std::filesystem::path& root, AttemptLock wanted) {
 
 void end_strays(const std::filesystem::path& root) {
     const AttemptFolder folder{root};
-    for (const pid_t each : marked_processes(read_order(folder).attempt)) {
-        if (each != getpid()) kill(each, SIGKILL);
-    }
+    kill_marked_processes(read_order(folder).attempt);
 }
 
 }  // namespace breach::orchestrator
