@@ -14,7 +14,11 @@ namespace breach::fem {
 
 const std::vector<Column>& columns() {
     using R = Reading;
-    using Named = std::pair<const char*, double R::*>;
+    struct Named {
+        const char* name;
+        double R::*member;
+        Needs needs = Needs::nothing;
+    };
     static constexpr std::array members{
         Named{"step", &R::step},
         Named{"time", &R::time},
@@ -38,25 +42,57 @@ const std::vector<Column>& columns() {
         Named{"epsilon_q_avg", &R::epsilon_q_avg},
         Named{"epsilon_q_max", &R::epsilon_q_max},
         Named{"strained_share", &R::strained_share},
-        Named{"softened_share", &R::softened_share},
-        Named{"psi_avg", &R::psi_avg},
-        Named{"instability_ratio_max", &R::instability_ratio_max},
-        Named{"past_peak_share", &R::past_peak_share},
-        Named{"excess_pressure_avg", &R::excess_pressure_avg},
-        Named{"r_u_max", &R::r_u_max},
-        Named{"liquefaction_depth", &R::liquefaction_depth},
+        Named{"softened_share", &R::softened_share, Needs::softening},
+        Named{"psi_avg", &R::psi_avg, Needs::norsand},
+        Named{"instability_ratio_max", &R::instability_ratio_max, Needs::norsand},
+        Named{"past_peak_share", &R::past_peak_share, Needs::norsand},
+        Named{"excess_pressure_avg", &R::excess_pressure_avg, Needs::water},
+        Named{"r_u_max", &R::r_u_max, Needs::watched_ground},
+        Named{"liquefaction_depth", &R::liquefaction_depth, Needs::watched_ground},
         Named{"failure_surfaces", &R::failure_surfaces},
         Named{"slip_across_band", &R::slip_across_band},
         Named{"inverted_elements", &R::inverted_elements},
     };
     static const std::vector<Column> all = [] {
         std::vector<Column> made;
-        for (const auto& [name, member] : members) {
-            made.push_back({name, telemetry::column_named(name)->unit, member});
+        for (const auto& [name, member, needs] : members) {
+            made.push_back({name, telemetry::column_named(name)->unit, member, needs});
         }
         return made;
     }();
     return all;
+}
+
+namespace {
+
+bool has(const scene::Scene& scene, Needs what) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    const auto some_law = [&](const auto& is) {
+        return std::ranges::any_of(scene::soils_of(scene), [&](const scene::Soil& soil) {
+            return is(scene.materials[soil.material].law);
+        });
+    };
+    switch (what) {
+        case Needs::softening:
+            return some_law([](const materials::Law& law) { return materials::softening(law); });
+        case Needs::norsand:
+            return some_law(
+                [](const auto& law) { return std::holds_alternative<materials::NorSand>(law); });
+        case Needs::water:
+            return fem.water.has_value();
+        case Needs::watched_ground:
+            return fem.water && fem.liquefaction;
+        default:
+            return true;
+    }
+}
+
+}  // namespace
+
+std::vector<Column> columns_of(const scene::Scene& scene) {
+    std::vector<Column> found = columns();
+    std::erase_if(found, [&](const Column& each) { return !has(scene, each.needs); });
+    return found;
 }
 
 double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element) {
@@ -198,9 +234,9 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     return r;
 }
 
-nlohmann::json telemetry_line(const Reading& reading) {
+nlohmann::json telemetry_line(const Reading& reading, const std::vector<Column>& columns) {
     nlohmann::json line{{"phase", phases::fem.program}};
-    for (const Column& column : columns()) line[column.name] = reading.*column.member;
+    for (const Column& column : columns) line[column.name] = reading.*column.member;
     line["step"] = static_cast<std::int64_t>(reading.step);
     line["failure_surfaces"] = static_cast<std::int64_t>(reading.failure_surfaces);
     line["inverted_elements"] = static_cast<std::int64_t>(reading.inverted_elements);
@@ -208,10 +244,11 @@ nlohmann::json telemetry_line(const Reading& reading) {
     return line;
 }
 
-exchange::Archive history_archive(const std::vector<Reading>& history) {
+exchange::Archive history_archive(const std::vector<Reading>& history,
+                                  const std::vector<Column>& columns) {
     exchange::Archive archive;
     archive.kind = "fem_history";
-    for (const Column& column : columns()) {
+    for (const Column& column : columns) {
         std::vector<double>& values = archive.reals[column.name];
         for (const Reading& reading : history) values.push_back(reading.*column.member);
         archive.units[column.name] = column.unit;
