@@ -23,7 +23,7 @@ struct PhaseFolder {
     /// Of a runout: how far one run is off [m], and what tells it or why nothing does
     std::optional<double> runout_error = {};
     std::string runout_error_from = {};
-    std::string fault;  ///< why there is no result; empty when there is one
+    std::string fault;                        ///< why there is no result; empty when there is one
     std::vector<std::string> artifacts = {};  ///< SHA-256 of its files, where it is an export's
 };
 
