@@ -68,8 +68,8 @@ namespace {
 bool has(const scene::Scene& scene, Needs what) {
     const scene::Fem& fem = scene::fem_of(scene);
     const auto some_law = [&](const auto& is) {
-        return std::ranges::any_of(scene::soils_of(scene), [&](const scene::Soil& soil) {
-            return is(scene.materials[soil.material].law);
+        return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
+            return is(scene.materials[region.material].law);
         });
     };
     switch (what) {

@@ -165,6 +165,13 @@ TEST(Telemetry, LeavesOutWhatASceneDoesNotMeasure) {
     EXPECT_FALSE(has(wet, "r_u_max")) << "nothing is watched";
 }
 
+TEST(Telemetry, MeasuresTheLawOfTheFemAndNotTheOneTheRunoutTakes) {
+    const auto scene = scene::read_scene(BREACH_ROOT "/workflows/scenes/static_lift.json");
+    EXPECT_TRUE(std::ranges::any_of(columns_of(scene), [](const Column& each) {
+        return each.name == std::string_view("past_peak_share");
+    }));
+}
+
 TEST(Snapshot, IsNamedAfterItsTime) { EXPECT_EQ(snapshot_name(0.25), "snapshot_0.250000.vtkhdf"); }
 
 }  // namespace
