@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <iterator>
 
 #include "core/check/findings.hpp"
+#include "core/check/measured.hpp"
 #include "core/check/section.hpp"
 #include "core/criteria/expression.hpp"
 #include "core/telemetry/columns.hpp"
@@ -23,13 +25,9 @@ void check_window(const scene::Scene& scene, Findings& findings) {
         try {
             const criteria::Expression parsed =
                 criteria::parse(condition, criteria::Kind::condition, pointer, known);
-            if (!scene.fem || scene.fem->liquefaction) return;
-            for (const char* field : {"liquefaction_depth", "r_u_max"}) {
-                if (std::ranges::find(parsed.fields, field) == parsed.fields.end()) continue;
-                refuse(findings, pointer,
-                       "asks for " + std::string(field) + ", and no soil is watched: it stays 0",
-                       "say in /fem/liquefaction which soil can liquefy");
-            }
+            if (!scene.fem) return;
+            std::ranges::move(unmeasured(parsed.fields, scene, pointer),
+                              std::back_inserter(findings.faults));
         } catch (const fault::BadInput& error) {
             for (const fault::Fault& each : error.faults()) findings.faults.push_back(each);
         }

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/check/measured.hpp"
 #include "core/materials/norsand/instability.hpp"
 #include "core/phases/phases.hpp"
-#include "core/telemetry/columns.hpp"
 
 namespace breach::fem {
 
@@ -17,7 +17,6 @@ const std::vector<Column>& columns() {
     struct Named {
         const char* name;
         double R::*member;
-        Needs needs = Needs::nothing;
     };
     static constexpr std::array members{
         Named{"step", &R::step},
@@ -42,56 +41,32 @@ const std::vector<Column>& columns() {
         Named{"epsilon_q_avg", &R::epsilon_q_avg},
         Named{"epsilon_q_max", &R::epsilon_q_max},
         Named{"strained_share", &R::strained_share},
-        Named{"softened_share", &R::softened_share, Needs::softening},
-        Named{"psi_avg", &R::psi_avg, Needs::norsand},
-        Named{"instability_ratio_max", &R::instability_ratio_max, Needs::norsand},
-        Named{"past_peak_share", &R::past_peak_share, Needs::norsand},
-        Named{"excess_pressure_avg", &R::excess_pressure_avg, Needs::water},
-        Named{"r_u_max", &R::r_u_max, Needs::watched_ground},
-        Named{"liquefaction_depth", &R::liquefaction_depth, Needs::watched_ground},
+        Named{"softened_share", &R::softened_share},
+        Named{"psi_avg", &R::psi_avg},
+        Named{"instability_ratio_max", &R::instability_ratio_max},
+        Named{"past_peak_share", &R::past_peak_share},
+        Named{"excess_pressure_avg", &R::excess_pressure_avg},
+        Named{"r_u_max", &R::r_u_max},
+        Named{"liquefaction_depth", &R::liquefaction_depth},
         Named{"failure_surfaces", &R::failure_surfaces},
         Named{"slip_across_band", &R::slip_across_band},
         Named{"inverted_elements", &R::inverted_elements},
     };
     static const std::vector<Column> all = [] {
         std::vector<Column> made;
-        for (const auto& [name, member, needs] : members) {
-            made.push_back({name, telemetry::column_named(name)->unit, member, needs});
+        for (const auto& [name, member] : members) {
+            made.push_back({*telemetry::column_named(name), member});
         }
         return made;
     }();
     return all;
 }
 
-namespace {
-
-bool has(const scene::Scene& scene, Needs what) {
-    const scene::Fem& fem = scene::fem_of(scene);
-    const auto some_law = [&](const auto& is) {
-        return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
-            return is(scene.materials[region.material].law);
-        });
-    };
-    switch (what) {
-        case Needs::softening:
-            return some_law([](const materials::Law& law) { return materials::softening(law); });
-        case Needs::norsand:
-            return some_law(
-                [](const auto& law) { return std::holds_alternative<materials::NorSand>(law); });
-        case Needs::water:
-            return fem.water.has_value();
-        case Needs::watched_ground:
-            return fem.water && fem.liquefaction;
-        default:
-            return true;
-    }
-}
-
-}  // namespace
-
 std::vector<Column> columns_of(const scene::Scene& scene) {
     std::vector<Column> found = columns();
-    std::erase_if(found, [&](const Column& each) { return !has(scene, each.needs); });
+    std::erase_if(found, [&](const Column& each) {
+        return check::why_not_measured(scene, each.needs).has_value();
+    });
     return found;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/exchange/archive.hpp"
+#include "core/telemetry/columns.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
@@ -59,14 +60,8 @@ struct Reading {
     double softened_share = 0.0;         ///< volume that has lost strength over volume that can [-]
 };
 
-/// What a scene must have for a column to say anything.
-enum class Needs { nothing, softening, norsand, water, watched_ground };
-
-struct Column {
-    const char* name;
-    const char* unit;
+struct Column : telemetry::Column {
     double Reading::*member;
-    Needs needs;
 };
 /// As core/telemetry/columns.hpp has them, in its order; a test holds the two together.
 const std::vector<Column>& columns();
