@@ -77,6 +77,7 @@ class Calibrator {
             measured_.emplace_back(read_curve(test, test.measured, peak_rows_.back()));
         }
         choose_line_tests();
+        choose_friction_tests();
         values_ = usual;
         for (std::size_t k = 0; k < values_.size(); ++k)
             if (problem.given[k]) values_[k] = *problem.given[k];
@@ -90,11 +91,11 @@ class Calibrator {
     using enum Sought;
 
     void choose_line_tests();
+    void choose_friction_tests();
     void choose_hardening_tests();
 
     bool is_given(Sought k) const { return problem_.given[k].has_value(); }
     Indices all_tests() const;
-    Indices friction_tests() const;
     Indices dilating_tests() const;
 
     Readings comparable(const Readings& of_law) const;
@@ -122,6 +123,9 @@ class Calibrator {
     Values values_{};
     Indices line_;  ///< whose ends make the critical state line
     bool line_reached_ = true;
+    Indices friction_;         ///< whose stress ratios make M_tc and N
+    bool all_ends_ = false;    ///< critical or not
+    bool slope_held_ = false;  ///< they differ enough in D for N
     Indices hardening_;
     std::vector<double> node_psi_;  ///< of H: one state parameter, or the least and the largest
 };
@@ -159,6 +163,19 @@ void Calibrator::choose_line_tests() {
     line_ = all_tests();
 }
 
+/// Peaks and critical states; where these are few, every test's end.
+void Calibrator::choose_friction_tests() {
+    constexpr std::size_t few = 3;
+    std::size_t readings = 0;
+    for (const auto& each : measured_)
+        readings += (each->peak ? 1U : 0U) + (each->end.critical ? 1U : 0U);
+    all_ends_ = readings < few;
+    for (std::size_t i = 0; i < measured_.size(); ++i)
+        if (all_ends_ || measured_[i]->peak || measured_[i]->end.critical) friction_.push_back(i);
+    const Points points = friction_points(measured_);
+    slope_held_ = !dilating_tests().empty() && spread(points.x) >= critical_dilatancy;
+}
+
 void Calibrator::choose_hardening_tests() {
     constexpr double least_range = 0.03;  // of psi_0
     for (std::size_t i = 0; i < measured_.size(); ++i)
@@ -171,13 +188,6 @@ void Calibrator::choose_hardening_tests() {
     node_psi_ = {low};
     if (states.size() >= 3 && high - low >= least_range && !is_given(H_psi))
         node_psi_.push_back(high);
-}
-
-Indices Calibrator::friction_tests() const {
-    Indices out;
-    for (std::size_t i = 0; i < measured_.size(); ++i)
-        if (measured_[i]->peak || measured_[i]->end.critical) out.push_back(i);
-    return out.empty() ? all_tests() : out;
 }
 
 Indices Calibrator::dilating_tests() const {
@@ -198,11 +208,11 @@ Points Calibrator::line_points(const Readings& readings) const {
 Points Calibrator::friction_points(const Readings& readings) const {
     constexpr double between_tests = 0.01;  // of eta, from specimen to specimen
     Points points;
-    for (const std::size_t i : friction_tests()) {
+    for (const std::size_t i : friction_) {
         if (!readings[i]) continue;
         if (readings[i]->peak)
             points.add(readings[i]->peak->D, readings[i]->peak->eta);
-        if (!measured_[i]->end.critical && !dilating_tests().empty()) continue;
+        if (!measured_[i]->end.critical && !all_ends_) continue;
         const double error = measured_[i]->end.eta_error;
         points.add(readings[i]->end.D, readings[i]->end.eta,
                    1.0 / (1.0 + std::pow(error / between_tests, 2)));
@@ -240,8 +250,7 @@ double Calibrator::correct_by(const Readings& of_law) {
     const Points ratios = friction_points(measured);
     if (!ratios.x.empty()) {
         const Points of_the_law = first ? ratios : friction_points(of_law);
-        if (ratios.x.size() >= 2 && spread(ratios.x) >= critical_dilatancy &&
-            !dilating_tests().empty()) {
+        if (slope_held_) {
             const Regression seen = line_through(ratios);
             const Regression own = line_through(of_the_law);
             move(M_tc, seen.a, own.a);
@@ -452,8 +461,8 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
     add(lambda, part(line, 1), line_);
     const Points ratios = friction_points(measured);
     const auto friction = line_errors(ratios, friction_points(of_law));
-    add(M_tc, part(friction, 0), friction_tests());
-    add(N, part(friction, 1), friction_tests());
+    add(M_tc, slope_held_ ? part(friction, 0) : std::nullopt, friction_);
+    add(N, part(friction, 1), friction_);
     const Points seen = dilatancy_points(measured, values_);
     const Points own = dilatancy_points(of_law, values_);
     if (seen.x.size() >= 2 && own.x.size() == seen.x.size()) {
@@ -469,8 +478,11 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
     } else {
         add(chi_tc, std::nullopt, dilating_tests());
     }
-    for (const Sought k : {N, chi_tc})
-        if (dilating_tests().empty() && !is_given(k)) out[k] = {values_[k], {}, Origin::assumed, {}};
+    const auto assume = [&](Sought k) {
+        if (!is_given(k)) out[k] = {values_[k], {}, Origin::assumed, {}};
+    };
+    if (!slope_held_) assume(N);
+    if (dilating_tests().empty()) assume(chi_tc);
     add_hardening_errors(out);
     return out;
 }
@@ -540,7 +552,7 @@ void Calibrator::doubt(NorSandFit& fit, bool settled) const {
     }
     if (!assumed.empty()) {
         flag("parameter_not_held", Severity::questionable,
-             "no drained test dilates to a peak: " + assumed +
+             "no drained test dilates to a peak, or all to one: " + assumed +
                  " could not be read and have usual values; add dense drained tests or give them");
     }
     if (!weak.empty()) {

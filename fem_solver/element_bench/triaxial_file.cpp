@@ -165,7 +165,7 @@ json Reader::columns(std::istream& stream) {
     if (!sound_) return json::object();
     const std::size_t rows = names_.empty() ? 0 : columns_.at("epsilon_1").size();
     if (rows < least_rows) {
-        fault(line, "holds " + std::to_string(rows) + " rows, less than 20",
+        fault(std::max<std::size_t>(line, 1), "holds " + std::to_string(rows) + " rows, less than 20",
               "give a line of names, then a line per reading");
     } else if (columns_.at("epsilon_1").back() < 0.02) {
         fault(line, "the test ends at epsilon_1 " + std::to_string(last("epsilon_1")),
