@@ -159,6 +159,11 @@ process::Plan plan(const scene::Scene& whole) {
     const scene::Lem& lem = scene::lem_of(scene);
     const auto use = [](bool on) { return on ? Use::on : Use::left_out; };
     const auto profiles = std::ranges::count_if(whole.materials, scene::lem_takes_profile);
+    const auto says_norsand = [](const scene::UndrainedRegion& each) {
+        return each.strength.norsand.has_value();
+    };
+    const auto by_state = std::ranges::count_if(whole.lem->undrained, says_norsand) +
+                          std::ranges::count_if(whole.lem->liquefaction, says_norsand);
     const std::string strata = std::to_string(model.strata.strips.size()) + " strips with " +
                                std::to_string(model.strata.layers.size()) + " layer pieces";
     return {
@@ -196,6 +201,9 @@ process::Plan plan(const scene::Scene& whole) {
          std::to_string(profiles) + " materials take theirs at each slice's base", "/materials"},
         {"undrained strength", use(!lem.undrained.empty()),
          std::to_string(lem.undrained.size()) + " regions fail undrained", "/lem/undrained"},
+        {"NorSand's undrained strength", use(by_state > 0),
+         std::to_string(by_state) + " entries have s_u by psi_0, K_0 and S, in simple shear",
+         "/lem/undrained"},
         {"seismic coefficient", use(lem.seismic_coefficient > 0.0),
          lem.seismic_coefficient > 0.0 ? "weight pushes sideways" : "k_h is zero",
          "/lem/seismic_coefficient"},

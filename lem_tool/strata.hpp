@@ -23,6 +23,7 @@ struct Layer {
     std::size_t region;  ///< index into the section's regions
     double gamma;        ///< unit weight [N/m3]
     Line weight_above;   ///< weight per area of everything above `top` [Pa]
+    Line unconsolidated;  ///< the share of it that has not consolidated what lies below [Pa]
 };
 
 struct Strip {
