@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/exchange/archive.hpp"
+#include "lem_tool/drained.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/limit_scene.hpp"
 #include "lem_tool/non_circular.hpp"
@@ -159,6 +160,11 @@ process::Plan plan(const scene::Scene& whole) {
     const scene::Lem& lem = scene::lem_of(scene);
     const auto use = [](bool on) { return on ? Use::on : Use::left_out; };
     const auto profiles = std::ranges::count_if(whole.materials, scene::lem_takes_profile);
+    const auto says_norsand = [](const scene::UndrainedRegion& each) {
+        return each.strength.norsand.has_value();
+    };
+    const auto by_state = std::ranges::count_if(whole.lem->undrained, says_norsand) +
+                          std::ranges::count_if(whole.lem->liquefaction, says_norsand);
     const std::string strata = std::to_string(model.strata.strips.size()) + " strips with " +
                                std::to_string(model.strata.layers.size()) + " layer pieces";
     return {
@@ -196,6 +202,9 @@ process::Plan plan(const scene::Scene& whole) {
          std::to_string(profiles) + " materials take theirs at each slice's base", "/materials"},
         {"undrained strength", use(!lem.undrained.empty()),
          std::to_string(lem.undrained.size()) + " regions fail undrained", "/lem/undrained"},
+        {"NorSand's undrained strength", use(by_state > 0),
+         std::to_string(by_state) + " entries have s_u by psi_0, K_0 and S, in simple shear",
+         "/lem/undrained"},
         {"seismic coefficient", use(lem.seismic_coefficient > 0.0),
          lem.seismic_coefficient > 0.0 ? "weight pushes sideways" : "k_h is zero",
          "/lem/seismic_coefficient"},
@@ -220,6 +229,7 @@ process::Outcome run(process::Session& session) {
     const scene::Scene scene = limit_scene(session.scene());
     const scene::Lem& lem = scene::lem_of(scene);
     const int threads = session.settings().threads;
+    for (fault::Flag& each : flags_of_drained(session.scene())) session.flag(std::move(each));
     const Model model = make_model(scene);
     Slices slices = make_slices(model.strata, model.slices);
     json& result = session.result();

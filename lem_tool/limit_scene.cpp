@@ -97,10 +97,23 @@ void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
     regions = std::move(parts);
 }
 
+/// Paths are walked once, however often a strength is varied.
+void walk_paths(const scene::Scene& scene, std::vector<scene::UndrainedRegion>& entries) {
+    for (scene::UndrainedRegion& each : entries) {
+        if (!each.strength.norsand) continue;
+        const scene::Material& material =
+            scene.materials[scene.section.regions[each.region].material];
+        each.strength.by_state = std::make_shared<const materials::StrengthByState>(
+            std::get<materials::NorSand>(material.law), *each.strength.norsand);
+    }
+}
+
 }  // namespace
 
 scene::Scene limit_scene(const scene::Scene& scene) {
     scene::Scene result = scene;
+    walk_paths(scene, result.lem->undrained);
+    walk_paths(scene, result.lem->liquefaction);
     for (scene::Material& material : result.materials) use_limit_strength(material);
     std::vector<scene::Region>& regions = result.section.regions;
     regions.clear();
@@ -121,6 +134,7 @@ scene::Scene limit_scene(const scene::Scene& scene) {
                           "give levels within the region that do not overlap; a layer that is cut "
                           "by another's levels must name its own"}});
     }
+    rename_regions(places, lem.unconsolidated);
     if (lem.water) rename_regions(places, lem.water->regions);
     for (scene::Water& each : lem.piezometric_lines) rename_regions(places, each.regions);
     lem.pore_pressure_ratios.clear();

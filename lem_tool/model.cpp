@@ -29,6 +29,12 @@ void give(const materials::StrengthCurve& curve, Soil& soil) {
 /// phi = 0; the pore pressure still says what sigma'_v0 was.
 void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soils) {
     Soil& soil = soils[entry.region];
+    if (entry.strength.by_state) {
+        // Without water nothing keeps its volume.
+        if (!soil.above_water) soil.above_water = std::make_shared<const Soil>(soil);
+        soil.factor = entry.strength.factor;
+    }
+    soil.by_state = entry.strength.by_state;
     soil.c = entry.strength.constant;
     soil.tan_phi = 0.0;
     soil.passage = Soil::Passage::open;
@@ -83,13 +89,14 @@ std::vector<Soil> liquefied(const Model& model, const std::vector<scene::Undrain
         const auto sound = std::make_shared<const Soil>(model.soils[layer.region]);
         const auto& residual = model.residual[layer.region];
         if (residual && layer.strength.is_of_profile()) {
+            soil.by_state.reset();
             give(*residual, soil);
             soil.factor = layer.strength.factor;
             if (!soil.profile) soil.c *= soil.factor;
         } else {
             make_undrained(layer, soils);
         }
-        soil.above_water = sound;
+        soil.above_water = sound->above_water ? sound->above_water : sound;
     }
     return soils;
 }

@@ -95,8 +95,8 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     }
     slices_.driving[i] += turned_sideways;
     slices_.c[i] = soil.c;
-    if (soil.coefficient > 0.0) slices_.c[i] += undrained(strip, soil, i);
-    if (soil.profile) slices_.c[i] = by_profile(strip, layer, soil, middle, i);
+    if (soil.coefficient > 0.0) slices_.c[i] += undrained(strip, layer, soil, middle, i);
+    if (soil.profile || soil.by_state) slices_.c[i] = by_place(strip, layer, soil, middle, i);
     slices_.tan_phi[i] = soil.tan_phi;
     const double flat = slices_.length[i] * slices_.cos_a[i];
     slices_.force[i] =
@@ -104,22 +104,28 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
 }
 
 /// The part of s_u that grows with the vertical effective stress under soil and free water.
-double SliceMaker::undrained(const Strip& strip, const Soil& soil, std::size_t i) const {
+double SliceMaker::undrained(const Strip& strip, const Layer& layer, const Soil& soil, double x,
+                             std::size_t i) const {
     const double dx = slices_.width[i];
-    const double sigma_v0 = slices_.weight[i] / dx - strip.surcharge - slices_.u[i];
+    const double sigma_v0 =
+        slices_.weight[i] / dx - strip.surcharge - slices_.u[i] - layer.unconsolidated.at(x);
     return soil.coefficient * std::pow(std::max(0.0, sigma_v0) / p_a, soil.exponent);
 }
 
-/// s_u of the profile at the middle of the base's chord; the place is that of scene::Ground.
-double SliceMaker::by_profile(const Strip& strip, const Layer& layer, const Soil& soil, double x,
-                              std::size_t i) const {
+/// s_u of the profile or by state at the middle of the base's chord; the place is that of
+/// scene::Ground.
+double SliceMaker::by_place(const Strip& strip, const Layer& layer, const Soil& soil, double x,
+                            std::size_t i) const {
     const double y = slices_.base[i];
     const Line& ground = strata_.ground(strip);
     double weight = layer.weight_above.at(x) + layer.gamma * (layer.top.at(x) - y);
     double u = soil.line ? strata_.pressures[strip.pressures + *soil.line].at(x, y) : 0.0;
     if (u == 0.0) u = soil.r_u * weight;
     weight += strata_.gamma_w * std::max(0.0, strip.water.at(x) - ground.at(x));
-    return soil.factor * materials::strength_at(*soil.profile, {ground.at(x) - y, y, weight - u}).c;
+    weight -= layer.unconsolidated.at(x);
+    const materials::Place place{ground.at(x) - y, y, weight - u};
+    return soil.factor * (soil.by_state ? soil.by_state->at(place, u)
+                                        : materials::strength_at(*soil.profile, place).c);
 }
 
 /// The weight of water above ground, and its thrust on the slope, whose moment over R is returned.

@@ -73,9 +73,10 @@ class SliceMaker {
     }
     void add_slice(const Strip& strip, const Layer& layer, const Soil& soil, Base kind,
                    const Chord& ends);
-    double undrained(const Strip& strip, const Soil& soil, std::size_t i) const;
-    double by_profile(const Strip& strip, const Layer& layer, const Soil& soil, double x,
-                      std::size_t i) const;
+    double undrained(const Strip& strip, const Layer& layer, const Soil& soil, double x,
+                     std::size_t i) const;
+    double by_place(const Strip& strip, const Layer& layer, const Soil& soil, double x,
+                    std::size_t i) const;
     double add_free_water(const Strip& strip, std::size_t i, const Chord& ends);
 
     const Strata& strata_;

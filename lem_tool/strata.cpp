@@ -233,7 +233,7 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
                 surcharge_on(lem, middle),
                 strata.pressures.size()};
     add_pressures(scene, pieces.front().top, middle, strata);
-    Line weight{0.0, 0.0};
+    Line weight{0.0, 0.0}, fast{0.0, 0.0};
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
         if (i > 0) {
@@ -242,10 +242,14 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
         }
         const scene::Material& soil = scene.materials[scene.section.regions[piece.region].material];
         const double gamma = soil.density * scene.gravity;
-        strata.layers.push_back({piece.top, piece.region, gamma, weight});
+        strata.layers.push_back({piece.top, piece.region, gamma, weight, fast});
         const Line& lower = i + 1 < pieces.size() ? pieces[i + 1].top : piece.bottom;
-        weight.level += gamma * (piece.top.level - lower.level);
-        weight.slope += gamma * (piece.top.slope - lower.slope);
+        const auto add_to = [&](Line& sum) {
+            sum.level += gamma * (piece.top.level - lower.level);
+            sum.slope += gamma * (piece.top.slope - lower.slope);
+        };
+        add_to(weight);
+        if (std::ranges::count(lem.unconsolidated, piece.region) > 0) add_to(fast);
     }
     strip.last = strata.layers.size();
     strata.strips.push_back(strip);

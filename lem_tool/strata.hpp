@@ -19,10 +19,11 @@ struct Line {
 
 /// A soil between its upper boundary and the next layer's (or the strip's bottom).
 struct Layer {
-    Line top;            ///< [m]
-    std::size_t region;  ///< index into the section's regions
-    double gamma;        ///< unit weight [N/m3]
-    Line weight_above;   ///< weight per area of everything above `top` [Pa]
+    Line top;             ///< [m]
+    std::size_t region;   ///< index into the section's regions
+    double gamma;         ///< unit weight [N/m3]
+    Line weight_above;    ///< weight per area of everything above `top` [Pa]
+    Line unconsolidated;  ///< the share of it that has not consolidated what lies below [Pa]
 };
 
 struct Strip {

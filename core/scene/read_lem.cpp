@@ -142,6 +142,18 @@ std::optional<std::array<double, 2>> levels_from(Reader& reader, const json& ent
     return levels;
 }
 
+/// A strength by NorSand's state needs that law, and stands alone.
+void check_norsand(Reader& reader, const Scene& scene, std::size_t region,
+                   const UndrainedStrength& strength, const std::string& pointer) {
+    if (!strength.norsand) return;
+    const std::size_t material = scene.section.regions[region].material;
+    if (!std::holds_alternative<materials::NorSand>(scene.materials[material].law))
+        reader.add(pointer + "/norsand", "asks for NorSand's strength of a region without that law",
+                   "set the material's law to norsand, or give a strength");
+    if (strength.constant > 0.0 || strength.coefficient > 0.0)
+        reader.add(pointer + "/norsand", "stands beside a strength", "give one of the two");
+}
+
 std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, const json& lem,
                                             const StrengthKeys& keys) {
     std::vector<UndrainedRegion> result;
@@ -156,10 +168,13 @@ std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, 
             reader.add(pointer + "/region", "is named twice",
                        "give every region once, or the levels of its layers");
         }
-        result.push_back({*region,
-                          {each.at(keys.constant).get<double>() * kPa,
-                           each.at(keys.coefficient).get<double>() * kPa, each.at(keys.exponent)},
-                          levels});
+        UndrainedStrength strength{each.at(keys.constant).get<double>() * kPa,
+                                   each.at(keys.coefficient).get<double>() * kPa,
+                                   each.at(keys.exponent)};
+        if (each.contains("norsand"))
+            strength.norsand = word_at<materials::OnPath>(each, "norsand");
+        check_norsand(reader, scene, *region, strength, pointer);
+        result.push_back({*region, strength, levels});
     }
     return result;
 }
@@ -281,6 +296,11 @@ void read_lem(Reader& reader, Scene& scene) {
     result.liquefaction = undrained_from(
         reader, scene, lem,
         {"liquefaction", "residual_strength_kPa", "residual_coefficient_kPa", "residual_exponent"});
+    for (std::size_t i = 0; i < lem.at("unconsolidated").size(); ++i) {
+        const auto region = region_named(reader, scene, lem.at("unconsolidated")[i],
+                                         "/lem/unconsolidated/" + std::to_string(i));
+        if (region) result.unconsolidated.push_back(*region);
+    }
     read_variations(reader, scene, lem, result);
     if (lem.contains("circle")) {
         result.circle =

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "core/fault/flag.hpp"
 #include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
+#include "core/materials/norsand/by_state.hpp"
 #include "core/materials/strength/profile.hpp"
 #include "core/scene/polygon.hpp"
 
@@ -153,10 +155,13 @@ struct UndrainedStrength {
     double constant;      ///< [Pa]
     double coefficient;   ///< [Pa]
     double exponent;      ///< [-]
-    double factor = 1.0;  ///< on the profile's where the entry takes that [-]
+    double factor = 1.0;  ///< on the profile's or NorSand's where the entry takes that [-]
+    std::optional<materials::OnPath> norsand{};  ///< instead, the material's law says it
+    std::shared_ptr<const materials::StrengthByState>
+        by_state{};  ///< the law's, where it is needed
 
     /// Gives nothing of its own: the residual strength of the material's profile, if it has one.
-    bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0; }
+    bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0 && !norsand; }
 };
 
 struct UndrainedRegion {
@@ -216,6 +221,8 @@ struct Lem {
     std::optional<NonCircular> non_circular;
     std::vector<UndrainedRegion> undrained;
     std::vector<UndrainedRegion> liquefaction;  ///< from the top down, one more per stage
+    /// Regions whose weight came too fast to consolidate the soil below: sigma'_v0 is without it
+    std::vector<std::size_t> unconsolidated;
     std::optional<Sensitivity> sensitivity;
     std::optional<Probability> probability;
 };

@@ -33,6 +33,11 @@ constexpr auto words_of(Along) {
         {{depth, "depth"}, {elevation, "elevation"}, {sigma_v0, "sigma_v0"}});
 }
 
+constexpr auto words_of(OnPath) {
+    using enum OnPath;
+    return words::in_order<OnPath>({{peak, "peak"}, {residual, "residual"}});
+}
+
 constexpr auto words_of(Relation) {
     using enum Relation;
     return words::in_order<Relation>(

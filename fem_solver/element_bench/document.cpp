@@ -10,6 +10,7 @@
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
+#include "fem_solver/element_bench/norsand_document.hpp"
 
 namespace breach::element_bench {
 
@@ -376,6 +377,34 @@ void check_calibration(const json& document, std::vector<Fault>& faults) {
     }
 }
 
+/// A law with its tests, or a calibration that seeks one.
+void check_what_it_is(const json& document, std::vector<Fault>& faults) {
+    if (!document.contains("norsand_calibration")) {
+        if (!document.contains("law"))
+            faults.push_back({"/law", "is missing", "give a law, or norsand_calibration"});
+        return;
+    }
+    for (const char* key : {"law", "tests", "calibration"}) {
+        if (document.contains(key))
+            faults.push_back({std::string("/") + key, "stands beside norsand_calibration",
+                              "leave it out: the law is what is sought"});
+    }
+}
+
+void complete_law_and_tests(json& document, const std::filesystem::path& folder,
+                            std::vector<Fault>& faults) {
+    complete_sand(document.at("law"), "/law", faults);
+    if (document.contains("calibration")) {
+        json& calibration = document.at("calibration");
+        if (calibration.contains("reference"))
+            complete_sand(calibration.at("reference"), "/calibration/reference", faults);
+        take_in_curves(document, folder, faults);
+    }
+    check_calibration(document, faults);
+    check_tests(document, faults);
+    if (document.at("law").at("type") == "norsand") check_norsand_tests(document, faults);
+}
+
 }  // namespace
 
 scene::Scene read_document(const std::filesystem::path& file,
@@ -395,16 +424,12 @@ scene::Scene read_document(const std::filesystem::path& file,
         faults.push_back(found);
     }
     if (!faults.empty()) throw fault::BadInput(file.string(), faults);
-    complete_sand(document.at("law"), "/law", faults);
-    if (document.contains("calibration")) {
-        json& calibration = document.at("calibration");
-        if (calibration.contains("reference"))
-            complete_sand(calibration.at("reference"), "/calibration/reference", faults);
-        take_in_curves(document, file.parent_path(), faults);
-    }
-    check_calibration(document, faults);
-    check_tests(document, faults);
-    if (document.at("law").at("type") == "norsand") check_norsand_tests(document, faults);
+    check_what_it_is(document, faults);
+    if (!faults.empty()) throw fault::BadInput(file.string(), faults);
+    if (document.contains("norsand_calibration"))
+        take_in_triaxial_files(document.at("norsand_calibration"), file.parent_path(), faults);
+    else
+        complete_law_and_tests(document, file.parent_path(), faults);
     if (!faults.empty()) throw fault::BadInput(file.string(), faults);
     scene::Scene scene{};
     scene.name = document.at("name");

@@ -8,6 +8,7 @@
 #include "core/phases/files.hpp"
 #include "core/scene/sand.hpp"
 #include "fem_solver/element_bench/document.hpp"
+#include "fem_solver/element_bench/norsand_run.hpp"
 
 namespace breach::element_bench {
 
@@ -19,8 +20,6 @@ using process::Session;
 using process::Use;
 
 namespace {
-
-constexpr int archive_version = 1;
 
 json numbers_of(const materials::norsand::Counts& counts, long calls) {
     return {{"calls", calls},
@@ -46,13 +45,6 @@ json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
 json cost_of(const Record& record) {
     if (norsand_in(record.last)) return numbers_of(record.counts.norsand, record.calls);
     return numbers_of(record.counts.sand, record.calls);
-}
-
-exchange::Archive empty_archive() {
-    exchange::Archive archive;
-    archive.kind = "element_tests";
-    archive.version = archive_version;
-    return archive;
 }
 
 /// Collects numbers and curves of all tests.
@@ -276,6 +268,7 @@ json as_json(const Fit& fit, const CalibrationProblem& problem) {
 }
 
 Outcome run_calibration(Session& session) {
+    if (seeks_norsand(session.scene())) return run_norsand_calibration(session);
     const Bench bench = bench_of(session.scene());
     if (!bench.calibration) {
         throw fault::BadInput(session.scene().name, {{"/calibration", "is missing", "add it"}});
@@ -309,6 +302,7 @@ Outcome run_calibration(Session& session) {
 }
 
 process::Plan calibration_plan(const scene::Scene& scene) {
+    if (seeks_norsand(scene)) return norsand_calibration_plan(scene);
     const Bench bench = bench_of(scene);
     if (!bench.calibration) {
         return {{"calibration", Use::left_out, "the document has none", "/calibration"}};
@@ -320,6 +314,16 @@ process::Plan calibration_plan(const scene::Scene& scene) {
     return plan;
 }
 
+scene::Scene read_tests(const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides) {
+    scene::Scene scene = read_document(file, overrides);
+    if (seeks_norsand(scene)) {
+        throw fault::BadInput(file.string(), {{"/norsand_calibration", "is no test of a law",
+                                               "run fem_solver calibrate with this document"}});
+    }
+    return scene;
+}
+
 }  // namespace
 
 process::Phase element_test_phase() {
@@ -328,12 +332,13 @@ process::Phase element_test_phase() {
             .inputs = {0, 0, "takes no input beside the document"},
             .plan = tests_plan,
             .run = run_tests,
-            .read = read_document};
+            .read = read_tests};
 }
 
 process::Phase calibrate_phase() {
     return {.name = "fem_solver calibrate",
-            .purpose = "Parameters of PM4Sand from strengths and cyclic strength curves",
+            .purpose = "Parameters of PM4Sand from strengths and cyclic strength curves, of NorSand from "
+                       "triaxial tests",
             .inputs = {0, 0, "takes no input beside the document"},
             .plan = calibration_plan,
             .run = run_calibration,

@@ -16,6 +16,13 @@ struct UndrainedStrength {
         critical;  ///< tau = M cos(theta) / sqrt(3) p_c(e), design section 6; never above the peak
 };
 
+/// Shear stress on the plane across y, |tau_xy| [Pa].
+double simple_shear(const State& state);
+
+/// The same of undrained simple shear, epsilon_xx = epsilon_yy = epsilon_zz = 0: what soil that was
+/// consolidated under a level ground carries on a plane along it.
+UndrainedStrength simple_shear_strength(const Ready& law, const State& state, double bound);
+
 /// The law's own path from `state` at constant volume along its deviator in the plane, with the
 /// law's S. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
 /// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.

@@ -35,6 +35,9 @@ struct Series {
     std::vector<double> error = {};
     /// Or where y may be instead, of each point; NaN: not known; empty: of none
     std::vector<double> low = {}, high = {};
+    /// Number of an earlier series whose colour it has: what is computed for what is measured. It has
+    /// no entry of its own in the legend.
+    std::optional<std::size_t> like = {};
 };
 
 /// Polygons (or, with one corner each, dots) coloured by a value.

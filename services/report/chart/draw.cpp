@@ -228,7 +228,9 @@ std::vector<std::string> colours_of(const Chart& chart) {
     std::vector<std::string> result;
     std::size_t areas = 0, others = 0;
     for (const Series& each : chart.series) {
-        if (each.style == Style::segments)
+        if (each.like)
+            result.push_back(result.at(*each.like));
+        else if (each.style == Style::segments)
             result.emplace_back("#555");
         else if (each.style == Style::area)
             result.emplace_back(earths[areas++ % earths.size()]);
@@ -254,7 +256,7 @@ struct Entry {
 std::vector<Entry> entries_of(const Chart& chart, const std::vector<std::string>& colour) {
     std::vector<Entry> entries;
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
-        entries.push_back({chart.series[i].name, colour[i]});
+        if (!chart.series[i].like) entries.push_back({chart.series[i].name, colour[i]});
     }
     for (const Certainty each : {Certainty::at_least, Certainty::doubtful, Certainty::unknown}) {
         const bool there = std::ranges::any_of(chart.series, [&](const Series& s) {

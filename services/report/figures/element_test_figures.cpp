@@ -5,6 +5,7 @@
 #include "core/exchange/archive.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
+#include "services/report/figures/norsand_figures.hpp"
 #include "services/report/read/read_results.hpp"
 
 namespace breach::report {
@@ -12,18 +13,6 @@ namespace breach::report {
 using nlohmann::json;
 
 namespace {
-
-/// A column of a curve; `unit` is what one of the figure's units is in SI.
-std::vector<double> column(const exchange::Archive& curves, const std::string& name, double unit) {
-    const auto found = curves.reals.find(name);
-    if (found == curves.reals.end()) {
-        throw fault::BadInput(phases::files::element_tests,
-                              {{name, "missing", "run element-test again"}});
-    }
-    std::vector<double> values = found->second;
-    for (double& each : values) each /= unit;
-    return values;
-}
 
 /// The name under which the bench stored a test's curve.
 std::string curve_of(const std::string& test, const json& row) {
@@ -39,11 +28,11 @@ void add_curves(const exchange::Archive& curves, const std::string& page,
     Chart path{page + ": stress path", {"σ′v [kPa]"}, {"shear stress [kPa]"}, {}};
     Chart pore{page + ": pore pressure ratio", {"strain [%]"}, {"r_u [-]"}, {}};
     for (const std::string& each : names) {
-        const std::vector<double> epsilon = column(curves, each + ".strain", 0.01);
-        const std::vector<double> tau = column(curves, each + ".response", 1e3);
+        const std::vector<double> epsilon = curve_column(curves, each + ".strain", 0.01);
+        const std::vector<double> tau = curve_column(curves, each + ".response", 1e3);
         strain.series.push_back({each, epsilon, tau});
-        path.series.push_back({each, column(curves, each + ".sigma_yy", 1e3), tau});
-        pore.series.push_back({each, epsilon, column(curves, each + ".r_u", 1.0)});
+        path.series.push_back({each, curve_column(curves, each + ".sigma_yy", 1e3), tau});
+        pore.series.push_back({each, epsilon, curve_column(curves, each + ".r_u", 1.0)});
     }
     figures.push_back({page + "_stress_strain", strain});
     figures.push_back({page + "_stress_path", path});
@@ -79,6 +68,8 @@ std::vector<Figure> element_test_figures(const std::filesystem::path& folder) {
         exchange::read_archive(folder / phases::files::element_tests, "element_tests", 1);
     std::vector<Figure> figures;
     try {
+        if (result.contains("norsand_calibration"))
+            return norsand_figures(result.at("norsand_calibration"), curves);
         for (const auto& [test, rows] : result.at("tests").items()) {
             if (rows.empty() || rows.front().contains("amplitude")) continue;
             std::vector<std::string> together;

@@ -85,6 +85,8 @@ TEST(Words, AreTheSchemas) {
          lem + "/piezometric_lines/items/properties/correction"});
     words.are_those_of<MAlphaSlices>({lem + "/m_alpha/properties/slices"});
     words.are_those_of<SmallMAlpha>({lem + "/m_alpha/properties/given_circle"});
+    for (const char* list : {"/undrained", "/liquefaction"})
+        words.are_those_of<materials::OnPath>({lem + list + "/items/properties/norsand"});
     words.are_those_of<VariedSurface>({lem + "/sensitivity/properties/surface"});
     words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<Parameter>({variable + "/parameter"});

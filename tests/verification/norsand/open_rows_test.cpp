@@ -6,12 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 
 #include "tests/verification/norsand/soils.hpp"
+#include "tests/verification/norsand/tables.hpp"
 
 namespace breach::testing {
 namespace {
@@ -20,29 +19,6 @@ using element_bench::Boundary;
 using element_bench::Specimen;
 
 const std::filesystem::path folder = std::filesystem::path(BREACH_SHARED) / "reference/norsand";
-
-/// A table by columns.
-struct Table {
-    std::map<std::string, std::vector<double>> columns;
-    std::size_t rows = 0;
-};
-
-Table read_table(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    std::string line, cell;
-    std::getline(stream, line);
-    std::vector<std::string> names;
-    for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
-    Table table;
-    while (std::getline(stream, line)) {
-        std::size_t k = 0;
-        for (std::istringstream row(line); std::getline(row, cell, ',');) {
-            table.columns[names[k++]].push_back(std::stod(cell));
-        }
-        ++table.rows;
-    }
-    return table;
-}
 
 /// What a file's name says.
 struct Run {

@@ -1,0 +1,84 @@
+#include "core/materials/norsand/by_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/materials/norsand/undrained.hpp"
+
+namespace breach::materials {
+
+namespace {
+
+constexpr double least_stress = 1e3, most_stress = 1e7;  // of the table [Pa]; held beyond
+constexpr int stresses = 41;                             // ten in a decade
+constexpr double psi_step = 0.005;
+
+/// Where x stands in an ascending table: the index before it and its share of the way to the next.
+struct Spot {
+    std::size_t before;
+    double share;
+};
+Spot spot_in(const std::vector<double>& table, double x) {
+    if (table.size() == 1 || x <= table.front()) return {0, 0.0};
+    if (x >= table.back()) return {table.size() - 2, 1.0};
+    const auto next = std::ranges::upper_bound(table, x) - table.begin();
+    const auto i = static_cast<std::size_t>(next) - 1;
+    return {i, (x - table[i]) / (table[i + 1] - table[i])};
+}
+
+}  // namespace
+
+StrengthByState::StrengthByState(const NorSand& law, OnPath part) : law_(law), part_(part) {
+    K_0_ = law.elasticity.nu / (1.0 - law.elasticity.nu);
+    const double theta = norsand::plane_critical_angle(law.ready);
+    tau_over_p_ =
+        norsand::critical_ratio(law.ready, theta) * std::cos(theta) / std::numbers::sqrt3;
+    if (law.psi_0_profile) {
+        const auto by_psi = [](const auto& a, const auto& b) { return a[1] < b[1]; };
+        const auto [low, high] = std::ranges::minmax(law.psi_0_profile->points, by_psi);
+        const int steps = std::max(1, static_cast<int>(std::ceil((high[1] - low[1]) / psi_step)));
+        for (int k = 0; k <= steps; ++k)
+            psi_.push_back(low[1] + (high[1] - low[1]) * k / steps);
+    } else {
+        psi_ = {law.psi_0.value_or(0.0)};
+    }
+    const double width = std::log(most_stress / least_stress) / (stresses - 1);
+    for (int k = 0; k < stresses; ++k) ln_stress_.push_back(std::log(least_stress) + width * k);
+    for (const double psi : psi_)
+        for (const double ln_stress : ln_stress_)
+            ln_ratio_.push_back(std::log(ratio_from(psi, std::exp(ln_stress))));
+}
+
+double StrengthByState::psi_at(const Place& place) const {
+    return law_.psi_0_profile ? law_.psi_0_profile->at(place) : psi_.front();
+}
+
+double StrengthByState::ratio_from(double psi, double sigma_v0) const {
+    constexpr double far = 20.0;  // times p: farther than any u but that of deep water
+    NorSand law = law_;
+    law.psi_0_profile.reset();
+    if (!law.e_0) law.psi_0 = psi;
+    const auto begun = beginning(law, {-K_0_ * sigma_v0, -sigma_v0, -K_0_ * sigma_v0, 0.0});
+    const double p = (1.0 + 2.0 * K_0_) / 3.0 * sigma_v0;
+    const auto found = norsand::simple_shear_strength(law.ready, begun.state, far * p);
+    return (part_ == OnPath::peak ? found.peak : found.critical) / sigma_v0;
+}
+
+double StrengthByState::at(const Place& place, double u) const {
+    const double sigma_v0 = std::max(place.sigma_v0, 0.0);
+    // Below the table soil is as strong as at its least stress: that is the floor p_min's.
+    const Spot row = spot_in(psi_, psi_at(place));
+    const Spot column = spot_in(ln_stress_, std::log(std::max(sigma_v0, least_stress)));
+    const auto of_row = [&](std::size_t i) {
+        const double* ratios = ln_ratio_.data() + i * ln_stress_.size() + column.before;
+        return ratios[0] + column.share * (ratios[1] - ratios[0]);
+    };
+    double ln_ratio = of_row(row.before);
+    if (row.share > 0.0) ln_ratio += row.share * (of_row(row.before + 1) - ln_ratio);
+    const double p = (1.0 + 2.0 * K_0_) / 3.0 * sigma_v0;
+    const double most = tau_over_p_ * std::max(p + std::max(u, 0.0), law_.ready.parameters.p_min);
+    return std::min(std::exp(ln_ratio) * std::max(sigma_v0, least_stress), most);
+}
+
+}  // namespace breach::materials

@@ -1,0 +1,24 @@
+// The entry `norsand_calibration` of an element-test document: completed with the columns of its
+// files, checked, and read into a problem.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "fem_solver/element_bench/norsand_calibration.hpp"
+
+namespace breach::element_bench {
+
+/// Puts the columns of every test's file into its entry, as `measured`.
+void take_in_triaxial_files(nlohmann::json& entry, const std::filesystem::path& folder,
+                            std::vector<fault::Fault>& faults);
+
+/// The problem of a completed entry.
+NorSandProblem norsand_problem_of(const nlohmann::json& entry);
+
+/// The law that was found as a document writes it.
+nlohmann::json law_entry_of(const nlohmann::json& entry, const NorSandFit& fit);
+
+}  // namespace breach::element_bench

@@ -1,0 +1,19 @@
+// What `fem_solver calibrate` does with a document that seeks NorSand.
+#pragma once
+
+#include "core/exchange/archive.hpp"
+#include "core/process/phase.hpp"
+
+namespace breach::element_bench {
+
+/// The archive of element-test curves, still empty.
+exchange::Archive empty_archive();
+
+bool seeks_norsand(const scene::Scene& scene);
+process::Plan norsand_calibration_plan(const scene::Scene& scene);
+
+/// result.json (parameters with errors, what each test says) and element_tests.h5: columns named
+/// `<test>.measured.<column>` and `<test>.computed.<column>`.
+process::Outcome run_norsand_calibration(process::Session& session);
+
+}  // namespace breach::element_bench

@@ -1,0 +1,19 @@
+// A laboratory's triaxial test from a CSV file: columns by name, every line checked.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "fem_solver/element_bench/specimen.hpp"
+
+namespace breach::element_bench {
+
+/// The columns of the file by their names, as it has them (README.md). What is wrong with it goes to
+/// `faults`, with file and line; `pointer` is the entry that names it.
+nlohmann::json read_triaxial_file(const std::filesystem::path& file, Boundary boundary,
+                                  const std::string& pointer, std::vector<fault::Fault>& faults);
+
+}  // namespace breach::element_bench

@@ -1,0 +1,21 @@
+// Figures of a calibration of NorSand: what was measured beside what the law answers, its critical
+// state line, its dilatancy.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/exchange/archive.hpp"
+#include "services/report/chart/figure.hpp"
+
+namespace breach::report {
+
+/// A column of an element-test archive; `unit` is what one of the figure's units is in SI. Throws
+/// BadInput where it is missing.
+std::vector<double> curve_column(const exchange::Archive& curves, const std::string& name,
+                                 double unit);
+
+/// calibration: result.json's `norsand_calibration`; curves: the archive beside it.
+std::vector<Figure> norsand_figures(const nlohmann::json& calibration,
+                                    const exchange::Archive& curves);
+
+}  // namespace breach::report

@@ -1,0 +1,153 @@
+// NorSand in the LEM: its undrained strength by place is that of the law's own path, moments follow
+// from it by hand, and drained strength alone is flagged.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/materials/norsand/undrained.hpp"
+#include "core/scene/reading.hpp"
+#include "lem_tool/drained.hpp"
+#include "lem_tool/limit_scene.hpp"
+#include "small_scenes.hpp"
+
+namespace breach::lem {
+namespace {
+
+using materials::NorSand;
+using materials::OnPath;
+using nlohmann::json;
+
+const std::string lift = BREACH_ROOT "/workflows/scenes/static_lift.json";
+
+scene::Scene with(const std::vector<std::string>& overrides = {}) {
+    return scene::read_scene(lift, overrides);
+}
+
+NorSand tailings(const scene::Scene& scene) {
+    for (const scene::Region& region : scene.section.regions)
+        if (const auto* law = std::get_if<NorSand>(&scene.materials[region.material].law))
+            return *law;
+    throw std::logic_error("no NorSand");
+}
+
+/// The law's path in simple shear at this stress, not tabulated.
+double ratio_by_path(const NorSand& law, double sigma_v0, OnPath part) {
+    const double K_0 = law.elasticity.nu / (1.0 - law.elasticity.nu);
+    const auto begun = beginning(law, {-K_0 * sigma_v0, -sigma_v0, -K_0 * sigma_v0, 0.0});
+    const auto found =
+        materials::norsand::simple_shear_strength(law.ready, begun.state, 20.0 * sigma_v0);
+    return (part == OnPath::peak ? found.peak : found.critical) / sigma_v0;
+}
+
+TEST(NorSandByState, PeakInSimpleShearIsTheReferencesTables) {
+    // CJ1, psi_0 = 0.05, K_0 = 0.7, S = 1: 0.253556 (docs/static_liquefaction.md).
+    const NorSand law = tailings(with());
+    EXPECT_NEAR(ratio_by_path(law, 100e3, OnPath::peak), 0.253556, 1e-3 * 0.253556);
+}
+
+TEST(NorSandByState, TheTableIsThePathBetweenItsRowsToo) {
+    for (const OnPath part : {OnPath::peak, OnPath::residual}) {
+        const NorSand law = tailings(with());
+        const materials::StrengthByState table(law, part);
+        for (const double sigma_v0 : {7.3e3, 41e3, 133e3, 420e3}) {
+            const double s_u = table.at({5.0, 0.0, sigma_v0}, 20.0 * sigma_v0);
+            // At a few kPa the floor p_min puts a kink between two rows.
+            const double allowed = sigma_v0 < 10e3 ? 3e-2 : 1e-2;
+            EXPECT_NEAR(s_u / sigma_v0 / ratio_by_path(law, sigma_v0, part), 1.0, allowed)
+                << sigma_v0 << " Pa";
+        }
+    }
+}
+
+TEST(NorSandByState, ResidualIsTheCriticalStatesShearAtTheVoidRatioThatStays) {
+    const NorSand law = tailings(with());
+    const double sigma_v0 = 100e3, K_0 = law.elasticity.nu / (1.0 - law.elasticity.nu);
+    const auto begun = beginning(law, {-K_0 * sigma_v0, -sigma_v0, -K_0 * sigma_v0, 0.0});
+    const double theta = materials::norsand::plane_critical_angle(law.ready);
+    const double expected = materials::norsand::critical_ratio(law.ready, theta) * std::cos(theta) /
+                            std::numbers::sqrt3 *
+                            materials::norsand::critical_pressure(law.ready, begun.state.e);
+    const materials::StrengthByState table(law, OnPath::residual);
+    EXPECT_NEAR(table.at({5.0, 0.0, sigma_v0}, sigma_v0) / expected, 1.0, 5e-3);
+}
+
+/// Level-bedded wet NorSand cut to a 45-degree face; a circle about a point above the toe.
+json bank(const json& lem) {
+    const json soil = json::parse(scene::text_of(lift)).at("materials").at("tailings");
+    const small::Ring ring{{0, 0}, {60, 0}, {60, 10}, {30, 10}, {20, 20}, {0, 20}};
+    return small::scene({{"tailings", soil}},
+                        json::array({small::region("tailings", "tailings", ring)}), lem);
+}
+
+double safety(const json& lem) {
+    return small::circle_bishop(limit_scene(small::parsed(bank(lem)))).factor_of_safety;
+}
+
+json lem_with(const json& undrained) {
+    return {{"circle", {{"center", {30, 24}}, {"radius", 18}}},
+            {"water", {{"line", {{0, 20}, {20, 20}, {30, 10}, {60, 10}}}}},
+            {"undrained", undrained},
+            {"slices", 200}};
+}
+
+TEST(NorSandByState, FactorOfSafetyIsThatOfTheSameStrengthGivenByHand) {
+    // Where the table's ratio is one number, s_u = ratio sigma'_v0 is what /lem/undrained can say itself.
+    const double by_state = safety(lem_with({{{"region", "tailings"}, {"norsand", "peak"}}}));
+    double least = 1e9, most = 0.0;
+    const NorSand law = tailings(with());
+    for (const double sigma_v0 : {5e3, 50e3, 150e3}) {
+        const double ratio = ratio_by_path(law, sigma_v0, OnPath::peak);
+        const double F =
+            safety(lem_with({{{"region", "tailings"}, {"coefficient_kPa", 101.325 * ratio}}}));
+        least = std::min(least, F);
+        most = std::max(most, F);
+    }
+    std::printf("F by state %.4f, by constant ratios %.4f to %.4f\n", by_state, least, most);
+    EXPECT_GE(by_state, 0.999 * least);
+    EXPECT_LE(by_state, 1.001 * most);
+    EXPECT_LT(safety(lem_with({{{"region", "tailings"}, {"norsand", "residual"}}})),
+              0.9 * by_state);
+}
+
+TEST(NorSandByState, WeightThatHasNotConsolidatedGivesNoStrength) {
+    const auto factor = [](const std::vector<std::string>& overrides) {
+        return small::circle_bishop(limit_scene(with(overrides))).factor_of_safety;
+    };
+    const std::string circle = R"(/lem/circle={"center":[52,40],"radius":42})";
+    const double fast = factor({circle});
+    const double slow = factor({circle, "/lem/unconsolidated=[]"});
+    EXPECT_LT(fast, 0.97 * slow);
+}
+
+TEST(NorSandByState, WhatContradictsItselfIsRefused) {
+    const auto pointer_of = [](const std::string& entry) -> std::string {
+        try {
+            with({"/lem/undrained=[" + entry + "]"});
+        } catch (const fault::BadInput& refusal) {
+            return refusal.faults().at(0).pointer;
+        }
+        return "";
+    };
+    EXPECT_EQ(pointer_of(R"({"region":"dike","norsand":"peak"})"), "/lem/undrained/0/norsand");
+    EXPECT_EQ(pointer_of(R"({"region":"tailings","norsand":"peak","strength_kPa":5})"),
+              "/lem/undrained/0/norsand");
+}
+
+TEST(DrainedOnly, IsFlaggedWhereLooseWetSoilIsJudgedByIt) {
+    const auto flags_with = [&](const std::string& more) {
+        std::vector<std::string> overrides{"/lem/undrained=[]"};
+        if (!more.empty()) overrides.push_back(more);
+        return flags_of_drained(with(overrides));
+    };
+    ASSERT_EQ(flags_with("").size(), 1u);
+    EXPECT_EQ(flags_with("")[0].code, "drained_only");
+    EXPECT_TRUE(flags_with("/materials/tailings/law/psi_0=-0.05").empty()) << "dense";
+    EXPECT_TRUE(flags_with("/lem/water/line=[[0,-50],[88,-50]]").empty()) << "dry";
+    EXPECT_TRUE(
+        flags_with(R"(/lem/liquefaction=[{"region":"tailings","norsand":"residual"}])").empty());
+    EXPECT_TRUE(flags_of_drained(with()).empty()) << "the shipped scene says how it fails";
+}
+
+}  // namespace
+}  // namespace breach::lem
