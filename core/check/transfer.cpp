@@ -23,13 +23,23 @@ void check_window(const scene::Scene& scene, Findings& findings) {
         try {
             const criteria::Expression parsed =
                 criteria::parse(condition, criteria::Kind::condition, pointer, known);
-            if (!scene.fem || scene.fem->liquefaction) return;
-            for (const char* field : {"liquefaction_depth", "r_u_max"}) {
-                if (std::ranges::find(parsed.fields, field) == parsed.fields.end()) continue;
-                refuse(findings, pointer,
-                       "asks for " + std::string(field) + ", and no soil is watched: it stays 0",
-                       "say in /fem/liquefaction which soil can liquefy");
-            }
+            const auto refuse_any = [&](std::initializer_list<const char*> fields,
+                                        const std::string& why, const char* remedy) {
+                for (const char* field : fields) {
+                    if (std::ranges::find(parsed.fields, field) == parsed.fields.end()) continue;
+                    refuse(findings, pointer,
+                           "asks for " + std::string(field) + ", and " + why + ": it stays 0",
+                           remedy);
+                }
+            };
+            if (!scene.fem) return;
+            if (!scene.fem->liquefaction)
+                refuse_any({"liquefaction_depth", "r_u_max"}, "no soil is watched",
+                           "say in /fem/liquefaction which soil can liquefy");
+            if (!scene.fem->strength_interval)
+                refuse_any({"strength_ratio_avg", "strength_ratio_min"},
+                           "nobody looks at the strength",
+                           "say in /fem/strength_interval how often");
         } catch (const fault::BadInput& error) {
             for (const fault::Fault& each : error.faults()) findings.faults.push_back(each);
         }

@@ -40,6 +40,10 @@ constexpr std::array fem_table{
     Column{"past_peak_share", "1",
            "volume of NorSand that would lose strength if it were sheared undrained, over all of "
            "its volume"},
+    Column{"strength_ratio_avg", "1",
+           "undrained peak strength of NorSand now over sigma'_v0, averaged by volume; of the last "
+           "look (/fem/strength_interval), 0 without any"},
+    Column{"strength_ratio_min", "1", "the least of a point"},
     Column{"excess_pressure_avg", "Pa", "excess pore pressure, averaged by mass"},
     Column{"r_u_max", "1", "largest excess pore pressure ratio of the watched nodes"},
     Column{"liquefaction_depth", "m", "of the deepest liquefied watched node"},

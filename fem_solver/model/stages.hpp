@@ -14,6 +14,10 @@ namespace breach::fem {
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model);
 
+/// The creep strain of a load step of this share of the stage, along the deviators in the plane that
+/// `motion` has; points without a deviator do not creep.
+void set_creep_step(double share, const Motion& motion, Model& model);
+
 /// Takes stress and strain from the points that are not there.
 void forget_absent(const Model& model, Motion& motion);
 

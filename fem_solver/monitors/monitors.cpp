@@ -42,6 +42,8 @@ const std::vector<Column>& columns() {
         Named{"psi_avg", &R::psi_avg},
         Named{"instability_ratio_max", &R::instability_ratio_max},
         Named{"past_peak_share", &R::past_peak_share},
+        Named{"strength_ratio_avg", &R::strength_ratio_avg},
+        Named{"strength_ratio_min", &R::strength_ratio_min},
         Named{"excess_pressure_avg", &R::excess_pressure_avg},
         Named{"r_u_max", &R::r_u_max},
         Named{"liquefaction_depth", &R::liquefaction_depth},

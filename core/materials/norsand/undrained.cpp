@@ -8,34 +8,81 @@ namespace breach::materials::norsand {
 
 double plane_shear(const State& state) { return std::hypot(0.5 * (state.xx - state.yy), state.xy); }
 
-UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound) {
-    constexpr double first_step = 1e-4, growth = 1.05, largest_step = 5e-3;  // strain
-    constexpr double farthest = 0.3, past = 0.9;                             // strain; of the peak
-    const double theta = plane_critical_angle(law);
-    const double ratio = critical_ratio(law, theta) * std::cos(theta) / std::numbers::sqrt3;
-    const double most = ratio * std::max(bound, law.parameters.p_min);
-    const double p_c = std::max(critical_pressure(law, state.e), law.parameters.p_min);
+namespace {
 
-    double peak = plane_shear(state);
+constexpr double first_step = 1e-4, growth = 1.05, largest_step = 5e-3;  // strain
+constexpr double farthest = 0.3, past = 0.9;                             // strain; of the peak
+
+/// A state on its way.
+struct Sheared {
+    Voigt along;  ///< unit of strain
+    double peak, most;
+    double step = first_step, gone = 0.0;
+
+    bool goes_on() const { return gone < farthest && peak < most; }
+};
+
+Sheared begun(const State& state, double most) {
     const double half = 0.5 * (state.yy - state.xx);  // tension positive, like the strain
     const double size = std::hypot(half, state.xy);
     // Without a direction of its own it is compressed along y.
     const bool turned = size > 1e-7 * (state.xx + state.yy + state.zz);
-    const Voigt along = turned ? Voigt(half / size, -half / size, 0.0, -2.0 * state.xy / size)
-                               : Voigt(1.0, -1.0, 0.0, 0.0);
-    State at = state;
-    double step = first_step;
-    for (double gone = 0.0; gone < farthest && peak < most; gone += step) {
-        const Update next = integrate(law, at, step * along, {});
-        if (next.outcome != Outcome::done) break;
-        at = next.state;
-        const double shear = plane_shear(at);
-        if (shear < past * peak) break;
-        peak = std::max(peak, shear);
-        step = std::min(growth * step, largest_step);
+    return {turned ? Voigt(half / size, -half / size, 0.0, -2.0 * state.xy / size)
+                   : Voigt(1.0, -1.0, 0.0, 0.0),
+            plane_shear(state), most};
+}
+
+}  // namespace
+
+UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound) {
+    return undrained_strengths(law, {&state, 1}, {&bound, 1}).front();
+}
+
+std::vector<UndrainedStrength> undrained_strengths(const Ready& law, std::span<const State> states,
+                                                   std::span<const double> bounds) {
+    const double theta = plane_critical_angle(law);
+    const double ratio = critical_ratio(law, theta) * std::cos(theta) / std::numbers::sqrt3;
+    std::vector<Sheared> ways;
+    std::vector<std::size_t> going;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        ways.push_back(begun(states[i], ratio * std::max(bounds[i], law.parameters.p_min)));
+        if (ways[i].goes_on()) going.push_back(i);
     }
-    peak = std::max(std::min(peak, most), plane_shear(state));
-    return {peak, std::min({ratio * p_c, most, peak})};
+    std::vector<State> at(states.begin(), states.end()), from;
+    std::vector<Voigt> d_epsilon;
+    std::vector<Update> updates;
+    while (!going.empty()) {
+        from.clear();
+        d_epsilon.clear();
+        for (const std::size_t i : going) {
+            from.push_back(at[i]);
+            d_epsilon.push_back(ways[i].step * ways[i].along);
+        }
+        updates.resize(going.size());
+        integrate(law, from, d_epsilon, {}, updates);
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < going.size(); ++k) {
+            if (updates[k].outcome != Outcome::done) continue;
+            const std::size_t i = going[k];
+            Sheared& way = ways[i];
+            at[i] = updates[k].state;
+            const double shear = plane_shear(at[i]);
+            if (shear < past * way.peak) continue;
+            way.peak = std::max(way.peak, shear);
+            way.step = std::min(growth * way.step, largest_step);
+            way.gone += way.step;
+            if (way.goes_on()) going[left++] = i;
+        }
+        going.resize(left);
+    }
+    std::vector<UndrainedStrength> strengths;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const auto& [along, peak, most, step, gone] = ways[i];
+        const double p_c = std::max(critical_pressure(law, states[i].e), law.parameters.p_min);
+        const double held = std::max(std::min(peak, most), plane_shear(states[i]));
+        strengths.push_back({held, std::min({ratio * p_c, most, held})});
+    }
+    return strengths;
 }
 
 }  // namespace breach::materials::norsand

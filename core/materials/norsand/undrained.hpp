@@ -2,6 +2,9 @@
 // is left of that at the critical state of its void ratio.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "core/materials/norsand/norsand.hpp"
 
 namespace breach::materials::norsand {
@@ -20,5 +23,8 @@ struct UndrainedStrength {
 /// law's S. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
 /// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.
 UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
+/// The same of many states, side by side: to the last bit what each alone gives.
+std::vector<UndrainedStrength> undrained_strengths(const Ready& law, std::span<const State> states,
+                                                   std::span<const double> bounds);
 
 }  // namespace breach::materials::norsand
