@@ -23,20 +23,46 @@ std::vector<bool> lonely_nodes(const Model& model) {
     return lonely;
 }
 
-/// Water does not come and go with soil: what is placed or removed must be above it.
-void refuse_wet(const scene::Scene& scene, const Model& model) {
-    if (!model.water.any()) return;
-    for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
-        if (!model.is_absent(e)) continue;
-        for (const std::int32_t node : model.mesh.quads[e]) {
-            if (!model.water.is_unknown[node] && model.water.prescribed[node] <= 0.0) continue;
-            const auto& region = scene.section.regions[model.mesh.region_of_element[e]];
-            throw fault::BadInput(
-                "scene",
-                {{"/fem/stages",
-                  "region '" + region.name + "' is placed or removed, and water stands in it",
-                  "draw /fem/water/line below it, or keep it for the whole run"}});
-        }
+/// [elements] of regions that are not there in a stage.
+std::vector<bool> elements_gone(const scene::Scene& scene, std::size_t stage, const Mesh& mesh) {
+    const auto gone = scene::fem_of(scene).regions_gone(scene.section.regions.size(), stage);
+    std::vector<bool> elements;
+    for (const std::int32_t region : mesh.region_of_element) elements.push_back(gone[region]);
+    return elements;
+}
+
+/// In some stage water stands where soil is not there.
+bool floods_gaps(const scene::Scene& scene, const Mesh& mesh) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    for (std::size_t s = 0; fem.water && s < fem.stages.size(); ++s) {
+        const std::vector<bool> gone = elements_gone(scene, s, mesh);
+        const std::vector<bool> below = elements_below(*fem.water_in(s), mesh);
+        for (std::size_t e = 0; e < gone.size(); ++e)
+            if (gone[e] && below[e]) return true;
+    }
+    return false;
+}
+
+/// Soil comes and goes below water where the stage's water is that of steady seepage.
+void refuse_wet_changes(const scene::Scene& scene, std::size_t stage, const Model& model) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    const scene::Stage& now = fem.stages[stage];
+    const std::string pointer = "/fem/stages/" + std::to_string(stage);
+    if (!model.water.any())
+        throw fault::BadInput("scene", {{pointer, "leaves no soil below the phreatic line",
+                                         "keep wet soil, or leave out /fem/water"}});
+    if (now.kind == scene::StageKind::static_equilibrium && now.undrained.empty()) return;
+    const std::vector<bool> below = elements_below(*fem.water_in(stage), model.mesh);
+    for (std::size_t e = 0; e < below.size(); ++e) {
+        const auto region = static_cast<std::size_t>(model.mesh.region_of_element[e]);
+        const bool changes = std::ranges::find(now.activates, region) != now.activates.end() ||
+                             std::ranges::find(now.removes, region) != now.removes.end();
+        if (!changes || !below[e]) continue;
+        throw fault::BadInput(
+            "scene", {{pointer,
+                       "places or removes region '" + scene.section.regions[region].name +
+                           "', in which water stands, without letting the water come to rest",
+                       "do it in a static stage that drains, or draw the line below it"}});
     }
 }
 
@@ -195,16 +221,15 @@ void creep(const scene::Fem& fem, std::size_t stage, Model& model) {
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model) {
     const scene::Fem& fem = scene::fem_of(scene);
-    const std::vector<bool> gone = fem.regions_gone(scene.section.regions.size(), stage);
-    model.absent.assign(model.mesh.quads.size(), 0);
-    for (std::size_t e = 0; e < model.absent.size(); ++e)
-        model.absent[e] = gone[model.mesh.region_of_element[e]] ? 1 : 0;
+    const std::vector<bool> gone = elements_gone(scene, stage, model.mesh);
+    model.absent.assign(gone.begin(), gone.end());
     ModelDecisions now = decided;
     now.water.value = fem.water_in(stage);
     for (std::size_t s = 0; s <= stage; ++s)
         if (const auto& loads = fem.stages[s].surcharge) now.surcharge.value = *loads;
-    if (fem.moves_the_water()) model.water = ground_water(scene, *now.water.value, model);
-    refuse_wet(scene, model);
+    const bool floods = floods_gaps(scene, model.mesh);
+    if (fem.moves_the_water() || floods) model.water = ground_water(scene, *now.water.value, model);
+    if (floods) refuse_wet_changes(scene, stage, model);
     hold_what_is_left(scene, stage, model);
     displace(fem, stage, model);
     find_undrained(fem, stage, model);
