@@ -53,6 +53,7 @@ Analysis::Analysis(process::Session& session, Model model)
       model_(std::move(model)),
       motion_(at_rest(model_)),
       trial_(motion_),
+      columns_(columns_of(session.scene())),
       watch_(fem_, model_),
       crest_node_(nearest_node(watch_.body(), fem_.crest)) {
     const auto& switches = session.settings().switches;

@@ -90,6 +90,7 @@ class Analysis {
     NewtonCounts counts_;  ///< of the stages before this one
     Work before_;          ///< of the run that is resumed
     Distortion distortion_;
+    std::vector<Column> columns_;  ///< of telemetry and history
     std::vector<Reading> history_;
     Watch watch_;
     std::size_t crest_node_;

@@ -55,7 +55,7 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
         read_strength(reading);
         reading.kinetic_energy_over_peak = over_peak(reading.kinetic_energy, history_);
         history_.push_back(reading);
-        session_.telemetry(telemetry_line(reading));
+        session_.telemetry(telemetry_line(reading, columns_));
         position_.telemetry_lines = session_.telemetry_lines();
         const double interval = fem_.telemetry_interval;
         position_.next_telemetry =
@@ -168,8 +168,8 @@ void Analysis::resume() {
 
 void Analysis::write_history() {
     const Stopwatch watch(seconds_, &Seconds::output);
-    exchange::write_archive(session_.output(phases::files::history), history_archive(history_),
-                            session_.provenance());
+    exchange::write_archive(session_.output(phases::files::history),
+                            history_archive(history_, columns_), session_.provenance());
 }
 
 /// Saves the last good state (the accepted one: `trial_` is dropped) and ends the run.

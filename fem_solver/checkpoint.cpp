@@ -233,7 +233,7 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
     const NewtonCounts& counts = checkpoint.counts;
     archive.integers["newton.counts"] = {counts.iterations, counts.factorisations,
                                          counts.elastic_fallbacks, counts.stalled};
-    for (auto& [name, values] : history_archive(checkpoint.history).reals) {
+    for (auto& [name, values] : history_archive(checkpoint.history, columns()).reals) {
         archive.reals[history_prefix + name] = values;
     }
     return archive;

@@ -21,10 +21,11 @@ using process::Session;
 json energy_json(const Simulation& simulation, const Row& row) {
     const Energy now = energy_of(simulation.body());
     const Energy& start = simulation.start().energy;
-    const double available = released(start, now);
-    const auto share = [&](double J) { return available > 0.0 ? J / available : 0.0; };
+    const double scale = simulation.scale_of_energy();
+    const auto share = [&](double J) { return scale > 0.0 ? J / scale : 0.0; };
     const auto entry = [&](double J) { return json{{"J", J}, {"share", share(J)}}; };
-    return {{"released", entry(available)},
+    return {{"scale", {{"J", scale}}},
+            {"released", entry(released(start, now))},
             {"kinetic", entry(now.kinetic)},
             {"gravitational", {{"J", now.gravitational}}},
             {"elastic_change", entry(now.elastic - start.elastic)},

@@ -107,6 +107,8 @@ const Row& Simulation::look() {
     sample_momentum();
     const double since = records_.history.empty() ? clock_.time : last_row().time;
     read_sections(mpm_.sections, body_.points, view_, clock_.time, since, records_.sections);
+    const double numerical = numerical_loss(start_.energy, now);
+    const double scale = scale_of_energy(now);
     records_.history.push_back(
         {.time = clock_.time,
          .step = static_cast<double>(clock_.step),
@@ -126,8 +128,8 @@ const Row& Simulation::look() {
          .friction_dissipation = now.friction,
          .viscous_dissipation = now.viscous,
          .shaking_work = now.shaking,
-         .energy_numerical = numerical_loss(start_.energy, now),
-         .energy_numerical_share = numerical_share(start_.energy, now),
+         .energy_numerical = numerical,
+         .energy_numerical_share = scale > 0.0 ? numerical / scale : 0.0,
          .volume_ratio = start_.mobile_volume > 0.0 ? volume / start_.mobile_volume : 1.0,
          .overlap = overlap_.measure(body_),
          .overlap_energy = body_.tally.pushed_in,
@@ -155,6 +157,10 @@ Verdict Simulation::verdict() const {
 double Simulation::scale_of_energy() const {
     const Energy now{.gravitational = last_row().gravitational_energy,
                      .shaking = last_row().shaking_work};
+    return scale_of_energy(now);
+}
+
+double Simulation::scale_of_energy(const Energy& now) const {
     return energy_scale(rest_, released(start_.energy, now), mass_of(body_.points, view_.mobile));
 }
 

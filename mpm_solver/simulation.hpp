@@ -89,6 +89,7 @@ class Simulation {
     exchange::ParticleState last_good_state() const;
 
   private:
+    double scale_of_energy(const Energy& now) const;
     double next_step() const;
     void sample_envelope();
     void sample_momentum();

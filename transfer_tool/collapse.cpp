@@ -31,6 +31,14 @@ bool collapses(const scene::Scene& scene, std::size_t region) {
            law_of(scene, region) != nullptr;
 }
 
+JudgedBy judged_by(const scene::Scene& scene) {
+    JudgedBy found;
+    if (!scene.transfer || !scene.transfer->liquefied) return found;
+    for (const std::size_t region : scene.transfer->liquefied->regions)
+        (collapses(scene, region) ? found.state : found.pressure) = true;
+    return found;
+}
+
 Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
                    std::span<const std::size_t> regions)
     : mesh_(&mesh) {

@@ -21,6 +21,13 @@ inline constexpr double instability = 0.98;
 /// NorSand in this region, and /transfer/liquefied names it: its points get strengths by state.
 bool collapses(const scene::Scene& scene, std::size_t region);
 
+/// By what /transfer/liquefied judges its regions.
+struct JudgedBy {
+    bool state = false;     ///< of NorSand: collapses()
+    bool pressure = false;  ///< the others: r_u
+};
+JudgedBy judged_by(const scene::Scene& scene);
+
 /// Counts of points, for result.json and people.
 struct CollapseReport {
     double epsilon_q;           ///< strain from which soil counts as strained

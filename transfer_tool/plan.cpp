@@ -66,9 +66,8 @@ PlanLine cells_line(const scene::Transfer& settings) {
         "/transfer/points_per_cell"};
 }
 
-PlanLine collapse_line(const scene::Scene& scene, const scene::Transfer& settings) {
-    const auto by_state = [&](std::size_t region) { return collapses(scene, region); };
-    if (!settings.liquefied || std::ranges::none_of(settings.liquefied->regions, by_state))
+PlanLine collapse_line(const scene::Scene& scene) {
+    if (!judged_by(scene).state)
         return {"strengths of NorSand", Use::left_out, "no region of it is to liquefy",
                 "/transfer/liquefied/regions"};
     return {"strengths of NorSand", Use::on,
@@ -77,8 +76,7 @@ PlanLine collapse_line(const scene::Scene& scene, const scene::Transfer& setting
 }
 
 PlanLine liquefied_line(const scene::Scene& scene, const scene::Transfer& settings) {
-    const auto by_state = [&](std::size_t region) { return collapses(scene, region); };
-    if (!settings.liquefied || std::ranges::all_of(settings.liquefied->regions, by_state))
+    if (!judged_by(scene).pressure)
         return {"liquefied layers", Use::left_out, "the scene names none", "/transfer/liquefied"};
     if (settings.liquefied->layers.empty())
         return {"liquefied layers", Use::on,
@@ -157,7 +155,7 @@ process::Plan plan(const scene::Scene& scene) {
             interpolation_line(settings),
             stress_line(scene, settings),
             liquefied_line(scene, settings),
-            collapse_line(scene, settings),
+            collapse_line(scene),
             cells_line(settings),
             entangled_line(settings),
             round_trip_line(settings),

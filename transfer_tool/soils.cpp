@@ -41,8 +41,8 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                     std::vector<fault::Fault>& faults) {
     const auto& liquefied = scene::transfer_of(scene).liquefied;
     if (!liquefied) return;
-    const auto by_state = [&](std::size_t region) { return collapses(scene, region); };
-    if (std::ranges::any_of(liquefied->regions, by_state)) {
+    const JudgedBy judged = judged_by(scene);
+    if (judged.state) {
         if (!liquefied->layers.empty())
             faults.push_back({"/transfer/liquefied/layers",
                               "are by pore pressure, and NorSand's strengths come from its state",
@@ -52,7 +52,7 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                               "the snapshot has no state parameter: its NorSand soil has not begun",
                               "give a snapshot of a stage with the scene's laws"});
     }
-    if (!std::ranges::all_of(liquefied->regions, by_state) && mesh.sigma_v0.empty())
+    if (judged.pressure && mesh.sigma_v0.empty())
         faults.push_back({"/transfer/liquefied",
                           "the snapshot has no sigma_v0 and pore_pressure_0: nobody can tell what "
                           "has liquefied",

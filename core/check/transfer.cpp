@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <iterator>
 
 #include "core/check/findings.hpp"
+#include "core/check/measured.hpp"
 #include "core/check/section.hpp"
 #include "core/criteria/expression.hpp"
 #include "core/telemetry/columns.hpp"
@@ -23,23 +25,9 @@ void check_window(const scene::Scene& scene, Findings& findings) {
         try {
             const criteria::Expression parsed =
                 criteria::parse(condition, criteria::Kind::condition, pointer, known);
-            const auto refuse_any = [&](std::initializer_list<const char*> fields,
-                                        const std::string& why, const char* remedy) {
-                for (const char* field : fields) {
-                    if (std::ranges::find(parsed.fields, field) == parsed.fields.end()) continue;
-                    refuse(findings, pointer,
-                           "asks for " + std::string(field) + ", and " + why + ": it stays 0",
-                           remedy);
-                }
-            };
             if (!scene.fem) return;
-            if (!scene.fem->liquefaction)
-                refuse_any({"liquefaction_depth", "r_u_max"}, "no soil is watched",
-                           "say in /fem/liquefaction which soil can liquefy");
-            if (!scene.fem->strength_interval)
-                refuse_any({"strength_ratio_avg", "strength_ratio_min"},
-                           "nobody looks at the strength",
-                           "say in /fem/strength_interval how often");
+            std::ranges::move(unmeasured(parsed.fields, scene, pointer),
+                              std::back_inserter(findings.faults));
         } catch (const fault::BadInput& error) {
             for (const fault::Fault& each : error.faults()) findings.faults.push_back(each);
         }

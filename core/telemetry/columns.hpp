@@ -7,13 +7,17 @@
 
 namespace breach::telemetry {
 
+/// What a scene must have for its FEM to measure a column.
+enum class Needs { nothing, softening, norsand, looks_at_strength, water, watched_ground };
+
 struct Column {
     const char* name;     ///< key of the line, name in a condition
     const char* unit;     ///< "1": a ratio or a count
     const char* meaning;  ///< for people, one line
+    Needs needs = Needs::nothing;
 };
 
-/// What fem_solver writes, in the order of history.h5.
+/// What fem_solver writes, in the order of history.h5, of a scene that has what they need.
 std::span<const Column> fem_columns();
 
 /// What a condition may use beside them: numbers of the same run that other phases give.

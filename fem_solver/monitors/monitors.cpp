@@ -6,15 +6,18 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/check/measured.hpp"
 #include "core/materials/norsand/instability.hpp"
 #include "core/phases/phases.hpp"
-#include "core/telemetry/columns.hpp"
 
 namespace breach::fem {
 
 const std::vector<Column>& columns() {
     using R = Reading;
-    using Named = std::pair<const char*, double R::*>;
+    struct Named {
+        const char* name;
+        double R::*member;
+    };
     static constexpr std::array members{
         Named{"step", &R::step},
         Named{"time", &R::time},
@@ -54,11 +57,19 @@ const std::vector<Column>& columns() {
     static const std::vector<Column> all = [] {
         std::vector<Column> made;
         for (const auto& [name, member] : members) {
-            made.push_back({name, telemetry::column_named(name)->unit, member});
+            made.push_back({*telemetry::column_named(name), member});
         }
         return made;
     }();
     return all;
+}
+
+std::vector<Column> columns_of(const scene::Scene& scene) {
+    std::vector<Column> found = columns();
+    std::erase_if(found, [&](const Column& each) {
+        return check::why_not_measured(scene, each.needs).has_value();
+    });
+    return found;
 }
 
 double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element) {
@@ -200,9 +211,9 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     return r;
 }
 
-nlohmann::json telemetry_line(const Reading& reading) {
+nlohmann::json telemetry_line(const Reading& reading, const std::vector<Column>& columns) {
     nlohmann::json line{{"phase", phases::fem.program}};
-    for (const Column& column : columns()) line[column.name] = reading.*column.member;
+    for (const Column& column : columns) line[column.name] = reading.*column.member;
     line["step"] = static_cast<std::int64_t>(reading.step);
     line["failure_surfaces"] = static_cast<std::int64_t>(reading.failure_surfaces);
     line["inverted_elements"] = static_cast<std::int64_t>(reading.inverted_elements);
@@ -210,10 +221,11 @@ nlohmann::json telemetry_line(const Reading& reading) {
     return line;
 }
 
-exchange::Archive history_archive(const std::vector<Reading>& history) {
+exchange::Archive history_archive(const std::vector<Reading>& history,
+                                  const std::vector<Column>& columns) {
     exchange::Archive archive;
     archive.kind = "fem_history";
-    for (const Column& column : columns()) {
+    for (const Column& column : columns) {
         std::vector<double>& values = archive.reals[column.name];
         for (const Reading& reading : history) values.push_back(reading.*column.member);
         archive.units[column.name] = column.unit;

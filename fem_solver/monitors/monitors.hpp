@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/exchange/archive.hpp"
+#include "core/telemetry/columns.hpp"
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
@@ -61,13 +62,13 @@ struct Reading {
     double softened_share = 0.0;         ///< volume that has lost strength over volume that can [-]
 };
 
-struct Column {
-    const char* name;
-    const char* unit;
+struct Column : telemetry::Column {
     double Reading::*member;
 };
 /// As core/telemetry/columns.hpp has them, in its order; a test holds the two together.
 const std::vector<Column>& columns();
+/// Without those that say nothing of this scene: what nobody measures is not 0.
+std::vector<Column> columns_of(const scene::Scene& scene);
 
 /// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
 /// [-].
@@ -82,9 +83,10 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
 Reading read_monitors(const Model& model, const Motion& motion, const Distortion& distortion,
                       std::size_t crest_node, double strain_threshold);
 
-nlohmann::json telemetry_line(const Reading& reading);
-exchange::Archive history_archive(const std::vector<Reading>& history);
-/// Throws std::out_of_range when a column is missing or has another length.
+nlohmann::json telemetry_line(const Reading& reading, const std::vector<Column>& columns);
+exchange::Archive history_archive(const std::vector<Reading>& history,
+                                  const std::vector<Column>& columns);
+/// Of all columns. Throws std::out_of_range when one is missing or has another length.
 std::vector<Reading> history_from(const exchange::Archive& archive);
 
 std::size_t nearest_node(const Mesh& mesh, const Vec2& point);

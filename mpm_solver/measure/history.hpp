@@ -28,7 +28,7 @@ struct Row {
     double viscous_dissipation = 0.0;
     double shaking_work = 0.0;  ///< of the moving frame's force
     double energy_numerical = 0.0;
-    double energy_numerical_share = 0.0;
+    double energy_numerical_share = 0.0;  ///< of energy_scale
     double volume_ratio = 0.0;
     double overlap = 0.0;
     double overlap_energy = 0.0;  ///< put in by the overlap correction, part of the numerical

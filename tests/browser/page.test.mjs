@@ -51,6 +51,28 @@ test("the start page lists runs and opens one", async () => {
     assert.equal(await page.getAttribute("#run-list a", "aria-current"), "page");
 });
 
+test("no number of the run before stands under the name of the next", async () => {
+    const next = api.add_run({ ...study, name: "next", title: "The next run" }, { began: Date.now() - 60000 }).id;
+    await page.waitForSelector("#runout-rows tr");
+    let answer;
+    const asked = new Promise((resume) => {
+        answer = resume;
+    });
+    await page.route(`**/runs/${next}/results`, async (route) => {
+        await asked;
+        await route.continue();
+    });
+    await page.goto(`${url}/#/runs/${next}`);
+    await until("its name", async () => (await text_of("#run-title")) === "The next run");
+    for (const part of ["#runout-rows", "#runout-csv", "#cost-rows"])
+        assert.equal(await page.isVisible(part), false, part);
+    answer();
+    await page.waitForSelector("#runout-rows tr");
+    assert.match(await page.getAttribute("#runout-csv", "href"), new RegExp(next));
+    await page.unroute(`**/runs/${next}/results`);
+    api.runs.pop();
+});
+
 test("everything comes from this server, and little of it", async () => {
     await open_run("run-1");
     const bytes = await page.evaluate(() => performance.getEntriesByType("resource")

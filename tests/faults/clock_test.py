@@ -129,12 +129,15 @@ def swings(folder, *arguments):
                     runs[service.submit(study([0.5, 1.0], title))] = title
                 time.sleep(1)
                 service.end(signal.SIGKILL)
-            with Service(folder, "--slots", "3", *arguments) as again, Clock(folder):
-                for run, title in runs.items():
-                    expect_whole(again, run, title)
-                for run in first:
-                    expect_whole(again, run, "")
-                expect_order(again, [*first, *runs])
+            with Service(folder, "--slots", "3", *arguments) as again:
+                with Clock(folder):
+                    for run, title in runs.items():
+                        expect_whole(again, run, title)
+                    for run in first:
+                        expect_whole(again, run, "")
+                    expect_order(again, [*first, *runs])
+                last = again.submit(study([0.5], "last"))  # some wait while nobody sets the clock, and are counted
+                expect_whole(again, last, "last")
                 metrics = again.ask("/metrics")[2].decode()
                 assert not [line for line in metrics.splitlines() if line[:1] != "#" and " -" in line], metrics
                 expect_no_hour_of_waiting(metrics)

@@ -70,6 +70,12 @@ class SlowClients(unittest.TestCase):
                     time.sleep(0.2)
                 self.assertIn(b" 202 ", connection.recv(4096))
 
+    def test_a_new_client_may_wait_as_long_as_for_a_head(self):
+        with Service(self.folder.name, "--patience", "9") as service, service.connect() as connection:
+            time.sleep(6)  # a connection may rest for 5 s between two requests, and this is before the first
+            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+            self.assertIn(b" 200 ", connection.recv(4096))
+
     def test_readers_that_do_not_read_are_cut_off(self):
         with self.serve() as service:
             threads = lambda: len(open_sockets(service))

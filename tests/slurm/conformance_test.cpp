@@ -141,8 +141,9 @@ TEST_P(ExecutorConformance, SameAttemptIsNotTakenTwice) {
 }
 
 TEST_P(ExecutorConformance, ClearingAwayReachesWhatIsForkedMeanwhile) {
-    submit(folder(), "for i in 0 1 2 3 4 5 6 7 8 9; do for j in 0 1 2 3 4 5 6 7 8 9; do sleep 300 & "
-                     "echo $! >>pids; done; done; wait");
+    submit(folder(),
+           "for i in 0 1 2 3 4 5 6 7 8 9; do for j in 0 1 2 3 4 5 6 7 8 9; do sleep 300 & "
+           "echo $! >>pids; done; done; wait");
     ASSERT_TRUE(eventually([&] { return pid_in(root_ / "pids") > 0; }));
     executor_->clear_away(folder(), attempt_of(folder()));
     EXPECT_TRUE(eventually([&] { return !is_held(folder().lock()); }, 10));

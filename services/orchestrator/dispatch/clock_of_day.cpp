@@ -1,7 +1,5 @@
 #include "services/orchestrator/dispatch/clock_of_day.hpp"
 
-#include "services/orchestrator/records/identity.hpp"
-
 namespace breach::orchestrator {
 
 namespace {
@@ -15,9 +13,9 @@ std::optional<double> ClockOfDay::seconds_since(std::int64_t moment) {
     const std::int64_t now = epoch_ms();
     if (std::chrono::abs(now_ahead - ahead_) > least_setting) {
         ahead_ = now_ahead;
-        set_at_ = now;
+        true_since_ = now;
     }
-    if (moment < set_at_ || moment > now) return std::nullopt;
+    if (moment < true_since_ || moment > now) return std::nullopt;
     return 1e-3 * static_cast<double>(now - moment);
 }
 

@@ -11,7 +11,7 @@ namespace breach::orchestrator {
 namespace {
 
 constexpr std::size_t most_requests_per_connection = 1000;
-constexpr auto idle = std::chrono::seconds(5);
+constexpr auto idle_between_requests = std::chrono::seconds(5);
 constexpr auto look_at_stopping = std::chrono::milliseconds(250);
 
 /// What finds no place is called at once, on the listening thread.
@@ -71,8 +71,10 @@ bool Listener::process_and_close_socket(socket_t socket) {
 }
 
 void Listener::answer(Wire& wire) {
+    std::chrono::milliseconds idle = patience_.patience;
     for (std::size_t left = keep_alive_max_count_; left > 0; --left) {
         const auto until = Wire::Clock::now() + idle;
+        idle = idle_between_requests;
         while (svr_sock_ != INVALID_SOCKET && !wire.waits_to_be_read(look_at_stopping))
             if (Wire::Clock::now() > until) return;
         if (svr_sock_ == INVALID_SOCKET) return;

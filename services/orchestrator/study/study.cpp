@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <iterator>
 #include <set>
 #include <thread>
 
 #include "core/check/check.hpp"
+#include "core/check/measured.hpp"
 #include "core/criteria/expression.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/schema.hpp"
@@ -137,13 +139,8 @@ void check_fields(const json& triggers, const scene::Scene& scene, bool stabilit
             if (!triggers[i].contains(key)) continue;
             const std::string at = "/triggers/" + std::to_string(i) + "/" + key;
             const auto fields = fields_of(triggers[i][key].get<std::string>());
-            const auto asks = [&](const char* field) {
-                return std::ranges::find(fields, field) != fields.end();
-            };
-            if (!scene.fem->liquefaction && (asks("liquefaction_depth") || asks("r_u_max")))
-                faults.push_back({at, "asks how deep soil has liquefied, and none is watched",
-                                  "say in /scene/fem/liquefaction which soil can liquefy"});
-            if (!staged && asks("critical_depth"))
+            std::ranges::move(check::unmeasured(fields, scene, at), std::back_inserter(faults));
+            if (!staged && std::ranges::find(fields, "critical_depth") != fields.end())
                 faults.push_back(
                     {at, "asks for critical_depth, which only a stability analysis in stages gives",
                      "give /scene/lem/liquefaction and leave \"stability\" on"});

@@ -27,7 +27,7 @@ struct Material {
     const Choice& choice;
 };
 
-/// The runouts of the first variant that are looked at closely: those nearest to the wanted
+/// The runouts of the variant that runs farthest that are looked at closely: those nearest to the wanted
 /// transfer times; without any, the one nearest to half of the largest runout, and the largest.
 std::vector<const PhaseFolder*> chosen_runouts(const Material& from);
 /// "t_T = 13 s, softened".

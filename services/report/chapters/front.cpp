@@ -119,13 +119,6 @@ std::vector<std::string> asked_of(const Run& run, const json& scene) {
 
 // ---------------------------------------------------------------- what comes out
 
-std::vector<const PhaseFolder*> ended_runouts(const Run& run) {
-    std::vector<const PhaseFolder*> found;
-    for (const std::string& variant : variants_of(run))
-        for (const PhaseFolder* each : runouts_of(run, variant)) found.push_back(each);
-    return found;
-}
-
 /// "3 to 12.5 (8 of 9)": least and largest of a fact over the phases that have it; a lower bound
 /// where the largest is one.
 std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::string& pointer,
@@ -224,13 +217,13 @@ void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolde
 void add_runouts(const Run& run, Table& table) {
     const auto asked = phases_named(run, phases::mpm.program);
     if (asked.empty()) return;
-    const auto ended = ended_runouts(run);
-    if (ended.empty()) {
+    const PhaseFolder* farthest = farthest_runout(run);
+    if (!farthest) {
         table.rows.push_back({"Runout [m]", "no result", "0 of " + std::to_string(asked.size()),
                               asked.front()->fault});
         return;
     }
-    const PhaseFolder& shown = **std::ranges::max_element(ended, {}, runout_of);
+    const PhaseFolder& shown = *farthest;
     add_mean(run, table);
     table.rows.push_back({"Runout: 99 % of the mobile soil, from the toe [m]",
                           bounded(shown, rounded(runout_of(&shown), 4)),
@@ -242,8 +235,8 @@ void add_runouts(const Run& run, Table& table) {
     table.rows.push_back({"Deposit beyond the toe [m3 per m of width]",
                           bounded(shown, brief_fact(shown, "/area_beyond_toe")),
                           range_of(asked, "/area_beyond_toe", true), ""});
-    const auto at_rest = std::ranges::count_if(ended, [](const PhaseFolder* each) {
-        return each->result.value("at_rest", json()) == json(true);
+    const auto at_rest = std::ranges::count_if(asked, [](const PhaseFolder* each) {
+        return each->result.is_object() && each->result.value("at_rest", json()) == json(true);
     });
     table.rows.push_back({"At rest", rest_of(shown),
                           std::to_string(at_rest) + " of " + std::to_string(asked.size()),

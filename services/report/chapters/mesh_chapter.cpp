@@ -60,7 +60,7 @@ Figure deformed_mesh(const MeshSnapshot& mesh) {
 }  // namespace
 
 void add_mesh(const Material& from, Document& document) {
-    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
+    const PhaseFolder* fem = phase_shown(from.run, phases::fem.program);
     const auto files =
         fem ? timed_files(fem->files, phases::files::snapshot_prefix) : std::vector<TimedFile>{};
     if (files.empty()) {
@@ -73,7 +73,8 @@ void add_mesh(const Material& from, Document& document) {
         meshes.push_back(exchange::read_mesh_snapshot(each.file).snapshot);
     }
     Chapter chapter{"Strain, pore pressure and mesh",
-                    std::to_string(meshes.size()) + " of " + std::to_string(files.size()) +
+                    which_of_several(from.run, *fem, "finite element analyses") +
+                        std::to_string(meshes.size()) + " of " + std::to_string(files.size()) +
                         " snapshots; colours have one scale for all times of a quantity."};
     const Range strains = colour_range(element_epsilon_q(meshes.back()));
     for (const MeshSnapshot& each : meshes) {

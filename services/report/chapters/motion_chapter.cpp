@@ -88,7 +88,7 @@ std::vector<Figure> figures_of(const motion::Series& a) {
 
 void add_motion(const Material& from, Document& document) {
     const std::string what = "acceleration, velocity and Arias intensity of the motion";
-    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
+    const PhaseFolder* fem = phase_shown(from.run, phases::fem.program);
     const json wanted =
         fem && fem->scene.contains("fem") ? fem->scene.at("fem").value("motion", json()) : json();
     if (!wanted.is_object()) {

@@ -116,7 +116,9 @@ Figure runout_against_time(const Material& from) {
 void add_before_and_after(const Material& from, const PhaseFolder& transfer,
                           const exchange::ParticleState& points, Chapter& chapter,
                           Document& document) {
-    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
+    const PhaseFolder* source = source_of(from.run, transfer);
+    const PhaseFolder* fem =
+        source ? source : phase_of_variant(from.run, phases::fem.program, transfer.variant);
     for (const TimedFile& each :
          fem ? timed_files(fem->files, phases::files::snapshot_prefix) : std::vector<TimedFile>{}) {
         if (std::abs(each.time - points.transfer_time) > 1e-6) continue;
@@ -135,18 +137,16 @@ void add_before_and_after(const Material& from, const PhaseFolder& transfer,
                                  "the run has no snapshot at " + of_transfer(transfer)});
 }
 
-/// Those of the first variant that has any; of a static scene, where each variant has one, all.
-std::vector<const PhaseFolder*> first_runouts(const Run& run) {
+/// Those of the variant that runs farthest; of a static scene, where each variant has one, all.
+std::vector<const PhaseFolder*> runouts_shown(const Run& run) {
     if (is_static(run)) {
         std::vector<const PhaseFolder*> all;
         for (const std::string& variant : variants_of(run))
             std::ranges::copy(runouts_of(run, variant), std::back_inserter(all));
         return all;
     }
-    for (const std::string& variant : variants_of(run)) {
-        if (auto found = runouts_of(run, variant); !found.empty()) return found;
-    }
-    return {};
+    const PhaseFolder* farthest = farthest_runout(run);
+    return farthest ? runouts_of(run, farthest->variant) : std::vector<const PhaseFolder*>{};
 }
 
 std::string window_text(const Measures& measures) {
@@ -189,7 +189,7 @@ std::string of_transfer(const PhaseFolder& phase) {
 }
 
 std::vector<const PhaseFolder*> chosen_runouts(const Material& from) {
-    const auto all = first_runouts(from.run);
+    const auto all = runouts_shown(from.run);
     return all.empty() ? all : chosen(all, from.choice.transfer_times);
 }
 
@@ -203,10 +203,12 @@ void add_transfer(const Material& from, Document& document) {
         document.left_out.push_back({"material points at t_T", "the run has no transfer"});
         return;
     }
-    double wanted = time_of(done.back());
-    if (const auto runouts = chosen_runouts(from); !runouts.empty())
-        wanted = time_of(runouts.back());
-    const PhaseFolder* shown = nearest_in_time(done, wanted);
+    const PhaseFolder* shown = done.back();
+    if (const auto runouts = chosen_runouts(from); !runouts.empty()) {
+        const PhaseFolder* source = source_of(from.run, *runouts.back());
+        const bool has_points = std::ranges::find(done, source) != done.end();
+        shown = has_points ? source : nearest_in_time(done, time_of(runouts.back()));
+    }
     const auto file = exchange::read_particle_state(shown->files / phases::files::particles);
     Chapter chapter{"Transfer",
                     "What the mesh handed to the material points (" + of_transfer(*shown) + ")."};

@@ -69,7 +69,7 @@ std::vector<Plan> plans(const json& fem) {
           {"crest_dx", "downstream (x)"},
           {"crest_dy", "up (y)"}},
          {},
-         "Displacement of the node nearest to /fem/crest since the shaking began.",
+         "Displacement of the node nearest to /fem/crest since the first dynamic stage began.",
          always},
         {"liquefaction_depth",
          "Liquefaction depth",
@@ -102,9 +102,9 @@ std::vector<Plan> plans(const json& fem) {
          1.0,
          {{"r_u_max", "largest r_u"}},
          liquefied,
-         "Largest r_u = (u - u_0) / sigma'_v0 of all nodes.",
-         "the scene is dry: no pore pressure",
-         "/fem/water"},
+         "Largest r_u = (u - u_0) / sigma'_v0 of the watched nodes (/fem/liquefaction).",
+         "the scene is dry, or watches nothing (/fem/liquefaction)",
+         "/fem/liquefaction"},
         {"jacobian_average",
          "Distortion of strained elements",
          "|J_t| / |J_0| [-]",
@@ -152,7 +152,7 @@ std::string end_of(const PhaseFolder& fem) {
 }  // namespace
 
 void add_shaking(const Material& from, Document& document) {
-    const PhaseFolder* fem = phase_named(from.run, phases::fem.program);
+    const PhaseFolder* fem = phase_shown(from.run, phases::fem.program);
     if (!fem || !has_telemetry(*fem)) {
         document.left_out.push_back(
             {"courses of crest, energy, strain and distortion",
@@ -161,7 +161,8 @@ void add_shaking(const Material& from, Document& document) {
         return;
     }
     const Telemetry telemetry = telemetry_of(from.run, *fem);
-    Chapter chapter{"Shaking and failure", end_of(*fem)};
+    Chapter chapter{"Motion and failure",
+                    which_of_several(from.run, *fem, "finite element analyses") + end_of(*fem)};
     for (const Plan& plan : plans(fem->scene.value("fem", json::object()))) {
         Figure figure{plan.file, {plan.title, {"time [s]"}, {plan.label}, {}}, plan.caption};
         const bool needed = *plan.needs == 0 || fem->scene.contains(json::json_pointer(plan.needs));

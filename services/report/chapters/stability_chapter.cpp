@@ -6,7 +6,7 @@
 namespace breach::report {
 
 void add_stability(const Material& from, Document& document) {
-    const PhaseFolder* lem = phase_named(from.run, phases::lem.program);
+    const PhaseFolder* lem = phase_shown(from.run, phases::lem.program);
     if (!lem || !lem->result.is_object()) {
         document.left_out.push_back(
             {"section and critical surfaces, factor of safety against liquefied depth",
@@ -15,7 +15,7 @@ void add_stability(const Material& from, Document& document) {
                    "/lem)"});
         return;
     }
-    Chapter chapter{"Stability"};
+    Chapter chapter{"Stability", which_of_several(from.run, *lem, "stability analyses")};
     chapter.figures = stability_figures(lem->files);
     for (Figure& each : chapter.figures) {
         add_points(from.paper, each);

@@ -28,7 +28,7 @@ double cpu_of(const PhaseFolder& phase) {
 }
 
 void measure_stability(const Run& run, Measures& found) {
-    const PhaseFolder* lem = phase_named(run, phases::lem.program);
+    const PhaseFolder* lem = phase_shown(run, phases::lem.program);
     if (!lem || !lem->result.is_object()) return;
     const auto slices = number_at(lem->result, "slices");
     const std::string error = slices ? short_number(*slices) + " slices" : "";
@@ -55,7 +55,7 @@ std::optional<double> entangled_at(const PhaseFolder& fem, const Telemetry& tele
 }
 
 void measure_shaking(const Run& run, const std::optional<Paper>& paper, Measures& found) {
-    const PhaseFolder* fem = phase_named(run, phases::fem.program);
+    const PhaseFolder* fem = phase_shown(run, phases::fem.program);
     if (!fem || !has_telemetry(*fem)) return;
     const Telemetry telemetry = telemetry_of(run, *fem);
     const auto keep = [&](const std::string& key, std::optional<double> time) {
@@ -161,6 +161,30 @@ const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
         if (each->variant == variant || each->variant.empty()) return each;
     }
     return phase_named(run, phase);
+}
+
+const PhaseFolder* farthest_runout(const Run& run) {
+    const PhaseFolder* farthest = nullptr;
+    for (const std::string& variant : variants_of(run))
+        for (const PhaseFolder* each : runouts_of(run, variant))
+            if (!farthest || runout_of(each) > runout_of(farthest)) farthest = each;
+    return farthest;
+}
+
+const PhaseFolder* phase_shown(const Run& run, const std::string& phase) {
+    const PhaseFolder* farthest = farthest_runout(run);
+    if (!farthest) return phase_named(run, phase);
+    const PhaseFolder* each = farthest;
+    while (each && each->phase != phase) each = source_of(run, *each);
+    return each ? each : phase_of_variant(run, phase, farthest->variant);
+}
+
+std::string which_of_several(const Run& run, const PhaseFolder& shown, const std::string& plural) {
+    const std::size_t count = phases_named(run, shown.phase).size();
+    if (count < 2) return "";
+    return "Of " + std::to_string(count) + " " + plural + " the " +
+           (farthest_runout(run) ? "one behind the farthest runout: " : "first: ") +
+           (shown.variant.empty() ? shown.label : shown.variant) + ". ";
 }
 
 Telemetry telemetry_of(const Run& run, const PhaseFolder& fem) {

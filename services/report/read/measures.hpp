@@ -45,6 +45,15 @@ std::vector<Threshold> thresholds_in(const Run& run);
 /// Runs of the MPM that ended, of one variant, ascending in t_T.
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant);
 double runout_of(const PhaseFolder* mpm);  ///< of one of them [m]
+/// Of all variants; null when the run has none.
+const PhaseFolder* farthest_runout(const Run& run);
+
+/// Of several phases of a kind the one that is looked at closely: what the farthest runout came
+/// from, or the first of a run without runouts; null when there is none.
+const PhaseFolder* phase_shown(const Run& run, const std::string& phase);
+/// "Of 2 finite element analyses the one behind the farthest runout: loose. "; empty where there is
+/// one.
+std::string which_of_several(const Run& run, const PhaseFolder& shown, const std::string& plural);
 /// In the study's order, or by name where the folder has no study.
 std::vector<std::string> variants_of(const Run& run);
 

@@ -93,7 +93,8 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
                       .result = read_if_there(files / phases::files::result),
                       .runout_error = {},
                       .runout_error_from = {},
-                      .fault = {}};
+                      .fault = {},
+                      .artifacts = {}};
     phase.phase = phase_of(phase.label, task, phase.result);
     if (rank_of(phase.phase) == phases::all.size()) return {};
     take_apart(phase.label, phase);
@@ -102,6 +103,8 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
         if (const json t = task.value("transfer_time", json()); t.is_number()) {
             phase.transfer_time = t;
         }
+        for (const json& each : task.value("artifacts", json::array()))
+            phase.artifacts.push_back(each.at("sha256"));
     }
     if (phase.phase == phases::fem.program || phase.phase == phases::lem.program)
         phase.transfer_time.reset();
@@ -211,6 +214,28 @@ std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& 
 const PhaseFolder* phase_named(const Run& run, const std::string& phase) {
     const auto found = phases_named(run, phase);
     return found.empty() ? nullptr : found.front();
+}
+
+const PhaseFolder* source_of(const Run& run, const PhaseFolder& phase) {
+    if (!phase.result.is_object()) return nullptr;
+    const json inputs = phase.result.value("/provenance/inputs"_json_pointer, json::array());
+    const auto first = [&](const auto& made) {
+        const auto found = std::ranges::find_if(run.phases, made);
+        return found == run.phases.end() ? nullptr : &*found;
+    };
+    for (const json& input : inputs) {
+        const std::string sha256 = input.at("sha256");
+        if (const PhaseFolder* by_content = first([&](const PhaseFolder& each) {
+                return std::ranges::find(each.artifacts, sha256) != each.artifacts.end();
+            }))
+            return by_content;
+        const std::string label =
+            label_of(fs::path(input.at("path").get<std::string>()).parent_path());
+        if (const PhaseFolder* by_folder =
+                first([&](const PhaseFolder& each) { return each.label == label; }))
+            return by_folder;
+    }
+    return nullptr;
 }
 
 bool is_static(const Run& run) {

@@ -23,7 +23,8 @@ struct PhaseFolder {
     /// Of a runout: how far one run is off [m], and what tells it or why nothing does
     std::optional<double> runout_error = {};
     std::string runout_error_from = {};
-    std::string fault;  ///< why there is no result; empty when there is one
+    std::string fault;                        ///< why there is no result; empty when there is one
+    std::vector<std::string> artifacts = {};  ///< SHA-256 of its files, where it is an export's
 };
 
 struct Run {
@@ -57,6 +58,10 @@ const nlohmann::json& asked_scene(const Run& run);
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.
 const PhaseFolder* phase_named(const Run& run, const std::string& phase);
+
+/// The phase of the run that made what this one took: by the content of the file, or by the folder
+/// that it lay in; null: none of the run did, or the result does not say.
+const PhaseFolder* source_of(const Run& run, const PhaseFolder& phase);
 
 /// Without a FEM there is nothing to shake and nothing to transfer: points fill the section.
 bool is_static(const Run& run);

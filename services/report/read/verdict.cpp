@@ -194,7 +194,7 @@ std::string word_for(const Run& run, const Verdict& verdict) {
         }))
         return "questionable";
     if (!verdict.doubts.empty()) return "not known";
-    return verdict.notes.empty() ? "nothing found against it" : "stands, with the remarks below";
+    return verdict.notes.empty() ? "nothing found against it" : "usable, with the remarks below";
 }
 
 }  // namespace
@@ -327,7 +327,7 @@ Table flag_table(const Run& run) {
                 {"run", "t_T [s]", "variant", "flag", "severity", "what", "entry of the scene"},
                 {},
                 "questionable: a number of that result is a bound, is wrong or cannot be trusted. "
-                "warning: it stands, with less certainty than it looks."};
+                "warning: it holds, with less certainty than it looks."};
     for (const PhaseFolder& phase : run.phases) {
         for (const Flag& flag : flags_of(phase).value_or(std::vector<Flag>{})) {
             table.rows.push_back(

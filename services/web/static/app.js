@@ -105,6 +105,22 @@ async function look() {
     }
 }
 
+// ---- the open run: no number of the one before stands under its name; a part is seen when its own have come
+
+const parts_of_a_run = ["uncertainty", "runouts", "particles", "telemetry", "cost", "tasks"];
+let expected = "";
+
+function expect_parts_of(id) {
+    if (id === expected) return;
+    expected = id;
+    for (const part of parts_of_a_run) by_id(part).classList.add("coming");
+}
+
+async function arrives(shown, ...parts) {
+    await shown;
+    for (const part of parts) by_id(part).classList.remove("coming");
+}
+
 async function show_open_run() {
     const id = open_id();
     const tables = open_table() !== null;
@@ -136,14 +152,17 @@ async function show_open_run() {
     }
     if (id !== open_id()) return;
     by_id("run").hidden = false;
+    expect_parts_of(id);
     head.show(run);
-    await tasks.show(run);
+    await arrives(tasks.show(run), "tasks");
     // One part that fails must not hide the others.
-    const sweep = results.show(run).then((rows) => {
+    const sweep = arrives(results.show(run).then((rows) => {
         cost.show(run, rows, variants_of(run));
         return uncertainty.show(run, rows);
-    });
-    const parts = await Promise.allSettled([sweep, telemetry.show(run), particles.show(run)]);
+    }), "runouts", "cost", "uncertainty");
+    const parts = await Promise.allSettled([
+        sweep, arrives(telemetry.show(run), "telemetry"), arrives(particles.show(run), "particles"),
+    ]);
     const broken = parts.find((part) => part.status === "rejected");
     if (broken) throw broken.reason;
 }

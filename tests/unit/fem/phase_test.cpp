@@ -139,7 +139,7 @@ TEST(Model, HasElasticLawsInAnElasticStage) {
 TEST(Telemetry, HasTheColumnsOfTheTable) {
     std::vector<std::string> wanted{"phase"}, written;
     for (const telemetry::Column& each : telemetry::fem_columns()) wanted.emplace_back(each.name);
-    const json line = telemetry_line(Reading{});
+    const json line = telemetry_line(Reading{}, columns());
     for (const auto& [name, value] : line.items()) written.push_back(name);
     std::vector<std::string> kept;
     for (const Column& each : columns()) kept.emplace_back(each.name);
@@ -147,6 +147,47 @@ TEST(Telemetry, HasTheColumnsOfTheTable) {
     std::ranges::sort(wanted);
     std::ranges::sort(written);
     EXPECT_EQ(written, wanted);
+}
+
+TEST(Telemetry, LeavesOutWhatASceneDoesNotMeasure) {
+    const auto has = [](const json& document, const char* name) {
+        const auto made = columns_of(parse(document));
+        return std::ranges::any_of(
+            made, [&](const Column& each) { return each.name == std::string_view(name); });
+    };
+    const json dry = slope();
+    for (const char* name : {"excess_pressure_avg", "r_u_max", "liquefaction_depth", "psi_avg"})
+        EXPECT_FALSE(has(dry, name)) << name;
+    EXPECT_TRUE(has(dry, "crest_displacement"));
+    json wet = dry;
+    wet["fem"]["water"] = {{"line", {{-1000, -1000}, {1000, -1000}}}};
+    EXPECT_TRUE(has(wet, "excess_pressure_avg"));
+    EXPECT_FALSE(has(wet, "r_u_max")) << "nothing is watched";
+}
+
+TEST(Telemetry, MeasuresTheLawOfTheFemAndNotTheOneTheRunoutTakes) {
+    const auto scene = scene::read_scene(BREACH_ROOT "/workflows/scenes/static_lift.json");
+    EXPECT_TRUE(std::ranges::any_of(columns_of(scene), [](const Column& each) {
+        return each.name == std::string_view("past_peak_share");
+    }));
+}
+
+TEST(Telemetry, HasStrengthOfNorSandWhereTheSceneAsksToLookAtIt) {
+    json document = slope();
+    const auto ratios = [&] {
+        return std::ranges::count_if(columns_of(parse(document)), [](const Column& each) {
+            return std::string_view(each.name).starts_with("strength_ratio_");
+        });
+    };
+    document["fem"]["strength_interval"] = 0.5;
+    EXPECT_EQ(ratios(), 0) << "no soil of norsand";
+    document["materials"]["soil"]["law"] = {
+        {"type", "norsand"}, {"Gamma", 0.9},     {"lambda", 0.02}, {"M_tc", 1.2}, {"N", 0.3},
+        {"chi_tc", 3.5},     {"H_0", 300},       {"G_ref_MPa", 30}, {"m", 1},      {"nu", 0.15},
+        {"psi_0", -0.05},    {"K_0", 0.7}};
+    EXPECT_EQ(ratios(), 2);
+    document["fem"].erase("strength_interval");
+    EXPECT_EQ(ratios(), 0) << "nobody looks";
 }
 
 TEST(Snapshot, IsNamedAfterItsTime) { EXPECT_EQ(snapshot_name(0.25), "snapshot_0.250000.vtkhdf"); }

@@ -300,6 +300,20 @@ TEST(Simulation, AStepFarTooLargeIsABreakdownNotAResult) {
     EXPECT_THROW(advance_looking(simulation, 2000), fault::Breakdown);
 }
 
+TEST(Simulation, ABlockThatStandsHasNoLargeShareOfNumericalEnergy) {
+    scene::Scene scene = heap();
+    scene.materials[0].law = sand(5e9, 0.3, 1e6, 30.0);
+    Simulation standing = fresh(scene);
+    advance_looking(standing, 200);
+    const Row row = standing.look();
+    const double scale = standing.scale_of_energy();
+    const double fallen =
+        standing.start().energy.gravitational - energy_of(standing.body()).gravitational;
+    EXPECT_LT(std::abs(fallen), 1e-2 * scale);
+    EXPECT_EQ(row.energy_numerical_share, row.energy_numerical / scale);
+    EXPECT_LT(std::abs(row.energy_numerical_share), 1e-2);
+}
+
 TEST(Simulation, StopsAtRestAndSaysSo) {
     const scene::Scene scene = heap();
     Simulation simulation = fresh(scene);

@@ -164,9 +164,11 @@ TEST(Study, TriggersOnWhatTheRunDoesNotRecordAreRefused) {
     json study = slope_study();  // without water, and without stages of liquefaction
     study["triggers"] = json::array(
         {{{"kind", "criterion"}, {"when", "liquefaction_depth > 2"}},
-         {{"kind", "window"}, {"lower", "crest_dx > 1"}, {"upper", "crest_dy > critical_depth"}}});
+         {{"kind", "window"}, {"lower", "crest_dx > 1"}, {"upper", "crest_dy > critical_depth"}},
+         {{"kind", "criterion"}, {"when", "past_peak_share > 0.05 or excess_pressure_avg > 1"}}});
     EXPECT_EQ(pointers_of_faults(study),
-              (std::vector<std::string>{"/triggers/0/when", "/triggers/1/upper"}));
+              (std::vector<std::string>{"/triggers/0/when", "/triggers/1/upper", "/triggers/2/when",
+                                        "/triggers/2/when"}));
 }
 
 TEST(Study, ASceneInPlaceOfAStudyIsNamedAsSuch) {

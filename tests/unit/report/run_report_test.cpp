@@ -410,9 +410,36 @@ TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
               "failure's band");
     EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "settings"), "as in the scene");
     EXPECT_EQ(measures_of(read_run(folder_), {}).at("time_entangled").value, 20.5);
-    const auto chapter = std::ranges::find(d.chapters, "Shaking and failure", &Chapter::title);
+    const auto chapter = std::ranges::find(d.chapters, "Motion and failure", &Chapter::title);
     EXPECT_EQ(chapter->text.find("ended early"), std::string::npos) << chapter->text;
     EXPECT_NE(chapter->text.find("it is no fault"), std::string::npos) << chapter->text;
+}
+
+TEST_F(WetRun, LooksAtTheFemBehindTheFarthestRunout) {
+    const fs::path tasks = folder_ / "tasks";
+    fs::copy(tasks / "fem", tasks / "fem_dense", fs::copy_options::recursive);
+    fs::rename(tasks / "fem", tasks / "fem_softened");
+    EXPECT_EQ(phase_shown(read_run(folder_), "fem_solver")->label, "fem_softened") << "by variant";
+    const Document d = document();
+    for (const char* title : {"Motion and failure", "Strain, pore pressure and mesh"}) {
+        const auto chapter = std::ranges::find(d.chapters, title, &Chapter::title);
+        EXPECT_TRUE(chapter->text.starts_with(
+            "Of 2 finite element analyses the one behind the farthest runout: softened. "))
+            << chapter->text;
+    }
+
+    const auto took = [](const char* path, const char* sha256) {
+        return nlohmann::json{{"provenance", {{"inputs", {{{"path", path}, {"sha256", sha256}}}}}}};
+    };
+    edit_result("mpm_16.000000_softened",
+                took("/data/runs/1/transfer_14.000000/output/particles.vtkhdf", "1a"));
+    edit_result("transfer_14.000000",
+                took("/data/runs/1/fem_softened/output/snapshot.vtkhdf", "2b"));
+    EXPECT_EQ(phase_shown(read_run(folder_), "fem_solver")->label, "fem_softened") << "by folder";
+
+    std::ofstream(tasks / "fem_dense/task.json")
+        << R"({"phase": "fem_solver", "artifacts": [{"name": "snapshot.vtkhdf", "sha256": "2b"}]})";
+    EXPECT_EQ(phase_shown(read_run(folder_), "fem_solver")->label, "fem_dense") << "by content";
 }
 
 TEST_F(WetRun, TellsABadCornerFromAFailure) {
@@ -547,7 +574,15 @@ TEST_F(WetRun, IsOnePageThatNeedsNoNetworkWithAllItsFilesBesideIt) {
 TEST_F(WetRun, ShowsOnlyTelemetryThatItsSceneGivesAMeaning) {
     const Document d = document();
     EXPECT_EQ(figure(d, "liquefaction_depth").chart.series.front().y.back(), 20);
-    EXPECT_THROW(figure(d, "pore_pressure_ratio"), std::runtime_error) << "no /fem/water";
+    EXPECT_EQ(figure(d, "pore_pressure_ratio").chart.series.front().y.back(), 0.95);
+    for (const fs::directory_entry& each : fs::directory_iterator(folder_ / "tasks")) {
+        const fs::path file = each.path() / "scene.completed.json";
+        nlohmann::json scene = nlohmann::json::parse(text_of(file));
+        scene["fem"].erase("liquefaction");
+        std::ofstream(file) << scene.dump();
+    }
+    EXPECT_THROW(figure(document(), "pore_pressure_ratio"), std::runtime_error)
+        << "nothing is watched";
 }
 
 TEST_F(WetRun, WithoutAFileThatAPhaseDidNotReachSaysSo) {

@@ -1,0 +1,27 @@
+// What the FEM of a scene measures: columns of telemetry that say nothing of a scene are left out, and
+// a condition on one of them would never be told true.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "core/scene/scene.hpp"
+#include "core/telemetry/columns.hpp"
+
+namespace breach::check {
+
+struct NotMeasured {
+    const char* cause;
+    const char* remedy;
+};
+
+/// Nothing: it is measured. The scene has /fem.
+std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry::Needs needs);
+
+/// One fault at `pointer` for each field of a condition that the scene's FEM does not measure.
+std::vector<fault::Fault> unmeasured(const std::vector<std::string>& fields,
+                                     const scene::Scene& scene, const std::string& pointer);
+
+}  // namespace breach::check
