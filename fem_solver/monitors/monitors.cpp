@@ -115,7 +115,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
 
 namespace {
 
-/// Volumes [m3] of elements that can soften, and of Gauss points that have.
+/// Volumes [m3] of elements that are there and can soften, and of Gauss points that have.
 struct Softened {
     double possible = 0.0;
     double done = 0.0;
@@ -128,6 +128,7 @@ Softened softened_volume(const Model& model, const Motion& motion) {
         if (softening == nullptr) continue;
         const std::size_t end = std::min(zone.first + zone.count, model.body.elements);
         for (std::size_t e = zone.first; e < end; ++e) {
+            if (model.is_absent(e)) continue;
             volume.possible += model.volume[e];
             for (std::size_t g = 0; g < model.points_per_element; ++g) {
                 const double reached = motion.points[e * model.points_per_element + g].epsilon_q;
