@@ -121,10 +121,11 @@ void log(const Transferred& t) {
                      each.mass, words::name_of(t.soils[each.soil].stress));
         const YieldShare& outside = t.yield[each.soil];
         if (outside.returned > 0)
-            spdlog::info("    {} points, {:.3g} % of its mass, returned to the yield surface "
-                         "(largest excess {:.3g} Pa, at ({:.2f}, {:.2f}) m)",
-                         outside.returned, 100.0 * outside.mass / each.mass,
-                         outside.largest_excess, outside.place.x(), outside.place.y());
+            spdlog::info(
+                "    {} points, {:.3g} % of its mass, returned to the yield surface "
+                "(largest excess {:.3g} Pa, at ({:.2f}, {:.2f}) m)",
+                outside.returned, 100.0 * outside.mass / each.mass, outside.largest_excess,
+                outside.place.x(), outside.place.y());
     }
     for (const SofteningShare& each : t.softening)
         spdlog::info("{} softens from epsilon_q {:.3g} on the mean, {:.3g} at most",

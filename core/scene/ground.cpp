@@ -38,6 +38,7 @@ Ground::Ground(const Scene& scene, const std::vector<bool>& gone) {
         const Region& region = scene.section.regions[r];
         layers_.push_back({.polygon = region.polygon,
                            .gamma = scene.materials[region.material].density * scene.gravity,
+                           .line = std::nullopt,
                            .is_gone = !gone.empty() && gone[r]});
     }
     const auto fill = [&](const Line& line, const std::vector<std::size_t>& regions) {

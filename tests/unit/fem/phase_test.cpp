@@ -182,8 +182,8 @@ TEST(Telemetry, HasStrengthOfNorSandWhereTheSceneAsksToLookAtIt) {
     document["fem"]["strength_interval"] = 0.5;
     EXPECT_EQ(ratios(), 0) << "no soil of norsand";
     document["materials"]["soil"]["law"] = {
-        {"type", "norsand"}, {"Gamma", 0.9},     {"lambda", 0.02}, {"M_tc", 1.2}, {"N", 0.3},
-        {"chi_tc", 3.5},     {"H_0", 300},       {"G_ref_MPa", 30}, {"m", 1},      {"nu", 0.15},
+        {"type", "norsand"}, {"Gamma", 0.9}, {"lambda", 0.02},  {"M_tc", 1.2}, {"N", 0.3},
+        {"chi_tc", 3.5},     {"H_0", 300},   {"G_ref_MPa", 30}, {"m", 1},      {"nu", 0.15},
         {"psi_0", -0.05},    {"K_0", 0.7}};
     EXPECT_EQ(ratios(), 2);
     document["fem"].erase("strength_interval");

@@ -13,6 +13,8 @@ from opensees_models import block
 from runs import datasets, judge, run
 
 CELL, END, STEPS = 100.0, 0.06, 240
+# Others take the default, 1e-6, with which this one finds no equilibrium beyond 2.3 %. Bands are weaker with a loose one.
+LOOSE = {(20, "ssp"): {"force_tolerance": 1e-4}}
 FLAC, ONE_ELEMENT = 383.0, 376.9  # peak of sigma_1 [kPa]: read off, and of one element
 WEAK = -0.03                      # psi_0 of the weak element
 
@@ -33,7 +35,7 @@ def scene(elements, kind):
     drive = {"load_steps": STEPS, "displace": [{"name": "platen", "from": [0, 1], "to": [1, 1], "y": -END}]}
     return {"format": "breachline-scene/1", "name": "biaxial", "gravity": 0, "materials": {"soil": soil(-0.05), "weak": soil(WEAK)},
             "section": {"regions": regions},
-            "fem": {"element": kind, "crest": [1, 1], "largest_iterations": 200,
+            "fem": {"element": kind, "crest": [1, 1], "largest_iterations": 200, **LOOSE.get((elements, kind), {}),
                     "supports": [{"name": "left", "from": [0, 0], "to": [0, 1], "fixes": "x"},
                                  {"name": "base", "from": [0, 0], "to": [1, 0], "fixes": "y"}],
                     "stages": [{"type": "static", "name": "cell", **cell},
