@@ -278,7 +278,8 @@ void Analysis::begin_laws(const Stage& stage) {
     if (position_.stage != decided_.memory.value) return;
     if (decided_.memory_start.value == MemoryStart::at_rest_with_friction) {
         Newton newton(model_, Solved::displacement,
-                      {fem_.force_tolerance, fem_.largest_iterations, session_.settings().threads},
+                      {fem_.force_tolerance, std::max(fem_.largest_iterations, iterations_to_rest),
+                       session_.settings().threads},
                       Symmetry::general, seconds_);
         const FrictionalRest rest =
             rest_with_friction(newton, model_, motion_, prediction_, trial_);

@@ -8,9 +8,10 @@
 namespace breach::fem {
 
 /// Puts in force what the stages up to this one have placed, removed, released and loaded. Asks the
-/// scene alone, so that a resumed run has the same. Where stages move the water, or it stands where soil is missing, it is made anew,
-/// without permeability and with the modulus of elastic stages. Throws BadInput where a stage cannot be: it
-/// removes all that a support holds, leaves a direction unheld, or changes what is below water without drainage.
+/// scene alone, so that a resumed run has the same. Where stages move the water, or it stands where
+/// soil is missing, it is made anew, without permeability and with the modulus of elastic stages.
+/// Throws BadInput where a stage cannot be: it removes all that a support holds, leaves a direction
+/// unheld, or changes what is below water without drainage.
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model);
 

@@ -1,0 +1,24 @@
+"""Mochikoshi in the sizes that its shipped studies have, from gravity into motion: friction alone rests with the last cohesion of
+its search, so that every mesh begins from equally good stresses."""
+import pathlib
+import sys
+import tempfile
+
+from phases import check, result, root, run
+
+scene = root / "workflows/scenes/mochikoshi.json"
+last_cohesion = 250.0  # [Pa]
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        for size in (None, 2.4):
+            here = pathlib.Path(name) / str(size)
+            sized = [] if size is None else ["--set", f"/section/element_size={size}"]
+            done = run("fem_solver", scene, here, "--set", "/fem/stages/2/duration=0.02", *sized)
+            check(f"elements of {size or 'the shipped size'}: it moves", done.returncode == 0, done.stderr[-500:])
+            friction = result(here)["geostatic"]["plastic gravity"]["friction"]
+            check("friction alone rests", friction["converged"] and friction["cohesion"] == last_cohesion, friction)
+
+
+sys.exit(main())
