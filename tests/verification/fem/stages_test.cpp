@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fem_solver/checkpoint.hpp"
+#include "fem_solver/monitors/monitors.hpp"
 #include "tests/verification/fem/bench.hpp"
 
 namespace breach::fem {
@@ -198,6 +199,29 @@ TEST(Stages, SoilPlacedOrDugBelowWaterCountsByItsBuoyantWeight) {
                          1e-12);
         }
     }
+}
+
+TEST(Stages, SoilThatIsGoneCountsInNoShareOfSoftenedSoil) {
+    json scene = column({static_stage("gravity"), static_stage("dig", {{"remove", {"top"}}})});
+    scene["materials"]["soil"]["law"] = {{"type", "mohr_coulomb"},
+                                         {"E_MPa", 20},
+                                         {"nu", 0.3},
+                                         {"c_kPa", 50},
+                                         {"phi_deg", 30},
+                                         {"softening",
+                                          {{"epsilon_q_start", 0.01},
+                                           {"epsilon_q_end", 0.1},
+                                           {"c_residual_kPa", 5},
+                                           {"phi_residual_deg", 20}}}};
+    bench::Run run(scene);
+    const Analysis& done = run.go();
+    Motion motion = done.motion();
+    for (std::size_t p = 0; p < motion.points.size(); ++p)
+        if (!done.model().is_absent(p / done.model().points_per_element))
+            motion.points[p].epsilon_q = 0.05;
+    const Reading reading =
+        read_monitors(done.model(), motion, distortion_of(done.model(), motion, 0.1), 0, 0.1);
+    EXPECT_NEAR(reading.softened_share, 1.0, 1e-12);
 }
 
 TEST(Stages, NorSandAnswersAPhreaticRiseDrained) {
