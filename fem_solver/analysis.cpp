@@ -194,14 +194,18 @@ void Analysis::begin_stage(const Stage& stage) {
     write_due_outputs(0.0, {End::converged, 0, 0.0});
 }
 
-/// Where water drains NorSand softens no more than it hardens, unless a stage that drains
-/// everywhere asks for it.
+/// Where water drains NorSand softens no more than it hardens, unless a stage asks for it in this
+/// region, or drains everywhere and asks for it.
 void Analysis::set_softening(const Stage& stage) {
     for (std::size_t z = 0; z < laws_.size(); ++z) {
         const auto region =
             static_cast<std::size_t>(model_.mesh.region_of_element[model_.zones[z].first]);
         const bool undrained = stage.kind == StageKind::dynamic ||
                                std::ranges::find(stage.undrained, region) != stage.undrained.end();
+        if (region < stage.S_of_region.size() && stage.S_of_region[region]) {
+            laws_[z] = materials::with_S(laws_[z], *stage.S_of_region[region]);
+            continue;
+        }
         const bool asked = stage.S && (undrained || stage.undrained.empty());
         if (asked) laws_[z] = materials::with_S(laws_[z], *stage.S);
         if (!asked && !undrained) laws_[z] = materials::with_S(laws_[z], 0.0);
@@ -344,8 +348,9 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
     return StageEnd::reached;
 }
 
-/// Moves what the stage moves by this share of its way.
+/// Moves what the stage moves, and lets creep what creeps, by this share of its way.
 void Analysis::drive(double share) {
+    set_creep_step(share, motion_, model_);
     prediction_.driven.resize(0);
     if (model_.driven.empty()) return;
     prediction_.driven = Eigen::VectorXd::Zero(model_.dofs());

@@ -55,6 +55,7 @@ class Analysis {
     double next_stop(double stage_end) const;
     void accept(double dt, double stop, const NewtonOutcome& outcome);
     void cut_step(const scene::Stage& stage, const NewtonOutcome& outcome);
+    void read_strength(Reading& reading) const;
     void write_due_outputs(double dt, const NewtonOutcome& outcome);
     bool snapshot_is_due(double dt);
     void write_snapshot();
@@ -66,6 +67,7 @@ class Analysis {
     [[noreturn]] void refuse_the_mesh();
     [[noreturn]] void give_up(const std::string& cause);
     void report_facts();
+    void report_fallen();
     void report_crest();
     void report_end();
     void report_base_motion();

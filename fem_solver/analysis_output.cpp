@@ -10,6 +10,7 @@
 #include "core/motion/series.hpp"
 #include "core/phases/files.hpp"
 #include "fem_solver/analysis.hpp"
+#include "fem_solver/monitors/strength.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
 
@@ -51,6 +52,7 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
         reading.external_work = position_.external_work;
         reading.internal_work = position_.internal_work;
         reading.viscous_dissipation = position_.viscous_dissipation;
+        read_strength(reading);
         reading.kinetic_energy_over_peak = over_peak(reading.kinetic_energy, history_);
         history_.push_back(reading);
         session_.telemetry(telemetry_line(reading, columns_));
@@ -63,6 +65,22 @@ void Analysis::write_due_outputs(double dt, const NewtonOutcome& outcome) {
     if (!snapshot_is_due(dt)) return;
     write_snapshot();
     answer_request(session_.settings().output);
+}
+
+/// At the first line at or after each multiple of its interval; in between the last one stands.
+void Analysis::read_strength(Reading& reading) const {
+    if (!fem_.strength_interval) return;
+    const auto count = [&](double time) {
+        return std::floor(time / *fem_.strength_interval + 1e-9);
+    };
+    if (!history_.empty() && count(reading.time) == count(history_.back().time)) {
+        reading.strength_ratio_avg = history_.back().strength_ratio_avg;
+        reading.strength_ratio_min = history_.back().strength_ratio_min;
+        return;
+    }
+    const StrengthRatio ratio = strength_ratio(model_, motion_, beginning_);
+    reading.strength_ratio_avg = ratio.average;
+    reading.strength_ratio_min = ratio.least;
 }
 
 /// A wanted time was met, a multiple of the interval lies in this step, or somebody outside asks.
@@ -304,6 +322,7 @@ void Analysis::report_facts() {
     if (!motion_.memory.empty()) {
         const StressBias bias = stress_bias(model_, motion_);
         facts["stress_bias"] = {{"points", bias.points}, {"largest", bias.largest}};
+        report_fallen();
     }
     facts["elements"] = model_.body.elements;
     facts["nodes"] = model_.body.nodes;
@@ -327,6 +346,21 @@ void Analysis::report_facts() {
     facts["seconds"] = {{"assembly", seconds_.assembly}, {"law", seconds_.law},
                         {"factor", seconds_.factor},     {"solve", seconds_.solve},
                         {"output", seconds_.output},     {"free_ground", seconds_for_free_ground_}};
+}
+
+/// Points whose law gave up the path and took its end.
+void Analysis::report_fallen() {
+    const std::size_t fallen = fallen_points(model_, motion_);
+    if (fallen == 0) return;
+    session_.result()["fallen_points"] = fallen;
+    session_.flag({"fell_to_critical_state", fault::Severity::questionable,
+                   std::to_string(fallen) + " of " +
+                       std::to_string(points_with_memory(model_, motion_)) +
+                       " points fell to the critical state of their void ratio at once, for no "
+                       "strain of theirs could be followed (very loose soil at a few kPa): how "
+                       "fast they lost their strength is the program's choice; see where "
+                       "psi and instability_ratio of the snapshots jump, and transfer before",
+                   "/fem/stages"});
 }
 
 /// The free ground's motion stands in for the FEM's own base after a transfer: how far the two were

@@ -133,6 +133,7 @@ void put(exchange::Archive& archive, const Beginning& beginning) {
     archive.reals["beginning.base_reaction"] = flat(beginning.base_reaction);
     archive.reals["beginning.p"] = flat(beginning.p);
     archive.reals["beginning.sigma_v0"] = beginning.sigma_v0;
+    archive.reals["beginning.sigma_v0_points"] = beginning.sigma_v0_points;
     archive.reals["beginning.skeleton_modulus"] = beginning.skeleton_modulus;
     archive.reals["beginning.base_motion"] = beginning.base_motion.velocity;
     archive.reals["beginning.base_motion.time_step"] = {beginning.base_motion.time_step};
@@ -142,6 +143,7 @@ Beginning beginning_from(const exchange::Archive& archive) {
     return {.base_reaction = vector_from(archive.reals.at("beginning.base_reaction")),
             .p = vector_from(archive.reals.at("beginning.p")),
             .sigma_v0 = archive.reals.at("beginning.sigma_v0"),
+            .sigma_v0_points = archive.reals.at("beginning.sigma_v0_points"),
             .skeleton_modulus = archive.reals.at("beginning.skeleton_modulus"),
             .base_motion = {archive.reals.at("beginning.base_motion.time_step").at(0),
                             archive.reals.at("beginning.base_motion")}};
@@ -176,6 +178,7 @@ bool fits(const Beginning& beginning, const Model& model) {
     return empty_or(beginning.base_reaction, model.mesh.nodes.size() * 2) &&
            empty_or(beginning.p, model.mesh.nodes.size()) &&
            empty_or(beginning.sigma_v0, model.body.nodes) &&
+           empty_or(beginning.sigma_v0_points, model.body.elements * model.points_per_element) &&
            empty_or(beginning.skeleton_modulus, model.water.elements.size());
 }
 

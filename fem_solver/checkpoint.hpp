@@ -49,6 +49,6 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
                            const Model& model, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
-inline constexpr int checkpoint_version = 5;
+inline constexpr int checkpoint_version = 6;
 
 }  // namespace breach::fem

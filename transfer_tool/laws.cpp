@@ -69,7 +69,7 @@ std::vector<SofteningShare> softening_of(std::span<const materials::Law> laws,
 
 YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
                                     exchange::ParticleState& state) {
-    YieldReport report;
+    YieldReport report(laws.size());
     LawOfPoint law_of(laws, state);
     for (std::size_t p = 0; p < state.size(); ++p) {
         const materials::Law& law = law_of(p);
@@ -77,8 +77,11 @@ YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
         const double excess = materials::yield_excess(law, old);
         if (excess <= 0.0) continue;
         if (excess > round_off * old.sigma.norm()) {
-            ++report.returned;
-            report.largest_excess = std::max(report.largest_excess, excess);
+            YieldShare& share = report[state.region[p]];
+            ++share.returned;
+            share.mass += state.mass[p];
+            if (excess > share.largest_excess) share.place = state.position[p];
+            share.largest_excess = std::max(share.largest_excess, excess);
         }
         state.stress[p] = materials::return_to_surface(law, old);
     }

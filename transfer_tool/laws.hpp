@@ -14,10 +14,14 @@ namespace breach::transfer {
 
 std::vector<materials::Law> laws_of(std::span<const SoilOfPoints> soils);
 
-struct YieldReport {
-    std::size_t returned = 0;     ///< points found outside the yield surface by more than round-off
+/// Points of one soil found outside the yield surface by more than round-off.
+struct YieldShare {
+    std::size_t returned = 0;
+    double mass = 0.0;            ///< theirs [kg]
     double largest_excess = 0.0;  ///< how far outside [Pa]
+    Vec2 place = Vec2::Zero();    ///< of that one
 };
+using YieldReport = std::vector<YieldShare>;  ///< [soils]
 
 /// zero: softening starts anew. carried: where the law softens with total strain its driver starts
 /// at the FEM's epsilon_q, everywhere else at epsilon_q_plastic.

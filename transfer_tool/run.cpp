@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
 #include "core/words/number.hpp"
@@ -33,8 +35,24 @@ nlohmann::json soils_as_json(const Transferred& t) {
                          {"stress", words::name_of(soil.stress)},
                          {"points", each.points},
                          {"mass", each.mass}});
+        const YieldShare& outside = t.yield[each.soil];
+        if (outside.returned == 0) continue;
+        soils.back()["outside_yield_surface"] = {{"points", outside.returned},
+                                                 {"mass", outside.mass},
+                                                 {"largest_excess", outside.largest_excess},
+                                                 {"at", {outside.place.x(), outside.place.y()}}};
     }
     return soils;
+}
+
+/// Of all soils.
+YieldShare outside_yield_surface(const YieldReport& report) {
+    YieldShare all;
+    for (const YieldShare& each : report) {
+        all.returned += each.returned;
+        all.largest_excess = std::max(all.largest_excess, each.largest_excess);
+    }
+    return all;
 }
 
 nlohmann::json softening_as_json(const Transferred& t, scene::SofteningStart start) {
@@ -98,9 +116,17 @@ void report_options(const Transferred& t, nlohmann::json& result) {
 void log(const Transferred& t) {
     spdlog::info("{} points at t_T = {} s\n{}", t.state.size(), t.state.transfer_time,
                  as_text(t.ledger));
-    for (const SoilShare& each : t.shares)
+    for (const SoilShare& each : t.shares) {
         spdlog::info("{}: {} points, {:.6g} kg, {} stress", named(t.soils[each.soil]), each.points,
                      each.mass, words::name_of(t.soils[each.soil].stress));
+        const YieldShare& outside = t.yield[each.soil];
+        if (outside.returned > 0)
+            spdlog::info(
+                "    {} points, {:.3g} % of its mass, returned to the yield surface "
+                "(largest excess {:.3g} Pa, at ({:.2f}, {:.2f}) m)",
+                outside.returned, 100.0 * outside.mass / each.mass, outside.largest_excess,
+                outside.place.x(), outside.place.y());
+    }
     for (const SofteningShare& each : t.softening)
         spdlog::info("{} softens from epsilon_q {:.3g} on the mean, {:.3g} at most",
                      named(t.soils[each.soil]), each.mean, each.largest);
@@ -116,11 +142,8 @@ void log(const Transferred& t) {
                      t.collapse->past_line);
     if (t.supply && t.supply->short_cells > 0)
         spdlog::warn("{} cells have fewer points than asked", t.supply->short_cells);
-    spdlog::info(
-        "{} points returned to the yield surface (largest excess {:.3g} Pa), {} strains "
-        "raised to zero, {} coincident Gauss points merged",
-        t.yield.returned, t.yield.largest_excess, t.gauss_fields.raised_strains,
-        t.gauss_fields.merged_centres);
+    spdlog::info("{} strains raised to zero, {} coincident Gauss points merged",
+                 t.gauss_fields.raised_strains, t.gauss_fields.merged_centres);
 }
 
 void report(process::Session& session, const Transferred& t) {
@@ -136,8 +159,9 @@ void report(process::Session& session, const Transferred& t) {
     result["soils"] = soils_as_json(t);
     result["softening"] = softening_as_json(t, settings.softening_start);
     result["rebuilt_elements"] = rebuilt_as_json(t.rebuilt);
-    result["returned_to_yield_surface"] = t.yield.returned;
-    result["largest_yield_excess"] = t.yield.largest_excess;
+    const YieldShare outside = outside_yield_surface(t.yield);
+    result["returned_to_yield_surface"] = outside.returned;
+    result["largest_yield_excess"] = outside.largest_excess;
     result["strains_raised_to_zero"] = t.gauss_fields.raised_strains;
     result["coincident_gauss_points"] = t.gauss_fields.merged_centres;
     result["ledger"] = as_json(t.ledger);

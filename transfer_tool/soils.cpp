@@ -59,6 +59,18 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                           "give a snapshot of a FEM with pore water, or remove this part"});
 }
 
+/// [regions of the section] no element of the snapshot is of them.
+std::vector<bool> regions_gone(const MeshSnapshot& mesh, const scene::Scene& scene) {
+    std::vector<bool> there(mesh.regions.size(), false);
+    for (const std::int32_t region : mesh.region_of_element) there[region] = true;
+    std::vector<bool> gone;
+    for (const scene::Region& region : scene.section.regions) {
+        const auto found = std::ranges::find(mesh.regions, region.name);
+        gone.push_back(found == mesh.regions.end() || !there[found - mesh.regions.begin()]);
+    }
+    return gone;
+}
+
 }  // namespace
 
 StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
@@ -68,7 +80,7 @@ StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wa
 }
 
 SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std::string& file)
-    : mesh_(mesh), ground_(scene) {
+    : mesh_(mesh), ground_(scene, regions_gone(mesh, scene)) {
     const scene::Transfer& settings = scene::transfer_of(scene);
     std::vector<fault::Fault> faults;
     const std::vector<std::size_t> match = match_regions(mesh, scene, faults);

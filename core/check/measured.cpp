@@ -28,9 +28,12 @@ std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry
     if (needs == softening && !some_soil(scene, softens))
         return NotMeasured{"no soil of the FEM loses strength by softening",
                            "give a law with softening, or ask for another column"};
-    if (needs == norsand && !some_soil(scene, is_norsand))
+    if ((needs == norsand || needs == looks_at_strength) && !some_soil(scene, is_norsand))
         return NotMeasured{"no soil of the FEM is of the law norsand",
                            "give a region that law, or ask for another column"};
+    if (needs == looks_at_strength && !scene.fem->strength_interval)
+        return NotMeasured{"nobody looks at the strength",
+                           "say in /fem/strength_interval how often"};
     if (needs == water && !scene.fem->water)
         return NotMeasured{"the scene has no pore water",
                            "give /fem/water, or ask for another column"};

@@ -93,6 +93,23 @@ void check_undrained(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+/// Softening by region belongs to NorSand.
+void check_softening(const scene::Scene& scene, Findings& findings) {
+    for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
+        const auto& S = scene.fem->stages[i].S_of_region;
+        for (std::size_t r = 0; r < S.size(); ++r) {
+            const scene::Material* material = material_of(scene, scene.section.regions[r]);
+            if (!S[r] || material == nullptr ||
+                std::holds_alternative<materials::NorSand>(material->law))
+                continue;
+            refuse(findings, "/fem/stages/" + std::to_string(i) + "/S",
+                   "softens \"" + scene.section.regions[r].name + "\", which is of " +
+                       materials::traits(material->law).name,
+                   "name regions of NorSand");
+        }
+    }
+}
+
 /// Regions come and go once each, in an order that can be; what cannot change says so.
 void check_changes(const scene::Scene& scene, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
@@ -132,6 +149,11 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
                            ", which cannot begin without stress",
                        "place it in an elastic stage, or give it another law");
         }
+        for (const scene::Creep& each : stage.creep) {
+            if (each.region >= there.size() || there[each.region]) continue;
+            refuse(findings, pointer + "/creep/" + regions[each.region].name,
+                   "creeps in a stage in which it is not there", "let it creep once it is placed");
+        }
         for (std::size_t k = 0; k < stage.removes.size(); ++k) {
             const std::size_t r = stage.removes[k];
             if (r >= there.size()) continue;
@@ -151,6 +173,7 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
 void check_stages(const scene::Scene& scene, Findings& findings) {
     if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
     check_undrained(scene, findings);
+    check_softening(scene, findings);
     check_changes(scene, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }

@@ -33,10 +33,14 @@ std::vector<double> crossings(const Polygon& polygon, double x) {
     return heights;
 }
 
-Ground::Ground(const Scene& scene) {
-    for (const Region& region : scene.section.regions)
-        layers_.push_back(
-            {region.polygon, scene.materials[region.material].density * scene.gravity, {}});
+Ground::Ground(const Scene& scene, const std::vector<bool>& gone) {
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        const Region& region = scene.section.regions[r];
+        layers_.push_back({.polygon = region.polygon,
+                           .gamma = scene.materials[region.material].density * scene.gravity,
+                           .line = std::nullopt,
+                           .is_gone = !gone.empty() && gone[r]});
+    }
     const auto fill = [&](const Line& line, const std::vector<std::size_t>& regions) {
         if (regions.empty())
             for (Layer& layer : layers_) layer.line = line;
@@ -84,6 +88,7 @@ materials::Place Ground::at(const Vec2& place, std::size_t region) const {
     double weight = 0.0;
     double ground = -std::numeric_limits<double>::infinity();
     for (const Layer& layer : layers_) {
+        if (layer.is_gone) continue;
         const std::vector<double> heights = crossings(layer.polygon, place.x());
         for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {
             ground = std::max(ground, heights[k + 1]);

@@ -11,13 +11,15 @@ namespace breach::scene {
 /// end only, so a vertex on the upright is met once, or not at all where the border turns back.
 std::vector<double> crossings(const Polygon& polygon, double x);
 
-/// Vertical stresses of the section as it is drawn. The total one is the weight of soil and free
+/// Vertical stresses of the section as it is drawn, or of the part of it that is there. The total one is the weight of soil and free
 /// water above; the pore pressure is that of the line of the place's region in /lem, in a scene
 /// whose /lem has none the hydrostatic one below /fem/water's line, else below the transfer's
 /// phreatic line.
 class Ground {
   public:
-    explicit Ground(const Scene& scene);
+    /// gone: [regions] those that stages have removed or not yet placed, which weigh nothing and
+    /// are no ground; empty: all are there.
+    explicit Ground(const Scene& scene, const std::vector<bool>& gone = {});
 
     /// A place [m] in a region (index into the section's).
     materials::Place at(const Vec2& place, std::size_t region) const;
@@ -34,6 +36,7 @@ class Ground {
         double gamma;              ///< [N/m3]
         std::optional<Line> line;  ///< whose water fills it
         double r_u = 0.0;          ///< where no water reaches [-]
+        bool is_gone = false;
     };
     double pressure(const Line& line, const Vec2& place, double ground) const;
 

@@ -24,8 +24,7 @@ Stage stage_from(const json& stage) {
                 .kind = kind,
                 .laws = laws,
                 .permeability = permeability,
-                .load_steps = stage.at("load_steps"),
-                .S = if_given(stage, "S")};
+                .load_steps = stage.at("load_steps")};
     }
     return {.name = stage.at("name"),
             .kind = kind,
@@ -33,8 +32,7 @@ Stage stage_from(const json& stage) {
             .permeability = permeability,
             .duration = stage.at("duration"),
             .time_step = stage.at("time_step"),
-            .least_time_step = stage.at("least_time_step"),
-            .S = if_given(stage, "S")};
+            .least_time_step = stage.at("least_time_step")};
 }
 
 /// Index of `name` among the named; as many as there are, and a fault: there is none.
@@ -68,6 +66,36 @@ std::vector<PressureBoundary> boundaries_from(const json& boundaries) {
     return result;
 }
 
+/// One number for the stage, or numbers by region or material; a region's own goes first.
+void read_softening(Reader& reader, const Scene& scene, const json& entry,
+                    const std::string& pointer, Stage& stage) {
+    if (!entry.contains("S")) return;
+    const json& S = entry.at("S");
+    if (S.is_number()) {
+        stage.S = S.get<double>();
+        return;
+    }
+    const auto& regions = scene.section.regions;
+    stage.S_of_region.resize(regions.size());
+    for (const bool by_material : {true, false}) {
+        for (const auto& [name, value] : S.items()) {
+            bool found = false;
+            for (std::size_t r = 0; r < regions.size(); ++r) {
+                const std::size_t material = regions[r].material;
+                const bool made_of_it =
+                    material < scene.materials.size() && scene.materials[material].name == name;
+                found = found || made_of_it || regions[r].name == name;
+                if (by_material ? made_of_it : regions[r].name == name)
+                    stage.S_of_region[r] = value.get<double>();
+            }
+            if (!found && by_material)
+                reader.add(pointer + "/S/" + name,
+                           "names \"" + name + "\", which is no region and no region's material",
+                           "name a region of /section/regions, or the material of one");
+        }
+    }
+}
+
 /// What a stage does to edges of the soil.
 void read_edges(Reader& reader, const json& entry, const std::string& pointer, Stage& stage) {
     for (const json& each : entry.value("displace", json::array())) {
@@ -79,12 +107,19 @@ void read_edges(Reader& reader, const json& entry, const std::string& pointer, S
         if (!each.contains("x") && !each.contains("y"))
             reader.add(here, "moves in no direction", "give x, y or both");
     }
-    if (!entry.contains("pressures")) return;
-    stage.pressures.emplace();
-    for (const json& each : entry.at("pressures"))
-        stage.pressures->push_back({each.at("name"), point_from(each.at("from")),
-                                    point_from(each.at("to")),
-                                    1e3 * each.at("pressure_kPa").get<double>()});
+    if (entry.contains("pressures")) {
+        stage.pressures.emplace();
+        for (const json& each : entry.at("pressures"))
+            stage.pressures->push_back({each.at("name"), point_from(each.at("from")),
+                                        point_from(each.at("to")),
+                                        1e3 * each.at("pressure_kPa").get<double>()});
+    }
+    if (!entry.contains("forces")) return;
+    stage.forces.emplace();
+    for (const json& each : entry.at("forces"))
+        stage.forces->push_back(
+            {each.at("name"), point_from(each.at("at")), each.at("within"),
+             1e3 * Vec2(each.at("right_kN"), -each.at("down_kN").get<double>())});
 }
 
 /// What a stage does to the body, its supports and its loads.
@@ -112,6 +147,12 @@ void read_changes(Reader& reader, const Scene& scene, const std::vector<Support>
     stage.undrained = names("undrained", scene.section.regions, "/section/regions");
     stage.seismic_coefficient = if_given(entry, "seismic_coefficient");
     read_edges(reader, entry, pointer, stage);
+    read_softening(reader, scene, entry, pointer, stage);
+    const json creep = entry.value("creep", json::object());
+    for (const auto& [name, epsilon_q] : creep.items())
+        stage.creep.push_back({named_at(reader, scene.section.regions, name,
+                                        pointer + "/creep/" + name, "/section/regions"),
+                               epsilon_q});
     if (entry.contains("ramp")) stage.ramp = entry.at("ramp");
     stage.goes_on_at_limit = entry.value("at_limit", "stop") == "go_on";
 }
@@ -282,6 +323,7 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.snapshot_times = fem.at("snapshot_times").get<std::vector<double>>();
     result.snapshot_interval = fem.at("snapshot_interval");
     result.telemetry_interval = fem.at("telemetry_interval");
+    result.strength_interval = if_given(fem, "strength_interval");
     check_order(reader, result.snapshot_times, std::less<>(), "/fem/snapshot_times",
                 "list the times in ascending order, each once");
     check_fem(reader, scene, result);

@@ -282,6 +282,20 @@ struct EdgePressure {
     double pressure;  ///< into the soil [Pa]
 };
 
+/// A force on the node next to a place.
+struct NodeForce {
+    std::string name;
+    Vec2 at;
+    double within;  ///< farthest that the node may be from the place [m]
+    Vec2 force;     ///< per metre of thickness [N/m]
+};
+
+/// Creep of a region: strain without stress, at constant volume in the plane.
+struct Creep {
+    std::size_t region;
+    double epsilon_q;  ///< sqrt(2/3 e:e), along the present deviator in the plane [-]
+};
+
 struct Stage {
     std::string name;
     StageKind kind;
@@ -292,6 +306,8 @@ struct Stage {
     double time_step = 0.0;        ///< dynamic, largest [s]
     double least_time_step = 0.0;  ///< dynamic: below this the run ends [s]
     std::optional<double> S{};     ///< NorSand's additional softening, where the stage says [-]
+    /// [regions] the same of a region alone, drained or not; empty: of none
+    std::vector<std::optional<double>> S_of_region{};
     std::vector<std::size_t> activates{};  ///< regions that are there from this stage on
     std::vector<std::size_t> removes{};    ///< regions that are gone from this stage on
     std::vector<std::size_t> releases{};   ///< supports that hold no longer
@@ -306,7 +322,9 @@ struct Stage {
     /// From this stage on, in place of what was before
     std::optional<double> seismic_coefficient{};  ///< horizontal body force over weight [-]
     std::optional<std::vector<EdgePressure>> pressures{};
+    std::optional<std::vector<NodeForce>> forces{};
     std::vector<Displacement> displacements{};  ///< static: held from this stage on
+    std::vector<Creep> creep{};                 ///< static: over the stage
     double ramp = 0.0;              ///< dynamic: what is out of balance comes in this time [s]
     bool goes_on_at_limit = false;  ///< static: a limit point ends the stage, not the run
 
@@ -314,7 +332,7 @@ struct Stage {
     bool changes_the_body() const {
         return !activates.empty() || !removes.empty() || !releases.empty() || surcharge ||
                moves_the_water() || !undrained.empty() || seismic_coefficient || pressures ||
-               !displacements.empty();
+               forces || !displacements.empty() || !creep.empty();
     }
 };
 
@@ -404,6 +422,7 @@ struct Fem {
     std::vector<double> snapshot_times;  ///< ascending; steps are cut to meet them [s]
     double snapshot_interval;            ///< no step is cut for these; 0: none [s]
     double telemetry_interval;           ///< [s]
+    std::optional<double> strength_interval;  ///< of NorSand's undrained strength; none: never [s]
 
     /// A stage does something to the body, its supports, its loads or its water.
     bool changes_the_body() const {

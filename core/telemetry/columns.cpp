@@ -43,6 +43,11 @@ constexpr std::array fem_table{
            "volume of NorSand that would lose strength if it were sheared undrained, over all of "
            "its volume",
            Needs::norsand},
+    Column{"strength_ratio_avg", "1",
+           "undrained peak strength of NorSand now over sigma'_v0, averaged by volume; of the last "
+           "look (/fem/strength_interval)",
+           Needs::looks_at_strength},
+    Column{"strength_ratio_min", "1", "the least of a point", Needs::looks_at_strength},
     Column{"excess_pressure_avg", "Pa", "excess pore pressure, averaged by mass", Needs::water},
     Column{"r_u_max", "1", "largest excess pore pressure ratio of the watched nodes",
            Needs::watched_ground},

@@ -210,8 +210,7 @@ Points Calibrator::friction_points(const Readings& readings) const {
     Points points;
     for (const std::size_t i : friction_) {
         if (!readings[i]) continue;
-        if (readings[i]->peak)
-            points.add(readings[i]->peak->D, readings[i]->peak->eta);
+        if (readings[i]->peak) points.add(readings[i]->peak->D, readings[i]->peak->eta);
         if (!measured_[i]->end.critical && !all_ends_) continue;
         const double error = measured_[i]->end.eta_error;
         points.add(readings[i]->end.D, readings[i]->end.eta,
@@ -224,8 +223,7 @@ Points Calibrator::dilatancy_points(const Readings& readings, const Values& line
     Points points;
     for (const std::size_t i : dilating_tests()) {
         if (readings[i])
-            points.add(psi(line, readings[i]->peak->e, readings[i]->peak->p),
-                       readings[i]->peak->D);
+            points.add(psi(line, readings[i]->peak->e, readings[i]->peak->p), readings[i]->peak->D);
     }
     return points;
 }
@@ -236,9 +234,8 @@ double Calibrator::correct_by(const Readings& of_law) {
     const Values old = values_;
     const auto move = [&](Sought k, double from_measured, double from_law) {
         if (is_given(k)) return;
-        values_[k] =
-            std::clamp(first ? from_measured : values_[k] + from_measured - from_law, least[k],
-                       most[k]);
+        values_[k] = std::clamp(first ? from_measured : values_[k] + from_measured - from_law,
+                                least[k], most[k]);
     };
     const Points ends = line_points(measured);
     if (ends.x.size() >= 2) {
@@ -274,12 +271,13 @@ double Calibrator::correct_by(const Readings& of_law) {
         move(chi_tc, seen, own);
         constexpr double share = 0.95;  // of what is believed
         if (!is_given(chi_tc))
-            values_[chi_tc] = std::min(
-                values_[chi_tc], share * norsand::most_chi_lambda * values_[M_tc] / values_[lambda]);
+            values_[chi_tc] = std::min(values_[chi_tc], share * norsand::most_chi_lambda *
+                                                            values_[M_tc] / values_[lambda]);
     }
     double largest = 0.0;
     for (const Sought k : {Gamma, lambda, M_tc, N, chi_tc})
-        largest = std::max(largest, std::abs(values_[k] - old[k]) / std::max(old[k], 0.1 * usual[k]));
+        largest =
+            std::max(largest, std::abs(values_[k] - old[k]) / std::max(old[k], 0.1 * usual[k]));
     return largest;
 }
 
@@ -378,8 +376,7 @@ std::vector<Eigen::MatrixXd> jacobians(const At& at, const Eigen::VectorXd& x,
         Eigen::VectorXd moved = x;
         moved(k) += step;
         const auto there = at(moved);
-        for (std::size_t i = 0; i < here.size(); ++i)
-            out[i].col(k) = (there[i] - here[i]) / step;
+        for (std::size_t i = 0; i < here.size(); ++i) out[i].col(k) = (there[i] - here[i]) / step;
     }
     return out;
 }
@@ -409,9 +406,8 @@ void Calibrator::fit_hardening(bool from_afar) {
         }
         A.diagonal() *= 1.0 + damping;
         const Eigen::VectorXd d = A.ldlt().solve(-g).cwiseMax(-1.0).cwiseMin(1.0);
-        const Eigen::VectorXd tried = (x + d)
-                                          .cwiseMax(std::log(least[H_0]))
-                                          .cwiseMin(std::log(most[H_0]));
+        const Eigen::VectorXd tried =
+            (x + d).cwiseMax(std::log(least[H_0])).cwiseMin(std::log(most[H_0]));
         if (!tried.allFinite()) break;
         const auto there = at(tried);
         if (sum_of_squares(there) >= sum_of_squares(here)) {
@@ -434,8 +430,7 @@ std::optional<std::array<double, 2>> line_errors(const Points& seen, const Point
     const Regression a = line_through(seen), b = line_through(own);
     double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        const double rest =
-            seen.y[i] - a.a - a.b * seen.x[i] - (own.y[i] - b.a - b.b * own.x[i]);
+        const double rest = seen.y[i] - a.a - a.b * seen.x[i] - (own.y[i] - b.a - b.b * own.x[i]);
         sum += seen.weight[i] * rest * rest;
     }
     const double variance = sum / static_cast<double>(n - 2);
@@ -445,8 +440,7 @@ std::optional<std::array<double, 2>> line_errors(const Points& seen, const Point
 OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
     OfEach<Estimate> out;
     for (std::size_t k = 0; k < values_.size(); ++k)
-        out[k] = {values_[k], std::nullopt,
-                  problem_.given[k] ? Origin::given : Origin::fitted, {}};
+        out[k] = {values_[k], std::nullopt, problem_.given[k] ? Origin::given : Origin::fitted, {}};
     const Readings measured = comparable(of_law);
     const auto add = [&](Sought k, const std::optional<double>& error, const Indices& tests) {
         if (is_given(k)) return;
@@ -537,16 +531,19 @@ void Calibrator::doubt(NorSandFit& fit, bool settled) const {
         fit.flags.push_back({code, severity, message, pointer});
     };
     if (!line_reached_ && !(is_given(Gamma) && is_given(lambda))) {
-        flag("critical_state_not_reached", Severity::questionable,
-             "fewer than two tests end at a critical state, or they end at one pressure: the line is "
-             "carried on by the law from where the tests end; test on to larger strains and at more "
-             "pressures, or give Gamma and lambda");
+        flag(
+            "critical_state_not_reached", Severity::questionable,
+            "fewer than two tests end at a critical state, or they end at one pressure: the line "
+            "is "
+            "carried on by the law from where the tests end; test on to larger strains and at more "
+            "pressures, or give Gamma and lambda");
     }
     std::string assumed, weak;
     for (const Sought k : {Gamma, lambda, M_tc, N, chi_tc, H_0, H_psi}) {
         const Estimate& each = fit.estimates[k];
         const std::string name = sought::names[k];
-        if (each.origin == Origin::assumed && k != H_psi) assumed += (assumed.empty() ? "" : ", ") + name;
+        if (each.origin == Origin::assumed && k != H_psi)
+            assumed += (assumed.empty() ? "" : ", ") + name;
         if (each.origin == Origin::fitted && each.tests.size() < 3)
             weak += (weak.empty() ? "" : ", ") + name;
     }
@@ -556,8 +553,7 @@ void Calibrator::doubt(NorSandFit& fit, bool settled) const {
                  " could not be read and have usual values; add dense drained tests or give them");
     }
     if (!weak.empty()) {
-        flag("few_tests", Severity::warning,
-             weak + " come from fewer than three tests; add tests");
+        flag("few_tests", Severity::warning, weak + " come from fewer than three tests; add tests");
     }
     constexpr double least_range = 0.03;
     std::vector<double> states;
@@ -582,8 +578,8 @@ void Calibrator::doubt(NorSandFit& fit, bool settled) const {
     }
     if (!poor.empty()) {
         flag("poor_fit", Severity::warning,
-             "q deviates by more than 15 % of its peak (rms) in " +
-                 names_of(problem_.tests, poor) + "; check these tests, or S and elasticity");
+             "q deviates by more than 15 % of its peak (rms) in " + names_of(problem_.tests, poor) +
+                 "; check these tests, or S and elasticity");
     }
     if (!settled) {
         flag("calibration_not_settled", Severity::questionable,
@@ -635,8 +631,7 @@ NorSandFit Calibrator::run(const std::function<void(int, double)>& seen) {
 
 }  // namespace
 
-NorSandFit calibrate(const NorSandProblem& problem,
-                     const std::function<void(int, double)>& seen) {
+NorSandFit calibrate(const NorSandProblem& problem, const std::function<void(int, double)>& seen) {
     return Calibrator(problem).run(seen);
 }
 

@@ -50,7 +50,7 @@ struct TestFit {
     std::optional<TriaxialCurve> curve;        ///< the law's, at the measured strains
     double psi_0;                              ///< of the test under the fitted line
     std::optional<double> psi_peak;
-    double q_misfit = 1.0;  ///< rms over the largest q
+    double q_misfit = 1.0;       ///< rms over the largest q
     double volume_misfit = 1.0;  ///< rms of epsilon_v (drained), of p over p_0 (undrained)
 };
 

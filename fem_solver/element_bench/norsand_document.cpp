@@ -63,12 +63,13 @@ void check_test(const std::string& name, const json& entry, bool engineering,
     for (std::size_t i = 0; i < test.measured.p.size(); ++i) {
         const double p = test.measured.p[i], q = test.measured.q[i];
         if (p > 0.0 && q < 3.0 * p) continue;
-        faults.push_back({pointer + "/file",
-                          "leaves no radial stress at epsilon_1 " +
-                              std::to_string(entry.at("measured").at("epsilon_1")[i].get<double>()) +
-                              " (row " + std::to_string(i + 1) + "): p = " +
-                              std::to_string(p / 1e3) + ", q = " + std::to_string(q / 1e3) + " kPa",
-                          "check q_kPa, u_kPa and p_0_kPa"});
+        faults.push_back(
+            {pointer + "/file",
+             "leaves no radial stress at epsilon_1 " +
+                 std::to_string(entry.at("measured").at("epsilon_1")[i].get<double>()) + " (row " +
+                 std::to_string(i + 1) + "): p = " + std::to_string(p / 1e3) +
+                 ", q = " + std::to_string(q / 1e3) + " kPa",
+             "check q_kPa, u_kPa and p_0_kPa"});
         return;
     }
 }

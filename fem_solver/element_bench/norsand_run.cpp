@@ -44,8 +44,11 @@ void store(exchange::Archive& archive, const TriaxialTest& test, const std::stri
 }
 
 json as_json(const PeakReading& peak) {
-    return {{"epsilon_1", peak.epsilon_1}, {"eta", peak.eta}, {"D_min", peak.D},
-            {"p_kPa", peak.p / 1e3},       {"e", peak.e}};
+    return {{"epsilon_1", peak.epsilon_1},
+            {"eta", peak.eta},
+            {"D_min", peak.D},
+            {"p_kPa", peak.p / 1e3},
+            {"e", peak.e}};
 }
 
 json as_json(const TriaxialTest& test, const TestFit& fit) {
@@ -89,16 +92,16 @@ void log(const NorSandProblem& problem, const NorSandFit& fit) {
     for (std::size_t k = 0; k < sought::names.size(); ++k) {
         const Estimate& each = fit.estimates[k];
         spdlog::info("{:<10} {:>10.4g} {:>10} {:>9} {:>6}", sought::names[k], each.value,
-                     each.error ? fmt::format("{:.2g}", *each.error) : "-", words::name_of(each.origin),
-                     each.tests.size());
+                     each.error ? fmt::format("{:.2g}", *each.error) : "-",
+                     words::name_of(each.origin), each.tests.size());
     }
     for (std::size_t i = 0; i < fit.tests.size(); ++i) {
         const TestFit& each = fit.tests[i];
-        spdlog::info("{:<26} psi_0 {:>7.3f}, {}, q within {:.1f} % of its peak (rms)",
-                     problem.tests[i].name, each.psi_0,
-                     each.measured.end.critical ? "ends at critical state"
-                                                : "does not reach critical state",
-                     100.0 * each.q_misfit);
+        spdlog::info(
+            "{:<26} psi_0 {:>7.3f}, {}, q within {:.1f} % of its peak (rms)", problem.tests[i].name,
+            each.psi_0,
+            each.measured.end.critical ? "ends at critical state" : "does not reach critical state",
+            100.0 * each.q_misfit);
     }
 }
 

@@ -337,8 +337,9 @@ process::Phase element_test_phase() {
 
 process::Phase calibrate_phase() {
     return {.name = "fem_solver calibrate",
-            .purpose = "Parameters of PM4Sand from strengths and cyclic strength curves, of NorSand from "
-                       "triaxial tests",
+            .purpose =
+                "Parameters of PM4Sand from strengths and cyclic strength curves, of NorSand from "
+                "triaxial tests",
             .inputs = {0, 0, "takes no input beside the document"},
             .plan = calibration_plan,
             .run = run_calibration,

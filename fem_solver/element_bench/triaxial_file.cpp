@@ -50,7 +50,8 @@ class Reader {
   private:
     void fault(std::size_t line, const std::string& what, const std::string& remedy) {
         sound_ = false;
-        faults_.push_back({pointer_, file_ + ", line " + std::to_string(line) + ": " + what, remedy});
+        faults_.push_back(
+            {pointer_, file_ + ", line " + std::to_string(line) + ": " + what, remedy});
     }
     void read_names(const std::string& text, std::size_t line);
     void read_row(const std::string& text, std::size_t line);
@@ -129,15 +130,16 @@ void Reader::check_row(std::size_t line) {
         const bool steep =
             volume > epsilon_1 + noise || -volume > most_dilation * epsilon_1 + noise;
         if (std::abs(volume) > most_volume || steep) {
-            return fault(line, "epsilon_v is " + std::to_string(volume) + " at epsilon_1 " +
-                                   std::to_string(epsilon_1) + ", per cent?",
+            return fault(line,
+                         "epsilon_v is " + std::to_string(volume) + " at epsilon_1 " +
+                             std::to_string(epsilon_1) + ", per cent?",
                          "give strains as fractions, contraction positive");
         }
     }
     if (has("p_kPa") && !(last("p_kPa") > 0.0 && last("q_kPa") < 3.0 * last("p_kPa"))) {
-        return fault(line, "q and p_kPa leave no radial stress: p_kPa " +
-                               std::to_string(last("p_kPa")) + ", q_kPa " +
-                               std::to_string(last("q_kPa")),
+        return fault(line,
+                     "q and p_kPa leave no radial stress: p_kPa " + std::to_string(last("p_kPa")) +
+                         ", q_kPa " + std::to_string(last("q_kPa")),
                      "give mean effective stress in kPa, q = sigma_1 - sigma_3");
     }
 }
@@ -165,7 +167,8 @@ json Reader::columns(std::istream& stream) {
     if (!sound_) return json::object();
     const std::size_t rows = names_.empty() ? 0 : columns_.at("epsilon_1").size();
     if (rows < least_rows) {
-        fault(std::max<std::size_t>(line, 1), "holds " + std::to_string(rows) + " rows, less than 20",
+        fault(std::max<std::size_t>(line, 1),
+              "holds " + std::to_string(rows) + " rows, less than 20",
               "give a line of names, then a line per reading");
     } else if (columns_.at("epsilon_1").back() < 0.02) {
         fault(line, "the test ends at epsilon_1 " + std::to_string(last("epsilon_1")),

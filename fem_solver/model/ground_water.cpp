@@ -27,6 +27,7 @@ std::vector<double> depths_below(const GroundWater& water, const Mesh& mesh, dou
     return depth;
 }
 
+/// Whether they are there or not.
 std::vector<bool> wet_elements(const GroundWater& water, const Mesh& mesh,
                                const std::vector<double>& depth) {
     std::vector<bool> wet(mesh.quads.size(), false);
@@ -131,10 +132,16 @@ double unit_weight(const scene::Scene& scene) {
 
 }  // namespace
 
+std::vector<bool> elements_below(const GroundWater& water, const Mesh& mesh) {
+    const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
+    return wet_elements(water, mesh, depths_below(water, mesh, tolerance));
+}
+
 PoreWater ground_water(const scene::Scene& scene, const GroundWater& water, const Model& model) {
     const double tolerance = 1e-6 * quality_of(model.mesh).shortest_edge;
     const std::vector<double> depth = depths_below(water, model.mesh, tolerance);
     std::vector<bool> wet = wet_elements(water, model.mesh, depth);
+    for (std::size_t e = 0; e < wet.size(); ++e) wet[e] = wet[e] && !model.is_absent(e);
     auto fluids = fluids_of(scene, water, model, wet);
     auto prescribed = prescribed_pressures(scene, water, model, depth, wet, tolerance);
     return build_pore_water(model, {.fluids = std::move(fluids),

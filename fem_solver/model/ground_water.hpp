@@ -6,8 +6,12 @@
 
 namespace breach::fem {
 
-/// Water below its phreatic line, which is the scene's or a stage's. Throws BadInput when a wet material lacks void_ratio or
-/// permeability, when a boundary holds no node, or when the pressure is not determined.
+/// [elements] wet by this water, whether they are there or not.
+std::vector<bool> elements_below(const scene::GroundWater& water, const Mesh& mesh);
+
+/// Water below its phreatic line, which is the scene's or a stage's, in the soil that is there. Throws
+/// BadInput when a wet material lacks void_ratio or permeability, when a boundary holds no node, or
+/// when the pressure is not determined.
 PoreWater ground_water(const scene::Scene& scene, const scene::GroundWater& water,
                        const Model& model);
 

@@ -88,6 +88,10 @@ struct Model {
         double by;
     };
     std::vector<Driven> driven;
+    /// Creep of a static stage: epsilon_q that comes over its load, per element, and the strain of
+    /// this load step, per point; empty: none [-]
+    std::vector<double> creep;
+    std::vector<Voigt> creep_step;
 
     bool is_absent(std::size_t element) const { return !absent.empty() && absent[element] != 0; }
     std::size_t points() const { return mesh.quads.size() * points_per_element; }

@@ -1,7 +1,11 @@
 #include "fem_solver/model/stages.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "core/words/number.hpp"
 #include "fem_solver/model/build_model.hpp"
 #include "fem_solver/model/ground.hpp"
 #include "fem_solver/model/ground_water.hpp"
@@ -19,20 +23,46 @@ std::vector<bool> lonely_nodes(const Model& model) {
     return lonely;
 }
 
-/// Water does not come and go with soil: what is placed or removed must be above it.
-void refuse_wet(const scene::Scene& scene, const Model& model) {
-    if (!model.water.any()) return;
-    for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
-        if (!model.is_absent(e)) continue;
-        for (const std::int32_t node : model.mesh.quads[e]) {
-            if (!model.water.is_unknown[node] && model.water.prescribed[node] <= 0.0) continue;
-            const auto& region = scene.section.regions[model.mesh.region_of_element[e]];
-            throw fault::BadInput(
-                "scene",
-                {{"/fem/stages",
-                  "region '" + region.name + "' is placed or removed, and water stands in it",
-                  "draw /fem/water/line below it, or keep it for the whole run"}});
-        }
+/// [elements] of regions that are not there in a stage.
+std::vector<bool> elements_gone(const scene::Scene& scene, std::size_t stage, const Mesh& mesh) {
+    const auto gone = scene::fem_of(scene).regions_gone(scene.section.regions.size(), stage);
+    std::vector<bool> elements;
+    for (const std::int32_t region : mesh.region_of_element) elements.push_back(gone[region]);
+    return elements;
+}
+
+/// In some stage water stands where soil is not there.
+bool floods_gaps(const scene::Scene& scene, const Mesh& mesh) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    for (std::size_t s = 0; fem.water && s < fem.stages.size(); ++s) {
+        const std::vector<bool> gone = elements_gone(scene, s, mesh);
+        const std::vector<bool> below = elements_below(*fem.water_in(s), mesh);
+        for (std::size_t e = 0; e < gone.size(); ++e)
+            if (gone[e] && below[e]) return true;
+    }
+    return false;
+}
+
+/// Soil comes and goes below water where the stage's water is that of steady seepage.
+void refuse_wet_changes(const scene::Scene& scene, std::size_t stage, const Model& model) {
+    const scene::Fem& fem = scene::fem_of(scene);
+    const scene::Stage& now = fem.stages[stage];
+    const std::string pointer = "/fem/stages/" + std::to_string(stage);
+    if (!model.water.any())
+        throw fault::BadInput("scene", {{pointer, "leaves no soil below the phreatic line",
+                                         "keep wet soil, or leave out /fem/water"}});
+    if (now.kind == scene::StageKind::static_equilibrium && now.undrained.empty()) return;
+    const std::vector<bool> below = elements_below(*fem.water_in(stage), model.mesh);
+    for (std::size_t e = 0; e < below.size(); ++e) {
+        const auto region = static_cast<std::size_t>(model.mesh.region_of_element[e]);
+        const bool changes = std::ranges::find(now.activates, region) != now.activates.end() ||
+                             std::ranges::find(now.removes, region) != now.removes.end();
+        if (!changes || !below[e]) continue;
+        throw fault::BadInput(
+            "scene", {{pointer,
+                       "places or removes region '" + scene.section.regions[region].name +
+                           "', in which water stands, without letting the water come to rest",
+                       "do it in a static stage that drains, or draw the line below it"}});
     }
 }
 
@@ -135,21 +165,71 @@ void press(const scene::Fem& fem, std::size_t stage, Model& model) {
     }
 }
 
+/// Forces on single nodes, of this stage or the last one that gave some.
+void push(const scene::Fem& fem, std::size_t stage, Model& model) {
+    std::size_t from = 0;
+    for (std::size_t s = 0; s <= stage; ++s)
+        if (fem.stages[s].forces) from = s;
+    if (!fem.stages[from].forces) return;
+    const std::vector<bool> lonely = lonely_nodes(model);
+    for (std::size_t k = 0; k < fem.stages[from].forces->size(); ++k) {
+        const scene::NodeForce& each = (*fem.stages[from].forces)[k];
+        const auto refuse = [&](const std::string& cause, const std::string& remedy) {
+            throw fault::BadInput(
+                "scene", {{"/fem/stages/" + std::to_string(from) + "/forces/" + std::to_string(k),
+                           "'" + each.name + "' " + cause, remedy}});
+        };
+        std::size_t nearest = model.body.nodes;
+        double distance = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < model.body.nodes; ++i) {
+            const double here = (model.mesh.nodes[i] - each.at).norm();
+            if (lonely[i] || here >= distance) continue;
+            nearest = i;
+            distance = here;
+        }
+        if (distance > each.within)
+            refuse("finds no node within " + words::text_of(each.within) +
+                       " m in the soil that is there in stage " + std::to_string(stage) +
+                       "; the nearest is " + words::text_of(distance) + " m away",
+                   "move it to the soil, or raise \"within\"");
+        for (const Eigen::Index y : {0, 1}) {
+            if (each.force[y] != 0.0 && model.constraints.held[2 * nearest + y])
+                refuse(std::string("acts along ") + (y ? "y" : "x") +
+                           " on a node that is held in that direction",
+                       "let it act on a free node, or release the support");
+        }
+        model.external_force.segment<2>(2 * static_cast<Eigen::Index>(nearest)) +=
+            model.thickness * each.force;
+    }
+}
+
+/// epsilon_q that creeps in this stage, per element.
+void creep(const scene::Fem& fem, std::size_t stage, Model& model) {
+    model.creep.clear();
+    model.creep_step.clear();
+    if (fem.stages[stage].creep.empty()) return;
+    model.creep.assign(model.mesh.quads.size(), 0.0);
+    for (const scene::Creep& each : fem.stages[stage].creep)
+        for (std::size_t e = 0; e < model.creep.size(); ++e)
+            if (!model.is_absent(e) &&
+                model.mesh.region_of_element[e] == static_cast<std::int32_t>(each.region))
+                model.creep[e] = each.epsilon_q;
+}
+
 }  // namespace
 
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model) {
     const scene::Fem& fem = scene::fem_of(scene);
-    const std::vector<bool> gone = fem.regions_gone(scene.section.regions.size(), stage);
-    model.absent.assign(model.mesh.quads.size(), 0);
-    for (std::size_t e = 0; e < model.absent.size(); ++e)
-        model.absent[e] = gone[model.mesh.region_of_element[e]] ? 1 : 0;
+    const std::vector<bool> gone = elements_gone(scene, stage, model.mesh);
+    model.absent.assign(gone.begin(), gone.end());
     ModelDecisions now = decided;
     now.water.value = fem.water_in(stage);
     for (std::size_t s = 0; s <= stage; ++s)
         if (const auto& loads = fem.stages[s].surcharge) now.surcharge.value = *loads;
-    if (fem.moves_the_water()) model.water = ground_water(scene, *now.water.value, model);
-    refuse_wet(scene, model);
+    const bool floods = floods_gaps(scene, model.mesh);
+    if (fem.moves_the_water() || floods) model.water = ground_water(scene, *now.water.value, model);
+    if (floods) refuse_wet_changes(scene, stage, model);
     hold_what_is_left(scene, stage, model);
     displace(fem, stage, model);
     find_undrained(fem, stage, model);
@@ -158,6 +238,24 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     set_weights(decided.gravity.value, k_h, model);
     add_ground_loads(now, model);
     press(fem, stage, model);
+    push(fem, stage, model);
+    creep(fem, stage, model);
+}
+
+void set_creep_step(double share, const Motion& motion, Model& model) {
+    if (model.creep.empty()) return;
+    model.creep_step.assign(model.points(), Voigt::Zero());
+    constexpr double no_deviator = 1e-7;  // of the mean stress
+    for (std::size_t p = 0; p < model.points(); ++p) {
+        const Voigt& sigma = motion.points[p].sigma;
+        const double half = 0.5 * (sigma[0] - sigma[1]);
+        const double size = std::hypot(half, sigma[3]);
+        if (size <= no_deviator * std::abs(sigma.head<3>().sum())) continue;
+        // epsilon_q of (1, -1, 0) is 2 / sqrt 3.
+        const double amount =
+            0.5 * std::numbers::sqrt3 * share * model.creep[p / model.points_per_element] / size;
+        model.creep_step[p] = amount * Voigt(half, -half, 0.0, 2.0 * sigma[3]);
+    }
 }
 
 void forget_absent(const Model& model, Motion& motion) {

@@ -8,11 +8,16 @@
 namespace breach::fem {
 
 /// Puts in force what the stages up to this one have placed, removed, released and loaded. Asks the
-/// scene alone, so that a resumed run has the same. Where stages move the water it is made anew,
-/// without permeability and with the modulus of elastic stages. Throws BadInput where a stage cannot be: it
-/// removes all that a support holds, leaves a direction unheld, or changes what is below water.
+/// scene alone, so that a resumed run has the same. Where stages move the water, or it stands where
+/// soil is missing, it is made anew, without permeability and with the modulus of elastic stages.
+/// Throws BadInput where a stage cannot be: it removes all that a support holds, leaves a direction
+/// unheld, or changes what is below water without drainage.
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model);
+
+/// The creep strain of a load step of this share of the stage, along the deviators in the plane that
+/// `motion` has; points without a deviator do not creep.
+void set_creep_step(double share, const Motion& motion, Model& model);
 
 /// Takes stress and strain from the points that are not there.
 void forget_absent(const Model& model, Motion& motion);

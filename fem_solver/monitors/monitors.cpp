@@ -45,6 +45,8 @@ const std::vector<Column>& columns() {
         Named{"psi_avg", &R::psi_avg},
         Named{"instability_ratio_max", &R::instability_ratio_max},
         Named{"past_peak_share", &R::past_peak_share},
+        Named{"strength_ratio_avg", &R::strength_ratio_avg},
+        Named{"strength_ratio_min", &R::strength_ratio_min},
         Named{"excess_pressure_avg", &R::excess_pressure_avg},
         Named{"r_u_max", &R::r_u_max},
         Named{"liquefaction_depth", &R::liquefaction_depth},
@@ -113,7 +115,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
 
 namespace {
 
-/// Volumes [m3] of elements that can soften, and of Gauss points that have.
+/// Volumes [m3] of elements that are there and can soften, and of Gauss points that have.
 struct Softened {
     double possible = 0.0;
     double done = 0.0;
@@ -126,6 +128,7 @@ Softened softened_volume(const Model& model, const Motion& motion) {
         if (softening == nullptr) continue;
         const std::size_t end = std::min(zone.first + zone.count, model.body.elements);
         for (std::size_t e = zone.first; e < end; ++e) {
+            if (model.is_absent(e)) continue;
             volume.possible += model.volume[e];
             for (std::size_t g = 0; g < model.points_per_element; ++g) {
                 const double reached = motion.points[e * model.points_per_element + g].epsilon_q;

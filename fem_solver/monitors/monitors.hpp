@@ -57,6 +57,8 @@ struct Reading {
     double psi_avg = 0.0;                ///< of NorSand, by volume [-]
     double instability_ratio_max = 0.0;  ///< eta over eta_L of NorSand's points [-]
     double past_peak_share = 0.0;        ///< of NorSand's volume: undrained, q would fall [-]
+    double strength_ratio_avg = 0.0;     ///< s_u over sigma'_v0 of NorSand, by volume [-]
+    double strength_ratio_min = 0.0;     ///< its least [-]
     double softened_share = 0.0;         ///< volume that has lost strength over volume that can [-]
 };
 

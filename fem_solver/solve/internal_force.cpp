@@ -84,6 +84,9 @@ void InternalForce::small_strains(std::size_t element, const Motion& old, const 
     for (std::size_t g = 0; g < points_; ++g) {
         d_epsilon_[element * points_ + g] = strain_of(model_.reference[element].B[g], d_u);
     }
+    // The law sees what is not creep.
+    for (std::size_t g = 0; g < points_ && !model_.creep_step.empty(); ++g)
+        d_epsilon_[element * points_ + g] -= model_.creep_step[element * points_ + g];
     if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
     if (!model_.is_absent(element)) return;
     for (std::size_t g = 0; g < points_; ++g) d_epsilon_[element * points_ + g].setZero();
@@ -226,6 +229,8 @@ void InternalForce::accumulate_strain(std::size_t begin, std::size_t end, const 
     if (half_angle_.empty()) {
         for (std::size_t p = begin * points_; p < end * points_; ++p)
             trial.strain[p] = old.strain[p] + d_epsilon_[p];
+        for (std::size_t p = begin * points_; p < end * points_ && !model_.creep_step.empty(); ++p)
+            trial.strain[p] += model_.creep_step[p];
         return;
     }
     for (std::size_t p = begin * points_; p < end * points_; ++p) {

@@ -40,6 +40,18 @@ StressBias stress_bias(const Model& model, const Motion& motion) {
     return bias;
 }
 
+std::size_t fallen_points(const Model& model, const Motion& motion) {
+    std::size_t count = 0;
+    for (std::size_t z = 0; z < motion.memory.size(); ++z) {
+        const auto* zone =
+            std::get_if<materials::ZoneMemory<materials::NorSand>>(&motion.memory[z]);
+        if (zone == nullptr || model.zones[z].first >= model.body.elements) continue;
+        count += static_cast<std::size_t>(std::ranges::count_if(
+            zone->points, [](const auto& point) { return point.has_fallen; }));
+    }
+    return count;
+}
+
 std::size_t points_with_memory(const Model& model, const Motion& motion) {
     std::size_t count = 0;
     for (std::size_t z = 0; z < motion.memory.size(); ++z)

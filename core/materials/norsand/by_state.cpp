@@ -32,14 +32,12 @@ Spot spot_in(const std::vector<double>& table, double x) {
 StrengthByState::StrengthByState(const NorSand& law, OnPath part) : law_(law), part_(part) {
     K_0_ = law.elasticity.nu / (1.0 - law.elasticity.nu);
     const double theta = norsand::plane_critical_angle(law.ready);
-    tau_over_p_ =
-        norsand::critical_ratio(law.ready, theta) * std::cos(theta) / std::numbers::sqrt3;
+    tau_over_p_ = norsand::critical_ratio(law.ready, theta) * std::cos(theta) / std::numbers::sqrt3;
     if (law.psi_0_profile) {
         const auto by_psi = [](const auto& a, const auto& b) { return a[1] < b[1]; };
         const auto [low, high] = std::ranges::minmax(law.psi_0_profile->points, by_psi);
         const int steps = std::max(1, static_cast<int>(std::ceil((high[1] - low[1]) / psi_step)));
-        for (int k = 0; k <= steps; ++k)
-            psi_.push_back(low[1] + (high[1] - low[1]) * k / steps);
+        for (int k = 0; k <= steps; ++k) psi_.push_back(low[1] + (high[1] - low[1]) * k / steps);
     } else {
         psi_ = {law.psi_0.value_or(0.0)};
     }

@@ -260,6 +260,7 @@ void finish_call(const Ready& law, const State& old, const Strain& d, Errand& er
     if (update.outcome == Outcome::unresolved && norm(d) <= least_followed) {
         state = old;
         fall(law, state);
+        state.has_fallen = true;
         state.sub_step = least_guess;
         ++update.counts.guarded;
         update.outcome = Outcome::done;

@@ -70,13 +70,14 @@ Ready ready(const Parameters& parameters);
 
 /// One point. Compression positive, stresses [Pa]; the rest dimensionless.
 struct State {
-    double xx, yy, zz, xy;   ///< effective stress
-    double p_i;              ///< size of the yield surface: mean stress at its top [Pa]
-    double e;                ///< void ratio
-    double chi_i;            ///< chi of the image state, constant
-    double epsilon_q = 0.0;  ///< plastic deviatoric strain, conjugate to q
-    double sub_step = 1e-5;  ///< size of the last sub-step [strain]; a guess for the next
-    bool on_floor = false;   ///< p is held at p_min
+    double xx, yy, zz, xy;    ///< effective stress
+    double p_i;               ///< size of the yield surface: mean stress at its top [Pa]
+    double e;                 ///< void ratio
+    double chi_i;             ///< chi of the image state, constant
+    double epsilon_q = 0.0;   ///< plastic deviatoric strain, conjugate to q
+    double sub_step = 1e-5;   ///< size of the last sub-step [strain]; a guess for the next
+    bool on_floor = false;    ///< p is held at p_min
+    bool has_fallen = false;  ///< to its critical state, where no strain could be followed
 };
 
 /// Void ratio of the critical state line at p [Pa], and its slope -de/d(ln p).

@@ -2,6 +2,9 @@
 // is left of that at the critical state of its void ratio.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "core/materials/norsand/norsand.hpp"
 
 namespace breach::materials::norsand {
@@ -16,16 +19,19 @@ struct UndrainedStrength {
         critical;  ///< tau = M cos(theta) / sqrt(3) p_c(e), design section 6; never above the peak
 };
 
+/// The law's own path from `state` at constant volume along its deviator in the plane, with the
+/// law's S. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
+/// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.
+UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
+/// The same of many states, side by side: to the last bit what each alone gives.
+std::vector<UndrainedStrength> undrained_strengths(const Ready& law, std::span<const State> states,
+                                                   std::span<const double> bounds);
+
 /// Shear stress on the plane across y, |tau_xy| [Pa].
 double simple_shear(const State& state);
 
 /// The same of undrained simple shear, epsilon_xx = epsilon_yy = epsilon_zz = 0: what soil that was
 /// consolidated under a level ground carries on a plane along it.
 UndrainedStrength simple_shear_strength(const Ready& law, const State& state, double bound);
-
-/// The law's own path from `state` at constant volume along its deviator in the plane, with the
-/// law's S. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
-/// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.
-UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
 
 }  // namespace breach::materials::norsand

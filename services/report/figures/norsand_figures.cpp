@@ -81,8 +81,8 @@ void add_line(const json& tests, const json& parameters, Chart& chart) {
 struct Straight {
     double a, b;
 };
-void add_peaks(const json& tests, const char* x, const char* y, const Straight& line,
-               Figure figure, std::vector<Figure>& figures) {
+void add_peaks(const json& tests, const char* x, const char* y, const Straight& line, Figure figure,
+               std::vector<Figure>& figures) {
     Series points{"peaks of drained tests", {}, {}, Style::points};
     for (const auto& [name, test] : tests.items()) {
         if (test.at("peak").is_null()) continue;
@@ -133,8 +133,9 @@ std::vector<Figure> norsand_figures(const json& calibration, const exchange::Arc
     states = curves_of(tests, curves, Which::all, std::move(states), in_p, {"e", 1.0});
     add_line(tests, parameters, states);
     figures.push_back({"critical_state_line", std::move(states),
-                       how + " Ends of tests are means over the last 15 % of their strain; where one "
-                             "is still on its way, the law's own end is, too."});
+                       how +
+                           " Ends of tests are means over the last 15 % of their strain; where one "
+                           "is still on its way, the law's own end is, too."});
     // D_min and psi are measured; the law's peaks lie near chi_tc psi, not on it.
     add_peaks(tests, "psi", "D_min", {0.0, value("chi_tc")},
               {"dilatancy",

@@ -172,6 +172,20 @@ TEST(Telemetry, MeasuresTheLawOfTheFemAndNotTheOneTheRunoutTakes) {
     }));
 }
 
+TEST(Telemetry, HasStrengthOfNorSandWhereTheSceneAsksToLookAtIt) {
+    const auto ratios = [](const scene::Scene& scene) {
+        return std::ranges::count_if(columns_of(scene), [](const Column& each) {
+            return std::string_view(each.name).starts_with("strength_ratio_");
+        });
+    };
+    json dry = slope();
+    dry["fem"]["strength_interval"] = 0.5;
+    EXPECT_EQ(ratios(parse(dry)), 0) << "no soil of norsand";
+    const std::string lift = BREACH_ROOT "/workflows/scenes/static_lift.json";
+    EXPECT_EQ(ratios(scene::read_scene(lift)), 0) << "nobody looks";
+    EXPECT_EQ(ratios(scene::read_scene(lift, {"/fem/strength_interval=0.5"})), 2);
+}
+
 TEST(Snapshot, IsNamedAfterItsTime) { EXPECT_EQ(snapshot_name(0.25), "snapshot_0.250000.vtkhdf"); }
 
 }  // namespace

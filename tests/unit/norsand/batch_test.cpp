@@ -23,7 +23,8 @@ bool same(const Update& a, const Update& b) {
     return same_bits(x.xx, y.xx) && same_bits(x.yy, y.yy) && same_bits(x.zz, y.zz) &&
            same_bits(x.xy, y.xy) && same_bits(x.p_i, y.p_i) && same_bits(x.e, y.e) &&
            same_bits(x.epsilon_q, y.epsilon_q) && same_bits(x.sub_step, y.sub_step) &&
-           x.on_floor == y.on_floor && a.outcome == b.outcome && same_bits(a.counts, b.counts);
+           x.on_floor == y.on_floor && x.has_fallen == y.has_fallen && a.outcome == b.outcome &&
+           same_bits(a.counts, b.counts);
 }
 
 /// A zone of points that have gone different ways, and strains from tiny to large, one of them NaN.

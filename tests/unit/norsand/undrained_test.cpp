@@ -53,6 +53,23 @@ TEST(NorSandUndrained, ThePeakIsThatOfThePathAndThePresentPastIt) {
     EXPECT_NEAR(undrained_strength(law, state, far).peak / now, 1.0, 1e-12);
 }
 
+TEST(NorSandUndrained, ManySideBySideAreWhatEachAloneIs) {
+    const Ready law = cj1();
+    std::vector<State> states;
+    std::vector<double> bounds;
+    for (int i = 0; i < 37; ++i) {
+        states.push_back(at_rest(law, -0.1 + 0.005 * i));
+        bounds.push_back(i % 3 == 0 ? far : (1.0 + 0.1 * i) * p_0);
+    }
+    const auto together = undrained_strengths(law, states, bounds);
+    ASSERT_EQ(together.size(), states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const UndrainedStrength alone = undrained_strength(law, states[i], bounds[i]);
+        EXPECT_EQ(together[i].peak, alone.peak) << i;
+        EXPECT_EQ(together[i].critical, alone.critical) << i;
+    }
+}
+
 TEST(NorSandUndrained, DenseSoilIsBelievedUpToTheBoundOnly) {
     const Ready law = cj1();
     const State dense = at_rest(law, -0.05);

@@ -15,6 +15,7 @@ exchange::ParticleState points_with(const std::vector<Voigt>& stress, double eps
     s.stress = stress;
     s.position.resize(stress.size());
     s.volume.assign(stress.size(), 2.0);
+    s.mass.assign(stress.size(), 3.0);
     s.volume_0.assign(stress.size(), 0.0);
     s.epsilon_q_plastic.assign(stress.size(), epsilon_q_plastic);
     s.region.assign(stress.size(), 0);
@@ -36,9 +37,13 @@ TEST(YieldReturn, InsideStaysBitForBitAndOutsideEndsOnTheSurface) {
     const Voigt outside(-20e3, -200e3, -90e3, 60e3);
     const Voigt tension(30e3, 10e3, 5e3, 0.0);
     auto s = points_with({inside, outside, tension}, 0.0);
-    const YieldReport report = return_to_yield_surface(laws, s);
+    s.position[1] = Vec2(4.0, 5.0);
+    const YieldShare report = return_to_yield_surface(laws, s).front();
     EXPECT_EQ(report.returned, 2u);
-    EXPECT_GT(report.largest_excess, 1e4);
+    EXPECT_EQ(report.mass, 6.0);
+    EXPECT_NEAR(report.largest_excess, materials::yield_excess(meshes::frictional, {outside, 0.0}),
+                1e-6);
+    EXPECT_EQ(report.place, Vec2(4.0, 5.0)) << "where it is largest";
     EXPECT_EQ(s.stress[0], inside);
     for (int p : {1, 2})  // on the surface to round-off of 100 kPa
         EXPECT_LT(materials::yield_excess(meshes::frictional, {s.stress[p], 0.0}), 1e-6);
@@ -51,8 +56,8 @@ TEST(YieldReturn, UsesTheStrengthThatSofteningHasLeft) {
     auto anew = points_with({sigma}, 0.1);
     start_softening(scene::SofteningStart::carried, laws, carried);
     start_softening(scene::SofteningStart::zero, laws, anew);
-    EXPECT_EQ(return_to_yield_surface(laws, carried).returned, 1u);
-    EXPECT_EQ(return_to_yield_surface(laws, anew).returned, 0u);
+    EXPECT_EQ(return_to_yield_surface(laws, carried).front().returned, 1u);
+    EXPECT_EQ(return_to_yield_surface(laws, anew).front().returned, 0u);
     EXPECT_EQ(carried.epsilon_q_plastic[0], 0.1) << "the return is not soil's plastic strain";
     EXPECT_EQ(anew.epsilon_q_plastic[0], 0.0);
 }

@@ -78,6 +78,7 @@ json wet_column(const std::string& element, double psi_0) {
     fem["water"] = {{"line", {{0, 2 * rows}}}};
     fem["supports"][2]["fixes"] = "y";
     fem["telemetry_interval"] = 0.02;
+    fem["strength_interval"] = 0.5;
     fem["stages"] = {{{"type", "static"},
                       {"name", "load"},
                       {"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", 100}}}}},
@@ -106,6 +107,13 @@ TEST(NorSandInTheMesh, AWetColumnCollapsesAtThePeakOfThePoint) {
             break;
         }
         EXPECT_GT(done.history().back().kinetic_energy, 1e3);
+        const Reading& first = done.history().front();
+        for (const double ratio : {first.strength_ratio_avg, first.strength_ratio_min})
+            expect_error(kind + ": s_u over sigma'_v0 of the column against the point's",
+                         std::abs(ratio * 100e3 / s_u - 1.0), 1e-3);
+        // Between two looks the last one stands.
+        EXPECT_EQ(done.history().at(1).strength_ratio_avg, first.strength_ratio_avg);
+        EXPECT_LT(done.history().back().strength_ratio_min, 0.9 * first.strength_ratio_min);
         // Half the difference of the stresses that the stage lets act.
         const double load = 0.5 * (30e3 + 70e3 * past / 20.0);
         expect_error(kind + ": load on a wet column past its peak, over s_u",

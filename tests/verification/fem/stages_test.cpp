@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fem_solver/checkpoint.hpp"
+#include "fem_solver/monitors/monitors.hpp"
 #include "tests/verification/fem/bench.hpp"
 
 namespace breach::fem {
@@ -151,6 +152,78 @@ TEST(Stages, ARisingPhreaticLineHeavesTheGroundAsTheClosedFormSays) {
                  std::abs(under.motion().p[0] / (of_water * 9.0) - 1.0), 1e-12);
 }
 
+// Pore pressure is hydrostatic all along: what is placed or dug below water weighs what it is
+// heavier than water.
+TEST(Stages, SoilPlacedOrDugBelowWaterCountsByItsBuoyantWeight) {
+    constexpr double rho_w = 1000.0, of_soil = (rho - rho_w) * g;
+    const double own = of_soil * 16.0 / (2.0 * M);  // of the lower 4 m
+    const json lift = static_stage("lift", {{"activate", {"top"}}, {"load_steps", 3}});
+    const json dig = static_stage("dig", {{"remove", {"top"}}, {"load_steps", 3}});
+    for (const std::string kind : {"ssp", "bbar"}) {
+        const auto column_of = [&](const json& stage, double level) {
+            json scene = column_with_water({static_stage("gravity"), stage}, level);
+            scene["fem"]["element"] = kind;
+            return scene;
+        };
+        for (const double level : {5.0, 7.0}) {
+            bench::Run run(column_of(lift, level));
+            const Analysis& done = run.go();
+            const std::string where = kind + ", water at " + std::to_string(level).substr(0, 1);
+            const double below = std::min(level, 6.0) - 4.0;  // of the lift
+            const double load = (rho * 2.0 - rho_w * below) * g;
+            expect_error(where + ": settlement of the ground under a wet lift",
+                         std::abs(settlement_at(done, {1, 4}) / (own + load * 4.0 / M) - 1.0),
+                         1e-8);
+            // The lowest row of the lift.
+            const double expected = load - 0.5 * of_soil;
+            const std::size_t points = done.model().points_per_element;
+            double mean = 0.0;
+            for (std::size_t p = 4 * points; p < 5 * points; ++p)
+                mean -= done.motion().points.at(p).sigma[1] / static_cast<double>(points);
+            expect_error(where + ": effective stress in it", std::abs(mean / expected - 1.0), 1e-8);
+            expect_error(where + ": pore pressure at the base",
+                         std::abs(done.motion().p[0] / (rho_w * g * level) - 1.0), 1e-12);
+        }
+        // What the water was under its own weight it stays: below 4 m it fills the pit.
+        for (const double level : {5.0, 7.0}) {
+            bench::Run dug(column_of(dig, level));
+            const Analysis& done = dug.go();
+            const std::string where = kind + ", water at " + std::to_string(level).substr(0, 1);
+            expect_error(where + ": settlement that an excavation below water leaves",
+                         std::abs(settlement_at(done, {1, 4}) / own - 1.0), 1e-8);
+            const std::size_t ground = nearest_node(done.model().mesh, {1, 4});
+            expect_error(where + ": pore pressure on the new ground",
+                         std::abs(done.motion().p[static_cast<Eigen::Index>(ground)] /
+                                      (rho_w * g * (level - 4.0)) -
+                                  1.0),
+                         1e-12);
+        }
+    }
+}
+
+TEST(Stages, SoilThatIsGoneCountsInNoShareOfSoftenedSoil) {
+    json scene = column({static_stage("gravity"), static_stage("dig", {{"remove", {"top"}}})});
+    scene["materials"]["soil"]["law"] = {{"type", "mohr_coulomb"},
+                                         {"E_MPa", 20},
+                                         {"nu", 0.3},
+                                         {"c_kPa", 50},
+                                         {"phi_deg", 30},
+                                         {"softening",
+                                          {{"epsilon_q_start", 0.01},
+                                           {"epsilon_q_end", 0.1},
+                                           {"c_residual_kPa", 5},
+                                           {"phi_residual_deg", 20}}}};
+    bench::Run run(scene);
+    const Analysis& done = run.go();
+    Motion motion = done.motion();
+    for (std::size_t p = 0; p < motion.points.size(); ++p)
+        if (!done.model().is_absent(p / done.model().points_per_element))
+            motion.points[p].epsilon_q = 0.05;
+    const Reading reading =
+        read_monitors(done.model(), motion, distortion_of(done.model(), motion, 0.1), 0, 0.1);
+    EXPECT_NEAR(reading.softened_share, 1.0, 1e-12);
+}
+
 TEST(Stages, NorSandAnswersAPhreaticRiseDrained) {
     json scene = column_with_water(
         {static_stage("gravity"), static_stage("law", {{"laws", "scene"}}),
@@ -257,7 +330,15 @@ TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {
     wet["fem"]["water"] = {{"line", {{0, 5}}}};
     wet["materials"]["soil"]["void_ratio"] = 0.8;
     wet["materials"]["soil"]["permeability"] = {1e-6, 1e-6};
-    EXPECT_EQ(place_refused(wet), "/fem/stages");
+    EXPECT_EQ(place_refused(wet), "") << "it drains";
+    wet["fem"]["stages"][1]["undrained"] = {"low"};
+    EXPECT_EQ(place_refused(wet), "/fem/stages/1");
+    wet["fem"]["stages"][1] = {{"type", "dynamic"},
+                               {"name", "b"},
+                               {"remove", {"top"}},
+                               {"duration", 1},
+                               {"time_step", 0.1}};
+    EXPECT_EQ(place_refused(wet), "/fem/stages/1");
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // Parameters of NorSand come back from triaxial tests that the law itself has made, without and with
 // the noise of a laboratory.
-#include "fem_solver/element_bench/norsand_calibration.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "fem_solver/element_bench/norsand_calibration.hpp"
 #include "tests/verification/norsand/soils.hpp"
 #include "tests/verification/norsand/tables.hpp"
 
@@ -26,10 +25,10 @@ struct Programme {
 
 /// Standard deviations.
 struct Noise {
-    double e_0 = 0.0;        ///< of a specimen, from specimen to specimen
-    double eta = 0.0;        ///< of a specimen, relative
-    double stress = 0.0;     ///< of a reading [Pa]
-    double volume = 0.0;     ///< of a reading [-]
+    double e_0 = 0.0;     ///< of a specimen, from specimen to specimen
+    double eta = 0.0;     ///< of a specimen, relative
+    double stress = 0.0;  ///< of a reading [Pa]
+    double volume = 0.0;  ///< of a reading [-]
 };
 /// Of a good laboratory: void ratios by freezing, digital controllers.
 constexpr Noise laboratory{.e_0 = 0.003, .eta = 0.01, .stress = 300.0, .volume = 1e-4};
@@ -84,14 +83,14 @@ NorSandProblem problem_of(const norsand::Parameters& law, const std::vector<Prog
 constexpr Boundary drained = Boundary::drained_compression;
 constexpr Boundary undrained = Boundary::undrained_compression;
 const std::vector<Programme> nine_tests{
-    {drained, 100, -0.10},  {drained, 300, -0.06},   {drained, 100, -0.03}, {drained, 200, -0.08},
-    {drained, 400, 0.0},    {drained, 100, 0.03},    {undrained, 200, 0.03},
-    {undrained, 400, 0.04}, {undrained, 800, 0.05},
+    {drained, 100, -0.10},  {drained, 300, -0.06},  {drained, 100, -0.03},
+    {drained, 200, -0.08},  {drained, 400, 0.0},    {drained, 100, 0.03},
+    {undrained, 200, 0.03}, {undrained, 400, 0.04}, {undrained, 800, 0.05},
 };
 
 OfEach<double> truth(const norsand::Parameters& law) {
-    return {law.semi_log->Gamma, law.semi_log->lambda, law.M_tc, law.N, law.chi_tc, law.H_0,
-            law.H_psi};
+    return {
+        law.semi_log->Gamma, law.semi_log->lambda, law.M_tc, law.N, law.chi_tc, law.H_0, law.H_psi};
 }
 
 void print(const std::string& what, const NorSandFit& fit, const OfEach<double>& wanted) {
@@ -128,8 +127,9 @@ TEST_P(OwnTests, GiveTheParametersBack) {
     const NorSandFit fit = calibrate(problem_of(law, nine_tests, {}, 1));
     print(GetParam(), fit, truth(law));
     // What is left is the driver's step of 1e-3 in the calibration, of 2e-4 in the data.
-    expect_within({.Gamma = 2e-4, .lambda = 1e-3, .M_tc = 1e-4, .N = 1e-3, .chi_tc = 2e-3, .H = 2e-2},
-                  fit, law);
+    expect_within(
+        {.Gamma = 2e-4, .lambda = 1e-3, .M_tc = 1e-4, .N = 1e-3, .chi_tc = 2e-3, .H = 2e-2}, fit,
+        law);
     for (const TestFit& each : fit.tests) EXPECT_LT(each.q_misfit, 2e-3);
     EXPECT_TRUE(fit.flags.empty());
 }
@@ -140,8 +140,8 @@ TEST_P(OwnTests, GiveThemBackThroughNoise) {
         const NorSandFit fit = calibrate(problem_of(law, nine_tests, laboratory, seed));
         print(std::string(GetParam()) + ", seed " + std::to_string(seed), fit, truth(law));
         expect_within(
-            {.Gamma = 0.02, .lambda = 0.15, .M_tc = 0.01, .N = 0.08, .chi_tc = 0.08, .H = 0.25}, fit,
-            law);
+            {.Gamma = 0.02, .lambda = 0.15, .M_tc = 0.01, .N = 0.08, .chi_tc = 0.08, .H = 0.25},
+            fit, law);
         // Errors of readings are honest to a small sample; those of H know nothing of the others'.
         for (const std::size_t k : {sought::Gamma, sought::lambda, sought::M_tc, sought::N}) {
             const Estimate& each = fit.estimates[k];
@@ -190,8 +190,9 @@ TEST(NorSandCalibration, ReferenceTablesGiveTheParametersBack) {
     }
     const NorSandFit fit = calibrate(problem);
     print("CJ1, tables", fit, truth(law));
-    expect_within({.Gamma = 5e-4, .lambda = 5e-3, .M_tc = 5e-4, .N = 3e-3, .chi_tc = 5e-3, .H = 3e-2},
-                  fit, law);
+    expect_within(
+        {.Gamma = 5e-4, .lambda = 5e-3, .M_tc = 5e-4, .N = 3e-3, .chi_tc = 5e-3, .H = 3e-2}, fit,
+        law);
 }
 
 /// What the tests do not hold is said, and what is given is left alone.
@@ -205,7 +206,8 @@ TEST(NorSandCalibration, SaysWhatTheTestsDoNotHold) {
     const NorSandFit loose =
         calibrate(problem_of(law, {{undrained, 200, 0.04}, {undrained, 800, 0.04}}, {}, 1));
     print("two loose undrained tests", loose, truth(law));
-    EXPECT_EQ(codes(loose), (std::set<std::string>{"few_tests", "one_density", "parameter_not_held"}));
+    EXPECT_EQ(codes(loose),
+              (std::set<std::string>{"few_tests", "one_density", "parameter_not_held"}));
     EXPECT_EQ(loose.estimates[sought::chi_tc].origin, Origin::assumed);
     EXPECT_EQ(loose.estimates[sought::N].origin, Origin::assumed);
     EXPECT_NEAR(loose.law.semi_log->lambda, 0.06, 1e-3);
@@ -213,7 +215,8 @@ TEST(NorSandCalibration, SaysWhatTheTestsDoNotHold) {
 
     // Drained tests that stop at 12 % strain: the law carries them on to its line.
     NorSandProblem short_tests = problem_of(
-        law, {{drained, 100, -0.08}, {drained, 200, -0.05}, {drained, 400, -0.08}, {drained, 100, 0.02}},
+        law,
+        {{drained, 100, -0.08}, {drained, 200, -0.05}, {drained, 400, -0.08}, {drained, 100, 0.02}},
         {}, 1);
     for (TriaxialTest& test : short_tests.tests) {
         for (auto column : {&TriaxialCurve::epsilon_1, &TriaxialCurve::q, &TriaxialCurve::p,

@@ -116,6 +116,28 @@ TEST(OneProfile, IsOneStrengthAtASliceATransferredPointAndAPointOfTheMPM) {
     }
 }
 
+TEST(OneProfile, SoilThatAStageHasRemovedWeighsNothing) {
+    const json alone = slope(soil(profile()));
+    json lifted = alone;
+    lifted["section"]["regions"].push_back(
+        {{"name", "lift"},
+         {"material", "soil"},
+         {"polygon", {{0, 10}, {5, 10}, {5, 12}, {0, 12}, {0, 10}}}});
+    const scene::Scene without = parsed(alone), with = parsed(lifted);
+    // The snapshot has no element of the lift.
+    const auto snapshot = mesh([](const Vec2&) { return 0.0; });
+    const transfer::SoilMap of_section(snapshot, without, "test"), of_rest(snapshot, with, "test");
+    const Vec2 place(2.5, 9.5);
+    const double c = in_transfer(of_section, place).c;
+    EXPECT_NEAR(c, 0.28 * 1800.0 * without.gravity * 0.5, 1e-9 * c);
+    EXPECT_EQ(in_transfer(of_rest, place).c, c);
+    const double under_lift =
+        materials::strength_of_point(*with.materials[0].strength, scene::Ground(with).at(place, 0),
+                                     materials::Liquefaction::before)
+            .c;
+    EXPECT_NEAR(under_lift, 5.0 * c, 1e-9 * c) << "as drawn: 2 m more above 0.5 m";
+}
+
 TEST(OneProfile, LiquefiedPointsComeWithTheirResidualStrengthAndKeepItInTheMPM) {
     json text = slope(soil(profile()));
     text["section"]["regions"][0]["polygon"] = {{0, 0}, {12, 0}, {12, 10}, {0, 10}, {0, 0}};
