@@ -50,6 +50,7 @@ bool is_engineering(const json& entry) { return entry.at("strains") == "engineer
 void check_test(const std::string& name, const json& entry, bool engineering,
                 std::vector<Fault>& faults) {
     constexpr double most_off = 0.25;  // of p_0, with the first load on
+    constexpr double least_q = 0.05;   // over p_0: no soil is as weak
     const std::string pointer = "/norsand_calibration/tests/" + name;
     const TriaxialTest test = test_of(name, entry, engineering);
     const double begins = test.measured.p.front();
@@ -58,6 +59,14 @@ void check_test(const std::string& name, const json& entry, bool engineering,
                           "is " + std::to_string(test.p_0 / 1e3) + ", and the test begins at p = " +
                               std::to_string(begins / 1e3) + " kPa",
                           "give effective stresses in kPa, u as excess over the back pressure"});
+        return;
+    }
+    const double most_q = std::ranges::max(test.measured.q);
+    if (most_q < least_q * test.p_0) {
+        faults.push_back({pointer + "/p_0_kPa",
+                          "is " + std::to_string(test.p_0 / 1e3) + ", and q reaches only " +
+                              std::to_string(most_q / 1e3) + " kPa",
+                          "give p_0_kPa and q_kPa in kPa"});
         return;
     }
     for (std::size_t i = 0; i < test.measured.p.size(); ++i) {

@@ -95,7 +95,7 @@ def main():
         refused("no-file", None, "cannot be read", None, file="synthetic_silt/cd0.csv")
         refused("a-folder", None, "cannot be read", None, file="synthetic_silt")
         refused("undrained", None, "no column u_kPa", None, boundary="undrained_compression")
-        refused("pascals", None, "begins at p = ", None, p_0_kPa=100000)
+        refused("pascals", None, "q reaches only", None, p_0_kPa=100000)
 
         bad = fem_solver("element-test", spoilt, "--output", out / "bad")
         assert bad.returncode == 65 and "run fem_solver calibrate" in bad.stderr, bad.stderr
