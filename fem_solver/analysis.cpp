@@ -278,8 +278,10 @@ void Analysis::begin_laws(const Stage& stage) {
     if (position_.stage != decided_.memory.value) return;
     if (decided_.memory_start.value == MemoryStart::at_rest_with_friction) {
         Newton newton(model_, Solved::displacement,
-                      {fem_.force_tolerance, std::max(fem_.largest_iterations, iterations_to_rest),
-                       session_.settings().threads},
+                      {.tolerance = fem_.force_tolerance,
+                       .largest_iterations = std::max(fem_.largest_iterations, iterations_to_rest),
+                       .threads = session_.settings().threads,
+                       .patience = patience_to_rest},
                       Symmetry::general, seconds_);
         const FrictionalRest rest =
             rest_with_friction(newton, model_, motion_, prediction_, trial_);
@@ -309,6 +311,8 @@ void Analysis::begin_laws(const Stage& stage) {
                        " kPa, and what is missing is out of balance in this stage: look at K_0 and "
                        "psi_0",
                    "/fem/stages/" + std::to_string(position_.stage)});
+    // A static stage makes up for it over its load, from these forces on.
+    settle_stresses(*newton_, laws_, motion_, trial_);
 }
 
 Analysis::StageEnd Analysis::static_stage(const Stage& stage) {

@@ -50,9 +50,11 @@ constexpr double worst_jump = 100.0;
 class Progress {
   public:
     void note(double residual) {
+        without_better_ = residual < best_ ? 0 : without_better_ + 1;
         best_ = std::min(best_, residual);
         earlier_[noted_++ % window] = best_;
     }
+    int without_better() const { return without_better_; }
     bool stalled() const { return noted_ > least && best_ > 0.5 * earlier_[noted_ % window]; }
     double best() const { return best_; }
 
@@ -61,6 +63,7 @@ class Progress {
     double best_ = std::numeric_limits<double>::infinity();
     std::array<double, window> earlier_{};
     std::size_t noted_ = 0;
+    int without_better_ = 0;
 };
 
 }  // namespace
@@ -368,7 +371,8 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         }
         if (iteration == 0) first = std::max(residual, settings_.tolerance);
         const bool lost = !std::isfinite(residual) || residual > 1e4 * first;
-        if (lost || iteration >= settings_.largest_iterations) {
+        if (lost || iteration >= settings_.largest_iterations ||
+            progress.without_better() > settings_.patience) {
             memory_.has_matrix = false;
             return {End::not_converged, iteration, residual};
         }

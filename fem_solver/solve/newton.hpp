@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace breach::fem {
 struct NewtonSettings {
     double tolerance;  ///< out-of-balance over reference [-]
     int largest_iterations;
-    int threads = 1;  ///< change no number
+    int threads = 1;                                 ///< change no number
+    int patience = std::numeric_limits<int>::max();  ///< iterations without a better residual
 };
 
 struct NewtonOutcome {

@@ -16,6 +16,8 @@ bool rests_first(const scene::Stage& stage, std::int64_t place);
 /// Iterations that a level of the search may take: unlike a dynamic step it cannot be cut, and one
 /// that is given up leaves soil outside its surfaces (Mochikoshi on 0.6 m: 545 for all levels).
 inline constexpr int iterations_to_rest = 400;
+/// And how many of them without coming nearer: a level that nothing can hold is known by that.
+inline constexpr int patience_to_rest = 60;
 
 /// What the search came to.
 struct FrictionalRest {
