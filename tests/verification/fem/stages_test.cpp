@@ -61,6 +61,42 @@ TEST(Stages, ALiftOnAnElasticColumnSettlesItAsTheClosedFormSays) {
     }
 }
 
+TEST(Stages, ALiftThatClosesAGapBearsOnBothSidesAndTheBase) {
+    json scene = column({static_stage("gravity"), static_stage("fill", {{"activate", {"gap"}}})});
+    json& regions = scene["section"]["regions"];
+    const json one = regions[0];
+    regions = json::array();
+    for (const auto& [name, x] : {std::pair{"left", 0.0}, {"gap", 1.0}, {"right", 2.0}}) {
+        regions.push_back(one);
+        regions.back()["name"] = name;
+        regions.back()["polygon"] = {{x, 0}, {x + 1, 0}, {x + 1, 4}, {x, 4}, {x, 0}};
+        regions.back()["mesh"]["divisions"] = {2, 4};
+    }
+    scene["fem"]["supports"] = {
+        {{"name", "base"}, {"from", {0, 0}}, {"to", {3, 0}}, {"fixes", "xy"}}};
+    bench::Run run(scene);
+    const Analysis& done = run.go();
+    const auto force_of = [&](std::size_t node) {
+        return done.motion().force.segment<2>(static_cast<Eigen::Index>(2 * node));
+    };
+    // The base's own nodes bear their share of the weight as well, which is no force of the soil.
+    Vec2 borne = Vec2::Zero();
+    for (std::size_t i = 0; i < done.model().mesh.nodes.size(); ++i) {
+        if (done.model().mesh.nodes[i].y() == 0.0) continue;
+        borne += force_of(i);
+    }
+    const double above = 3.0 * rho * g * (4.0 - 0.5);
+    expect_error("what all nodes above the base bear, over their weight",
+                 (borne - Vec2(0.0, -above)).norm() / above, 1e-8);
+    expect_error("left and right settle alike",
+                 std::abs(settlement_at(done, {0.5, 4}) / settlement_at(done, {2.5, 4}) - 1.0),
+                 1e-8);
+    // Before, both leaned into the gap; what fills it settles less than a column of its own.
+    const double alone = rho * g * 16.0 / (2.0 * M);
+    EXPECT_GT(settlement_at(done, {1.5, 4}), 0.2 * alone);
+    EXPECT_LT(settlement_at(done, {1.5, 4}), 1.5 * alone);
+}
+
 TEST(Stages, AnExcavationHeavesTheGroundAsTheClosedFormSays) {
     for (const int steps : {1, 4}) {
         bench::Run run(column({static_stage("gravity"),
