@@ -65,6 +65,17 @@ TEST(Check, WindowsAreReadAndAskForWhatIsRecorded) {
                   "/transfer/window/lower", "no soil is watched"));
 }
 
+TEST(Check, SofteningOfSoilThatDrainsIsWarnedOf) {
+    const auto warned = [](const std::vector<std::string>& overrides) {
+        return has_warning(changed("static_lift", overrides), "drained_softening",
+                           "/fem/stages/1/S");
+    };
+    EXPECT_FALSE(warned({})) << "in motion alone";
+    EXPECT_TRUE(warned({"/fem/stages/1/S=1"}));
+    EXPECT_TRUE(warned({R"(/fem/stages/1/S={"tailings":0.5})"}));
+    EXPECT_FALSE(warned({"/fem/stages/1/S=0"}));
+}
+
 TEST(Check, AMeshFileThatIsMissingOrNoMeshIsRefused) {
     expect_only(changed("slope", {"/fem/msh_file=nowhere.msh"}), "/fem/msh_file", "does not exist");
     expect_only(changed("slope", {"/fem/msh_file=/dev/zero"}), "/fem/msh_file", "cannot be read");
