@@ -1,52 +1,116 @@
 #include "lem_tool/drained.hpp"
 
 #include <algorithm>
+#include <map>
+#include <sstream>
 
-#include "core/geometry/polyline.hpp"
+#include "lem_tool/limit_scene.hpp"
+#include "lem_tool/search.hpp"
 
 namespace breach::lem {
 
 namespace {
 
-/// The loosest state parameter of the law's beginning; of a void ratio that at 100 kPa [-].
-double loosest(const materials::NorSand& law) {
-    constexpr double p = 100e3;  // [Pa]
-    if (law.e_0) return *law.e_0 - materials::norsand::critical_void_ratio(law.ready, p);
-    if (!law.psi_0_profile) return law.psi_0.value_or(0.0);
-    const auto& points = law.psi_0_profile->points;
-    return std::ranges::max(points, {}, [](const auto& each) { return each[1]; })[1];
+/// A place of wet soil looser than critical.
+struct Loose {
+    double x, y, psi;
+};
+
+/// The state parameter where sigma'_v0 consolidated level ground [-].
+double psi_at(const materials::NorSand& law, const materials::Place& place) {
+    if (law.psi_0_profile) return law.psi_0_profile->at(place);
+    if (!law.e_0) return law.psi_0.value_or(0.0);
+    const double K_0 = law.elasticity.nu / (1.0 - law.elasticity.nu);
+    const double p = (1.0 + 2.0 * K_0) / 3.0 * place.sigma_v0;
+    return *law.e_0 - materials::norsand::critical_void_ratio(
+                          law.ready, std::max(p, law.ready.parameters.p_min));
 }
 
-bool reaches_below(const scene::Region& region, const std::vector<scene::Vec2>& line) {
-    return std::ranges::any_of(region.polygon, [&](const scene::Vec2& corner) {
-        return corner.y() < geometry::level_at(line, corner.x());
+bool liquefies(const scene::Lem& lem, std::size_t region, double y) {
+    return std::ranges::any_of(lem.liquefaction, [&](const scene::UndrainedRegion& layer) {
+        return layer.region == region &&
+               (!layer.levels || (y >= (*layer.levels)[0] && y <= (*layer.levels)[1]));
     });
 }
 
-bool names(const std::vector<scene::UndrainedRegion>& entries, std::size_t region) {
-    return std::ranges::count(entries, region, &scene::UndrainedRegion::region) > 0;
-}
+class WetAndLoose {
+  public:
+    explicit WetAndLoose(const scene::Scene& scene) : scene_(scene), model_(drained(scene)) {}
+
+    /// The loosest wet place of every region that has one.
+    std::map<std::size_t, Loose> found() {
+        for (const Strip& strip : model_.strata.strips)
+            for (std::size_t k = strip.first; k < strip.last; ++k) look(strip, k);
+        return std::move(found_);
+    }
+
+  private:
+    /// Layers stay whole, so that regions keep their numbers; no path of undrained soil is walked.
+    static Model drained(scene::Scene scene) {
+        scene.lem->undrained.clear();
+        scene.lem->liquefaction.clear();
+        return make_model(limit_scene(scene));
+    }
+
+    /// Boundaries are straight within a strip: its sides have what is deepest and wettest.
+    void look(const Strip& strip, std::size_t k) {
+        constexpr int steps = 20;  // down a vertical: psi_0 may go by depth
+        const Layer& layer = model_.strata.layers[k];
+        const auto* law = std::get_if<materials::NorSand>(
+            &scene_.materials[scene_.section.regions[layer.region].material].law);
+        if (!law || model_.soils[layer.region].tan_phi == 0.0 ||
+            std::ranges::count(scene_.lem->undrained, layer.region,
+                               &scene::UndrainedRegion::region) > 0)
+            return;
+        for (const double x : {strip.from, 0.5 * (strip.from + strip.to), strip.to}) {
+            const double top = layer.top.at(x);
+            double bottom = strip.bottom.at(x);
+            if (k + 1 < strip.last)
+                bottom = std::max(bottom, model_.strata.layers[k + 1].top.at(x));
+            for (int step = 0; step <= steps && bottom < top; ++step)
+                look_at(strip, layer, *law, x, top - (top - bottom) * step / steps);
+        }
+    }
+
+    void look_at(const Strip& strip, const Layer& layer, const materials::NorSand& law, double x,
+                 double y) {
+        constexpr double dry = 100.0;  // [Pa]: a centimetre of water is none
+        const Strata& strata = model_.strata;
+        const Soil& soil = model_.soils[layer.region];
+        const double ground = strata.ground(strip).at(x);
+        const double weight = layer.weight_above.at(x) + layer.gamma * (layer.top.at(x) - y);
+        double u = soil.line ? strata.pressures[strip.pressures + *soil.line].at(x, y) : 0.0;
+        if (u == 0.0) u = soil.r_u * weight;
+        if (u <= dry || liquefies(*scene_.lem, layer.region, y)) return;
+        const double free_water = strata.gamma_w * std::max(0.0, strip.water.at(x) - ground);
+        const double sigma_v0 = weight + free_water - u - layer.unconsolidated.at(x);
+        const double psi = psi_at(law, {ground - y, y, std::max(sigma_v0, 0.0)});
+        if (psi <= 0.0) return;
+        const auto [spot, is_new] = found_.try_emplace(layer.region, Loose{x, y, psi});
+        if (!is_new && psi > spot->second.psi) spot->second = {x, y, psi};
+    }
+
+    const scene::Scene& scene_;
+    Model model_;
+    std::map<std::size_t, Loose> found_;
+};
 
 }  // namespace
 
 std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene) {
     std::vector<fault::Flag> flags;
-    const scene::Lem& lem = scene::lem_of(scene);
-    if (!lem.water) return flags;
-    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
-        const scene::Region& region = scene.section.regions[r];
-        const auto* law = std::get_if<materials::NorSand>(&scene.materials[region.material].law);
-        if (!law || loosest(*law) <= 0.0 || names(lem.undrained, r) || names(lem.liquefaction, r))
-            continue;
-        if (!reaches_below(region, lem.water->line)) continue;
+    for (const auto& [region, at] : WetAndLoose(scene).found()) {
+        const std::string& name = scene.section.regions[region].name;
+        std::ostringstream words;
+        words.precision(3);
+        words << "region \"" << name << "\" is of NorSand looser than critical and wet (psi "
+              << at.psi << " at x = " << at.x << " m, y = " << at.y
+              << " m), and judged by its drained strength alone: it can fail undrained at a factor "
+                 "of "
+                 "safety far above 1; give {\"region\": \""
+              << name << R"(", "norsand": "peak"} in /lem/undrained)";
         flags.push_back(
-            {"drained_only", fault::Severity::questionable,
-             "region \"" + region.name +
-                 "\" is of NorSand looser than critical and wet, and judged by its drained "
-                 "strength alone: it can fail undrained at a factor of safety far above 1; give {"
-                 "\"region\": \"" +
-                 region.name + R"(", "norsand": "peak"} in /lem/undrained)",
-             "/lem/undrained"});
+            {"drained_only", fault::Severity::questionable, words.str(), "/lem/undrained"});
     }
     return flags;
 }

@@ -9,8 +9,9 @@
 
 namespace breach::lem {
 
-/// One flag for each region of NorSand looser than critical, below the phreatic line, that is neither
-/// in /lem/undrained nor in /lem/liquefaction.
+/// One flag for each region of NorSand that has friction (neither /lem/undrained nor a strength with
+/// phi = 0) where it is wet, looser than critical and in no layer of /lem/liquefaction. Wet is what
+/// the analysis takes it for: by /lem/water, a piezometric line or r_u.
 std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene);
 
 }  // namespace breach::lem

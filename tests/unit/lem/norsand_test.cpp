@@ -2,6 +2,7 @@
 // from it by hand, and drained strength alone is flagged.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -110,6 +111,29 @@ TEST(NorSandByState, FactorOfSafetyIsThatOfTheSameStrengthGivenByHand) {
               0.9 * by_state);
 }
 
+TEST(NorSandByState, FactorOfSafetyIsThatOfTheIntegralsOverTheCircle) {
+    // phi = 0: F = R int s_u dl / int W (x_c - x) dx. Water stands at the ground, so that sigma'_v0 is
+    // (gamma - gamma_w) d, and s_u is one ratio times that. No slices, and nothing of the tool's.
+    constexpr double x_c = 30.0, y_c = 24.0, R = 18.0, gamma = 19.5e3, gamma_w = 10e3;
+    const double ratio = ratio_by_path(tailings(with()), 50e3, OnPath::peak);
+    const double from = x_c - std::sqrt(R * R - (20.0 - y_c) * (20.0 - y_c));
+    const double to = x_c + std::sqrt(R * R - (10.0 - y_c) * (10.0 - y_c));
+    constexpr int parts = 100000;
+    const double dx = (to - from) / parts;
+    double resisting = 0.0, driving = 0.0;
+    for (int i = 0; i < parts; ++i) {
+        const double x = from + (i + 0.5) * dx;
+        const double cosine = std::sqrt(1.0 - (x - x_c) * (x - x_c) / (R * R));
+        const double depth = std::clamp(40.0 - x, 10.0, 20.0) - (y_c - R * cosine);
+        resisting += R * ratio * (gamma - gamma_w) * depth * dx / cosine;
+        driving += gamma * depth * (x_c - x) * dx;
+    }
+    const double expected = resisting / driving;
+    const double F = safety(lem_with({{{"region", "tailings"}, {"norsand", "peak"}}}));
+    std::printf("F %.5f, by the integrals %.5f\n", F, expected);
+    EXPECT_NEAR(F / expected, 1.0, 2e-3);
+}
+
 TEST(NorSandByState, WeightThatHasNotConsolidatedGivesNoStrength) {
     const auto factor = [](const std::vector<std::string>& overrides) {
         return small::circle_bishop(limit_scene(with(overrides))).factor_of_safety;
@@ -147,6 +171,66 @@ TEST(DrainedOnly, IsFlaggedWhereLooseWetSoilIsJudgedByIt) {
     EXPECT_TRUE(
         flags_with(R"(/lem/liquefaction=[{"region":"tailings","norsand":"residual"}])").empty());
     EXPECT_TRUE(flags_of_drained(with()).empty()) << "the shipped scene says how it fails";
+}
+
+/// The loose bank, 20 m of tailings, judged by friction alone; `more` comes into /lem.
+std::vector<fault::Flag> flags_of_bank(const json& more, const json& state = {{"psi_0", 0.05}}) {
+    json text = bank({{"circle", {{"center", {30, 24}}, {"radius", 18}}}});
+    text["lem"].update(more);
+    json& law = text["materials"]["tailings"]["law"];
+    law.erase("psi_0");
+    law.update(state);
+    return flags_of_drained(small::parsed(text));
+}
+
+const json high = {{"line", {{0, 20}, {20, 20}, {30, 10}, {60, 10}}}};
+json named(json line, const std::string& region) {
+    line["regions"] = {region};
+    return line;
+}
+
+TEST(DrainedOnly, IsWetByWhateverTheAnalysisTakesItsWaterFrom) {
+    EXPECT_EQ(flags_of_bank({{"water", high}}).size(), 1u);
+    EXPECT_EQ(flags_of_bank({{"piezometric_lines", {named(high, "tailings")}}}).size(), 1u);
+    EXPECT_EQ(
+        flags_of_bank({{"pore_pressure_ratios", {{{"region", "tailings"}, {"r_u", 0.3}}}}}).size(),
+        1u);
+    // A mound of water between corners that are all above it.
+    EXPECT_EQ(flags_of_bank({{"water", {{"line", {{0, -1}, {10, 5}, {20, -1}}}}}}).size(), 1u);
+    EXPECT_TRUE(flags_of_bank(json::object()).empty()) << "dry";
+    const json low = {{"line", {{0, -5}, {60, -5}}}};
+    EXPECT_TRUE(
+        flags_of_bank({{"water", high}, {"piezometric_lines", {named(low, "tailings")}}}).empty())
+        << "its own line lies below it, whatever the others' does";
+}
+
+TEST(DrainedOnly, IsLooseWhereItIsWet) {
+    const auto with_state = [](const json& state) {
+        return flags_of_bank({{"water", high}}, state).size();
+    };
+    // CJ1's e_c at 100 kPa is 0.9 - 0.02 ln 100: denser than critical there, looser below about 14 m.
+    const double at_100_kPa = 0.9 - 0.02 * std::log(100.0);
+    EXPECT_EQ(with_state({{"e_0", at_100_kPa - 0.0005}}), 1u);
+    EXPECT_EQ(with_state({{"e_0", at_100_kPa - 0.05}}), 0u);
+    const auto by_elevation = [](const json& points) -> json {
+        return {{"psi_0_profile", {{"by", "elevation"}, {"points", points}}}};
+    };
+    EXPECT_EQ(with_state(by_elevation({{2, 0.05}, {4, -0.05}})), 1u);
+    const json half = {{"line", {{0, 8}, {60, 8}}}};
+    EXPECT_TRUE(flags_of_bank({{"water", half}}, by_elevation({{10, -0.05}, {14, 0.05}})).empty())
+        << "loose above the water alone";
+}
+
+TEST(DrainedOnly, IsForWhatNoLayerThatLiquefiesHolds) {
+    const auto with_layer = [](const json& levels) {
+        json layer{{"region", "tailings"}, {"norsand", "residual"}, {"levels", levels}};
+        return flags_of_bank({{"water", high},
+                              {"search", {{"entry", {2, 19}}, {"exit", {31, 58}}}},
+                              {"liquefaction", json::array({layer})}})
+            .size();
+    };
+    EXPECT_EQ(with_layer({10, 20}), 1u) << "its lower half is judged by friction";
+    EXPECT_EQ(with_layer({0, 20}), 0u);
 }
 
 }  // namespace
