@@ -221,6 +221,16 @@ TEST(DrainedOnly, IsLooseWhereItIsWet) {
         << "loose above the water alone";
 }
 
+TEST(DrainedOnly, IsForWhatHasFriction) {
+    const auto with_strength = [](const std::string& entry) {
+        return flags_of_drained(
+                   with({"/lem/undrained=[]", "/materials/tailings/limit_strength=" + entry}))
+            .size();
+    };
+    EXPECT_EQ(with_strength(R"({"c_kPa": 0, "phi_deg": 30})"), 1u);
+    EXPECT_EQ(with_strength(R"({"c_kPa": 25, "phi_deg": 0})"), 0u);
+}
+
 TEST(DrainedOnly, IsForWhatNoLayerThatLiquefiesHolds) {
     const auto with_layer = [](const json& levels) {
         json layer{{"region", "tailings"}, {"norsand", "residual"}, {"levels", levels}};
