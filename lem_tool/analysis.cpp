@@ -176,7 +176,7 @@ process::Plan plan(const scene::Scene& whole) {
          lem.search ? "entry and exit ranges are given" : "no ranges are given", "/lem/search"},
         {"regions that cannot fail", use(has_closed_region(model)),
          has_closed_region(model) ? "linear elastic: surfaces through them are not considered"
-                                  : "every region has a Mohr-Coulomb law",
+                                  : "every region has a strength",
          "/materials"},
         {"softening", Use::left_out, "limit equilibrium takes the peak strength", "/materials"},
         {"water", use(lem.water.has_value()),

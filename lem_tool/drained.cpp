@@ -16,20 +16,16 @@ struct Loose {
     double x, y, psi;
 };
 
-/// The state parameter where sigma'_v0 consolidated level ground [-].
-double psi_at(const materials::NorSand& law, const materials::Place& place) {
-    if (law.psi_0_profile) return law.psi_0_profile->at(place);
-    if (!law.e_0) return law.psi_0.value_or(0.0);
-    const double K_0 = law.elasticity.nu / (1.0 - law.elasticity.nu);
-    const double p = (1.0 + 2.0 * K_0) / 3.0 * place.sigma_v0;
-    return *law.e_0 - materials::norsand::critical_void_ratio(
-                          law.ready, std::max(p, law.ready.parameters.p_min));
-}
-
 bool liquefies(const scene::Lem& lem, std::size_t region, double y) {
     return std::ranges::any_of(lem.liquefaction, [&](const scene::UndrainedRegion& layer) {
         return layer.region == region &&
                (!layer.levels || (y >= (*layer.levels)[0] && y <= (*layer.levels)[1]));
+    });
+}
+
+bool has_norsand(const scene::Scene& scene) {
+    return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
+        return std::holds_alternative<materials::NorSand>(scene.materials[region.material].law);
     });
 }
 
@@ -99,6 +95,7 @@ class WetAndLoose {
 
 std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene) {
     std::vector<fault::Flag> flags;
+    if (!has_norsand(scene)) return flags;
     for (const auto& [region, at] : WetAndLoose(scene).found()) {
         const std::string& name = scene.section.regions[region].name;
         std::ostringstream words;

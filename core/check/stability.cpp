@@ -171,6 +171,49 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+/// Some entry of /lem says where water stands in it.
+bool may_be_wet(const scene::Lem& lem, std::size_t region) {
+    const auto reaches = [&](const scene::Water& line) {
+        return std::ranges::count(line.regions, region) > 0;
+    };
+    return (lem.water && (lem.water->regions.empty() || reaches(*lem.water))) ||
+           std::ranges::any_of(lem.piezometric_lines, reaches) ||
+           std::ranges::any_of(lem.pore_pressure_ratios, [&](const scene::PorePressureRatio& each) {
+               return each.region == region && each.r_u > 0.0;
+           });
+}
+
+/// Soil that fails undrained has a strength to do so with, and NorSand water that holds its volume.
+void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
+    const scene::Lem& lem = *scene.lem;
+    const auto check_water = [&](const scene::UndrainedRegion& each, const std::string& pointer) {
+        if (!each.strength.norsand || may_be_wet(lem, each.region)) return;
+        refuse(findings, pointer + "/norsand",
+               "is of soil without water: /lem gives region \"" +
+                   scene.section.regions[each.region].name + "\" no line and no r_u",
+               "give /lem/water, or leave the entry out: dry soil fails drained");
+    };
+    for (std::size_t i = 0; i < lem.undrained.size(); ++i) {
+        const std::string pointer = "/lem/undrained/" + std::to_string(i);
+        check_water(lem.undrained[i], pointer);
+        if (lem.undrained[i].strength.is_of_profile())
+            refuse(findings, pointer, "gives no strength: s_u would be 0",
+                   "give strength_kPa or coefficient_kPa; norsand where the law is that; or leave "
+                   "the entry out, and the material's own strength counts");
+    }
+    for (std::size_t i = 0; i < lem.liquefaction.size(); ++i) {
+        const scene::UndrainedRegion& layer = lem.liquefaction[i];
+        const std::string pointer = "/lem/liquefaction/" + std::to_string(i);
+        check_water(layer, pointer);
+        const scene::Material* soil = material_of(scene, scene.section.regions[layer.region]);
+        const bool of_profile = soil != nullptr && soil->strength && soil->strength->residual;
+        if (layer.strength.is_of_profile() && !of_profile)
+            warn(findings, "no_residual_strength", pointer,
+                 "gives no residual strength, and the material has no profile with one: once "
+                 "liquefied, this soil has none");
+    }
+}
+
 void check_strength(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     std::set<std::size_t> open;
@@ -190,6 +233,7 @@ void check_strength(const scene::Scene& scene, Findings& findings) {
 void check_stability(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     check_strength(scene, findings);
+    check_undrained_strengths(scene, findings);
     check_layers(scene, findings);
     check_loads(scene, findings);
     if (!check_slices(scene, findings)) return;  // no ground to ask for

@@ -94,42 +94,37 @@ void check_undrained(const scene::Scene& scene, Findings& findings) {
 }
 
 /// Softening by region belongs to NorSand.
-void check_softening(const scene::Scene& scene, Findings& findings) {
-    for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
-        const auto& S = scene.fem->stages[i].S_of_region;
-        for (std::size_t r = 0; r < S.size(); ++r) {
-            const scene::Material* material = material_of(scene, scene.section.regions[r]);
-            if (!S[r] || material == nullptr ||
-                std::holds_alternative<materials::NorSand>(material->law))
-                continue;
-            refuse(findings, "/fem/stages/" + std::to_string(i) + "/S",
-                   "softens \"" + scene.section.regions[r].name + "\", which is of " +
-                       materials::traits(material->law).name,
-                   "name regions of NorSand");
-        }
+void check_softening(const scene::Scene& scene, const scene::Stage& stage,
+                     const std::string& pointer, Findings& findings) {
+    for (std::size_t r = 0; r < stage.S_of_region.size(); ++r) {
+        const scene::Material* material = material_of(scene, scene.section.regions[r]);
+        if (!stage.S_of_region[r] || material == nullptr ||
+            std::holds_alternative<materials::NorSand>(material->law))
+            continue;
+        refuse(findings, pointer,
+               "softens \"" + scene.section.regions[r].name + "\", which is of " +
+                   materials::traits(material->law).name,
+               "name regions of NorSand");
     }
 }
 
 /// S is what undrained soil is weaker by: soil that drains has no reason to soften so.
-void check_drained_softening(const scene::Scene& scene, Findings& findings) {
-    for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
-        const scene::Stage& stage = scene.fem->stages[i];
-        if (stage.kind != scene::StageKind::static_equilibrium) continue;
-        const auto softens = [&](std::size_t r) {
-            const auto of_region =
-                r < stage.S_of_region.size() ? stage.S_of_region[r] : std::optional<double>();
-            const bool drains = std::ranges::count(stage.undrained, r) == 0;
-            if (of_region) return drains && *of_region > 0.0;
-            return stage.undrained.empty() && stage.S.value_or(0.0) > 0.0;
-        };
-        for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
-            if (!softens(r)) continue;
-            warn(findings, "drained_softening", "/fem/stages/" + std::to_string(i) + "/S",
-                 "softens \"" + scene.section.regions[r].name +
-                     "\", which drains in this stage: S is of undrained soil; name its region in "
-                     "/undrained, or leave S to the stages in motion");
-            break;
-        }
+void check_drained_softening(const scene::Scene& scene, const scene::Stage& stage,
+                             const std::string& pointer, Findings& findings) {
+    if (stage.kind != scene::StageKind::static_equilibrium) return;
+    const auto softens = [&](std::size_t r) {
+        const auto of_region =
+            r < stage.S_of_region.size() ? stage.S_of_region[r] : std::optional<double>();
+        if (of_region) return *of_region > 0.0 && std::ranges::count(stage.undrained, r) == 0;
+        return stage.undrained.empty() && stage.S.value_or(0.0) > 0.0;
+    };
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        if (!softens(r)) continue;
+        warn(findings, "drained_softening", pointer,
+             "softens \"" + scene.section.regions[r].name +
+                 "\", which drains in this stage: S is of undrained soil; name its region in "
+                 "/undrained, or leave S to the stages in motion");
+        return;
     }
 }
 
@@ -196,8 +191,11 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
 void check_stages(const scene::Scene& scene, Findings& findings) {
     if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
     check_undrained(scene, findings);
-    check_softening(scene, findings);
-    check_drained_softening(scene, findings);
+    for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
+        const std::string pointer = "/fem/stages/" + std::to_string(i) + "/S";
+        check_softening(scene, scene.fem->stages[i], pointer, findings);
+        check_drained_softening(scene, scene.fem->stages[i], pointer, findings);
+    }
     check_changes(scene, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }

@@ -114,7 +114,7 @@ class Calibrator {
     std::vector<Eigen::VectorXd> deviations(const Values& values) const;
 
     OfEach<Estimate> estimates(const Readings& of_law) const;
-    void add_hardening_errors(OfEach<Estimate>& out) const;
+    void add_hardening_errors(const std::vector<Values>& errors, OfEach<Estimate>& out) const;
     void doubt(NorSandFit& fit, bool settled) const;
 
     const NorSandProblem& problem_;
@@ -422,9 +422,9 @@ void Calibrator::fit_hardening(bool from_afar) {
     values_ = with_nodes(x);
 }
 
-/// Standard errors of a and b: the scatter of what two sets of points deviate from their own lines.
+/// Covariance of a and b: the scatter of what two sets of points deviate from their own lines.
 /// The law's own deviations (it is not straight either) are no scatter.
-std::optional<std::array<double, 2>> line_errors(const Points& seen, const Points& own) {
+std::optional<Eigen::Matrix2d> covariance_of_line(const Points& seen, const Points& own) {
     const std::size_t n = seen.x.size();
     if (n < 3 || own.x.size() != n) return std::nullopt;
     const Regression a = line_through(seen), b = line_through(own);
@@ -433,8 +433,7 @@ std::optional<std::array<double, 2>> line_errors(const Points& seen, const Point
         const double rest = seen.y[i] - a.a - a.b * seen.x[i] - (own.y[i] - b.a - b.b * own.x[i]);
         sum += seen.weight[i] * rest * rest;
     }
-    const double variance = sum / static_cast<double>(n - 2);
-    return std::array{std::sqrt(variance * a.inverse(0, 0)), std::sqrt(variance * a.inverse(1, 1))};
+    return sum / static_cast<double>(n - 2) * a.inverse;
 }
 
 OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
@@ -447,14 +446,14 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
         out[k].error = error;
         out[k].tests = tests;
     };
-    const auto part = [](const std::optional<std::array<double, 2>>& errors, std::size_t k) {
-        return errors ? std::optional((*errors)[k]) : std::nullopt;
+    const auto part = [](const std::optional<Eigen::Matrix2d>& covariance, Eigen::Index k) {
+        return covariance ? std::optional(std::sqrt((*covariance)(k, k))) : std::nullopt;
     };
-    const auto line = line_errors(line_points(measured), line_points(of_law));
+    const auto line = covariance_of_line(line_points(measured), line_points(of_law));
     add(Gamma, part(line, 0), line_);
     add(lambda, part(line, 1), line_);
     const Points ratios = friction_points(measured);
-    const auto friction = line_errors(ratios, friction_points(of_law));
+    const auto friction = covariance_of_line(ratios, friction_points(of_law));
     add(M_tc, slope_held_ ? part(friction, 0) : std::nullopt, friction_);
     add(N, part(friction, 1), friction_);
     const Points seen = dilatancy_points(measured, values_);
@@ -477,13 +476,32 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
     };
     if (!slope_held_) assume(N);
     if (dilating_tests().empty()) assume(chi_tc);
-    add_hardening_errors(out);
+    std::vector<Values> errors;
+    const auto add_errors = [&](Sought a, Sought b, const Eigen::Matrix2d& covariance,
+                                double sign) {
+        if (is_given(a) || is_given(b)) return;
+        const Eigen::Matrix2d L = covariance.llt().matrixL();
+        if (!L.allFinite()) return;  // nothing scatters
+        for (const Eigen::Index k : {0, 1}) {
+            errors.push_back({});
+            errors.back()[a] = L(0, k), errors.back()[b] = sign * L(1, k);
+        }
+    };
+    if (line) add_errors(Gamma, lambda, *line, -1.0);
+    if (friction && slope_held_) add_errors(M_tc, N, *friction, 1.0);
+    if (out[chi_tc].error) {
+        errors.push_back({});
+        errors.back()[chi_tc] = *out[chi_tc].error;
+    }
+    add_hardening_errors(errors, out);
     return out;
 }
 
 /// From the scatter between tests (rows of one test are no independent witnesses): the sandwich
-/// A^-1 (sum g_i g_i^T) A^-1 of the tests' gradients g_i.
-void Calibrator::add_hardening_errors(OfEach<Estimate>& out) const {
+/// A^-1 (sum g_i g_i^T) A^-1 of the tests' gradients g_i. To it comes what the other parameters'
+/// errors, each one standard error long and none correlated with another, move the fit by.
+void Calibrator::add_hardening_errors(const std::vector<Values>& errors,
+                                      OfEach<Estimate>& out) const {
     if (is_given(H_0)) return;
     out[H_0].tests = hardening_;
     const bool two = node_psi_.size() == 2;
@@ -505,7 +523,16 @@ void Calibrator::add_hardening_errors(OfEach<Estimate>& out) const {
     }
     const Eigen::MatrixXd inverse = A.inverse();
     const double few = static_cast<double>(n) / static_cast<double>(n - node_psi_.size());
-    const Eigen::MatrixXd covariance = few * inverse * B * inverse;
+    Eigen::MatrixXd covariance = few * inverse * B * inverse;
+    for (const Values& error : errors) {
+        Values moved = with_nodes(x);
+        for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += error[k];
+        const auto there = deviations(moved);
+        Eigen::VectorXd g = Eigen::VectorXd::Zero(x.size());
+        for (std::size_t i = 0; i < n; ++i) g += J[i].transpose() * (there[i] - here[i]);
+        const Eigen::VectorXd d = inverse * g;
+        covariance += d * d.transpose();
+    }
     Eigen::MatrixXd by_nodes = Eigen::MatrixXd::Zero(2, x.size());  // d(H_0, H_psi) / d ln H
     if (two) {
         const double width = node_psi_[1] - node_psi_[0];

@@ -30,7 +30,6 @@ Spot spot_in(const std::vector<double>& table, double x) {
 }  // namespace
 
 StrengthByState::StrengthByState(const NorSand& law, OnPath part) : law_(law), part_(part) {
-    K_0_ = law.elasticity.nu / (1.0 - law.elasticity.nu);
     const double theta = norsand::plane_critical_angle(law.ready);
     tau_over_p_ = norsand::critical_ratio(law.ready, theta) * std::cos(theta) / std::numbers::sqrt3;
     if (law.psi_0_profile) {
@@ -48,25 +47,22 @@ StrengthByState::StrengthByState(const NorSand& law, OnPath part) : law_(law), p
             ln_ratio_.push_back(std::log(ratio_from(psi, std::exp(ln_stress))));
 }
 
-double StrengthByState::psi_at(const Place& place) const {
-    return law_.psi_0_profile ? law_.psi_0_profile->at(place) : psi_.front();
-}
-
 double StrengthByState::ratio_from(double psi, double sigma_v0) const {
     constexpr double far = 20.0;  // times p: farther than any u but that of deep water
     NorSand law = law_;
     law.psi_0_profile.reset();
     if (!law.e_0) law.psi_0 = psi;
-    const auto begun = beginning(law, {-K_0_ * sigma_v0, -sigma_v0, -K_0_ * sigma_v0, 0.0});
-    const double p = (1.0 + 2.0 * K_0_) / 3.0 * sigma_v0;
-    const auto found = norsand::simple_shear_strength(law.ready, begun.state, far * p);
+    const double sigma_h0 = K_0(law) * sigma_v0;
+    const auto begun = beginning(law, {-sigma_h0, -sigma_v0, -sigma_h0, 0.0});
+    const auto found =
+        norsand::simple_shear_strength(law.ready, begun.state, far * level_ground_p(law, sigma_v0));
     return (part_ == OnPath::peak ? found.peak : found.critical) / sigma_v0;
 }
 
 double StrengthByState::at(const Place& place, double u) const {
     const double sigma_v0 = std::max(place.sigma_v0, 0.0);
     // Below the table soil is as strong as at its least stress: that is the floor p_min's.
-    const Spot row = spot_in(psi_, psi_at(place));
+    const Spot row = spot_in(psi_, psi_at(law_, place));
     const Spot column = spot_in(ln_stress_, std::log(std::max(sigma_v0, least_stress)));
     const auto of_row = [&](std::size_t i) {
         const double* ratios = ln_ratio_.data() + i * ln_stress_.size() + column.before;
@@ -74,7 +70,7 @@ double StrengthByState::at(const Place& place, double u) const {
     };
     double ln_ratio = of_row(row.before);
     if (row.share > 0.0) ln_ratio += row.share * (of_row(row.before + 1) - ln_ratio);
-    const double p = (1.0 + 2.0 * K_0_) / 3.0 * sigma_v0;
+    const double p = level_ground_p(law_, sigma_v0);
     const double most = tau_over_p_ * std::max(p + std::max(u, 0.0), law_.ready.parameters.p_min);
     return std::min(std::exp(ln_ratio) * std::max(sigma_v0, least_stress), most);
 }

@@ -21,13 +21,11 @@ class StrengthByState {
     double at(const Place& place, double u) const;
 
   private:
-    double psi_at(const Place& place) const;
     /// tau / sigma'_v0 of the path from this vertical effective stress [Pa].
     double ratio_from(double psi, double sigma_v0) const;
 
     NorSand law_;
     OnPath part_;
-    double K_0_;
     double tau_over_p_;              ///< at the critical state
     std::vector<double> psi_;        ///< ascending; one: the same everywhere, or of e_0
     std::vector<double> ln_stress_;  ///< ascending

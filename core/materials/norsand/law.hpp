@@ -27,6 +27,21 @@ struct NorSand {
 
 inline const NorSand& ready(const NorSand& law) { return law; }
 
+/// sigma'_h / sigma'_v of level ground [-], by the elastic stages.
+inline double K_0(const NorSand& law) { return law.elasticity.nu / (1.0 - law.elasticity.nu); }
+/// p' of level ground under sigma'_v0 [Pa].
+inline double level_ground_p(const NorSand& law, double sigma_v0) {
+    return (1.0 + 2.0 * K_0(law)) / 3.0 * sigma_v0;
+}
+/// The state parameter where sigma'_v0 consolidated level ground [-].
+inline double psi_at(const NorSand& law, const Place& place) {
+    if (law.psi_0_profile) return law.psi_0_profile->at(place);
+    if (!law.e_0) return law.psi_0.value_or(0.0);
+    const double p = level_ground_p(law, place.sigma_v0);
+    return *law.e_0 -
+           norsand::critical_void_ratio(law.ready, std::max(p, law.ready.parameters.p_min));
+}
+
 /// Its tangent in the FEM is the elastic predictor's, which is symmetric.
 inline Traits traits(const NorSand&) {
     return {.type = "norsand",

@@ -76,6 +76,26 @@ TEST(Check, SofteningOfSoilThatDrainsIsWarnedOf) {
     EXPECT_FALSE(warned({"/fem/stages/1/S=0"}));
 }
 
+TEST(Check, NorSandsUndrainedStrengthIsOfWetSoil) {
+    const Checked dry = changed("static_lift", {"/lem/water/regions=[\"foundation\"]"});
+    expect_only(dry, "/lem/undrained/0/norsand", "without water");
+    const std::string r_u = R"(/lem/pore_pressure_ratios=[{"region":"tailings","r_u":0.3}])";
+    EXPECT_TRUE(
+        changed("static_lift", {"/lem/water/regions=[\"foundation\"]", r_u}).faults.empty());
+}
+
+TEST(Check, SoilThatFailsUndrainedHasAStrength) {
+    expect_only(changed("static_lift", {R"(/lem/undrained=[{"region":"tailings"}])"}),
+                "/lem/undrained/0", "s_u would be 0");
+    const std::string layer = R"(/lem/liquefaction=[{"region":"tailings"}])";
+    EXPECT_TRUE(has_warning(changed("static_lift", {layer}), "no_residual_strength",
+                            "/lem/liquefaction/0"));
+    const std::string residual =
+        R"(/lem/liquefaction=[{"region":"tailings","residual_strength_kPa":5}])";
+    EXPECT_FALSE(has_warning(changed("static_lift", {residual}), "no_residual_strength",
+                             "/lem/liquefaction/0"));
+}
+
 TEST(Check, AMeshFileThatIsMissingOrNoMeshIsRefused) {
     expect_only(changed("slope", {"/fem/msh_file=nowhere.msh"}), "/fem/msh_file", "does not exist");
     expect_only(changed("slope", {"/fem/msh_file=/dev/zero"}), "/fem/msh_file", "cannot be read");

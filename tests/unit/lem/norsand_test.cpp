@@ -34,7 +34,7 @@ NorSand tailings(const scene::Scene& scene) {
 
 /// The law's path in simple shear at this stress, not tabulated.
 double ratio_by_path(const NorSand& law, double sigma_v0, OnPath part) {
-    const double K_0 = law.elasticity.nu / (1.0 - law.elasticity.nu);
+    const double K_0 = materials::K_0(law);
     const auto begun = beginning(law, {-K_0 * sigma_v0, -sigma_v0, -K_0 * sigma_v0, 0.0});
     const auto found =
         materials::norsand::simple_shear_strength(law.ready, begun.state, 20.0 * sigma_v0);
@@ -63,7 +63,7 @@ TEST(NorSandByState, TheTableIsThePathBetweenItsRowsToo) {
 
 TEST(NorSandByState, ResidualIsTheCriticalStatesShearAtTheVoidRatioThatStays) {
     const NorSand law = tailings(with());
-    const double sigma_v0 = 100e3, K_0 = law.elasticity.nu / (1.0 - law.elasticity.nu);
+    const double sigma_v0 = 100e3, K_0 = materials::K_0(law);
     const auto begun = beginning(law, {-K_0 * sigma_v0, -sigma_v0, -K_0 * sigma_v0, 0.0});
     const double theta = materials::norsand::plane_critical_angle(law.ready);
     const double expected = materials::norsand::critical_ratio(law.ready, theta) * std::cos(theta) /

@@ -28,6 +28,12 @@ struct Block {
     json stages = json::array({{{"type", "static"}, {"name", "gravity"}}});
 };
 
+inline json static_stage(const char* name, const json& more = json::object()) {
+    json stage{{"type", "static"}, {"name", name}};
+    stage.update(more);
+    return stage;
+}
+
 /// A rectangle on a fixed base between smooth walls.
 inline json scene_of(const Block& b) {
     const double W = b.width, H = b.height;
@@ -86,6 +92,12 @@ class Run {
     process::Session session_;
     Analysis analysis_;
 };
+
+/// Displacement of the node next to x [m].
+inline Vec2 u_at(const Analysis& done, const Vec2& x) {
+    const std::size_t node = nearest_node(done.model().mesh, x);
+    return done.motion().u.segment<2>(static_cast<Eigen::Index>(2 * node));
+}
 
 /// Where a scene is refused, by reading, checking or building; empty: nowhere.
 inline std::string place_refused(const json& scene) {

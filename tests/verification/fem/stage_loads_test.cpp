@@ -11,22 +11,13 @@ namespace {
 using bench::cj1;
 using bench::expect_error;
 using bench::place_refused;
+using bench::static_stage;
+using bench::u_at;
 using nlohmann::json;
 
 constexpr double E = 20e6, nu = 0.3, q = 50e3;
 constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));  // one-dimensional [Pa]
 constexpr double G = E / (2.0 * (1.0 + nu));
-
-json static_stage(const char* name, const json& more = json::object()) {
-    json stage{{"type", "static"}, {"name", name}};
-    stage.update(more);
-    return stage;
-}
-
-Vec2 u_at(const Analysis& done, const Vec2& x) {
-    const std::size_t node = nearest_node(done.model().mesh, x);
-    return done.motion().u.segment<2>(static_cast<Eigen::Index>(2 * node));
-}
 
 /// A block on a smooth base and, at its left, a smooth wall: free to widen.
 json free_block(bench::Block block, const std::string& element) {

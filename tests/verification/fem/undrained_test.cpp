@@ -12,15 +12,11 @@ namespace norsand = materials::norsand;
 using bench::cj1;
 using bench::expect_error;
 using bench::place_refused;
+using bench::static_stage;
+using bench::u_at;
 using nlohmann::json;
 
 constexpr double g = 9.81, rho = 2000.0, rho_w = 1000.0;
-
-json stage(const char* name, const json& more = json::object()) {
-    json made{{"type", "static"}, {"name", name}};
-    made.update(more);
-    return made;
-}
 
 /// Saturated up to the ground.
 json wet_block(bench::Block block, const std::string& element) {
@@ -41,20 +37,17 @@ TEST(Undrained, AnElasticColumnIsHeldByItsWaterAndSettlesWhenItDrains) {
     constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
     constexpr double K_w = 2.2e9 * 1.8 / 0.8;  // K_f / n
     for (const std::string element : {"ssp", "bbar"}) {
-        json scene = wet_block(
-            {.height = H,
-             .rows = 6,
-             .gravity = 0.0,
-             .stages = {stage("rest"), stage("load", {{"undrained", {"block"}},
-                                                      {"load_steps", 2},
-                                                      {"surcharge", surcharge(q / 1e3)}})}},
-            element);
+        json scene =
+            wet_block({.height = H,
+                       .rows = 6,
+                       .gravity = 0.0,
+                       .stages = {static_stage("rest"),
+                                  static_stage("load", {{"undrained", {"block"}},
+                                                        {"load_steps", 2},
+                                                        {"surcharge", surcharge(q / 1e3)}})}},
+                      element);
         scene["fem"]["force_tolerance"] = 1e-10;
-        const std::size_t top = 1;
-        const auto settled = [&](const Analysis& done) {
-            const std::size_t node = nearest_node(done.model().mesh, {1, H});
-            return -done.motion().u[static_cast<Eigen::Index>(2 * node + top)];
-        };
+        const auto settled = [&](const Analysis& done) { return -u_at(done, {1, H}).y(); };
         bench::Run held(scene);
         const Analysis& undrained = held.go();
         expect_error(element + ": undrained settlement",
@@ -62,7 +55,7 @@ TEST(Undrained, AnElasticColumnIsHeldByItsWaterAndSettlesWhenItDrains) {
         expect_error(element + ": excess pore pressure",
                      (undrained.motion().p.array() / (q * K_w / (M + K_w)) - 1.0).abs().maxCoeff(),
                      1e-6);
-        scene["fem"]["stages"].push_back(stage("drain", {{"load_steps", 2}}));
+        scene["fem"]["stages"].push_back(static_stage("drain", {{"load_steps", 2}}));
         bench::Run drained(scene);
         const Analysis& settles = drained.go();
         expect_error(element + ": settlement once it has drained",
@@ -109,18 +102,18 @@ json without_sides(json scene) {
 TEST(Undrained, ACoupledQuadOfNorSandShearsAsThePointDoes) {
     constexpr int steps = 50;
     constexpr double gamma = 0.01;
-    const json shear =
-        stage("shear",
-              {{"laws", "scene"},
-               {"load_steps", steps},
-               {"undrained", {"block"}},
-               {"displace", {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"x", gamma}}}}});
+    const json shear = static_stage(
+        "shear",
+        {{"laws", "scene"},
+         {"load_steps", steps},
+         {"undrained", {"block"}},
+         {"displace", {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"x", gamma}}}}});
     for (const std::string element : {"ssp", "bbar"}) {
-        json scene = without_sides(
-            wet_block({.law = cj1(0.05, 0.7),
-                       .density = 8000.0,
-                       .stages = {stage("gravity"), stage("law", {{"laws", "scene"}})}},
-                      element));
+        json scene = without_sides(wet_block(
+            {.law = cj1(0.05, 0.7),
+             .density = 8000.0,
+             .stages = {static_stage("gravity"), static_stage("law", {{"laws", "scene"}})}},
+            element));
         scene["fem"]["force_tolerance"] = 1e-9;
         scene["fem"]["largest_iterations"] = 100;
         EndlessRun before(scene);
@@ -143,23 +136,24 @@ TEST(Undrained, ACoupledQuadOfNorSandShearsAsThePointDoes) {
 }
 
 json shear_column(double k_h, int rows, double stabilisation, double duration) {
-    json scene = without_sides(wet_block({.height = 8.0,
-                                          .rows = rows,
-                                          .law = cj1(0.05, 0.7),
-                                          .density = rho,
-                                          .stages = {stage("gravity"),
-                                                     stage("law", {{"laws", "scene"}}),
-                                                     stage("shear", {{"laws", "scene"},
-                                                                     {"load_steps", 40},
-                                                                     {"undrained", {"block"}},
-                                                                     {"seismic_coefficient", k_h},
-                                                                     {"at_limit", "go_on"}}),
-                                                     {{"type", "dynamic"},
-                                                      {"name", "run"},
-                                                      {"duration", duration},
-                                                      {"time_step", std::min(5e-3, duration)},
-                                                      {"ramp", 0.05}}}},
-                                         "ssp"));
+    json scene =
+        without_sides(wet_block({.height = 8.0,
+                                 .rows = rows,
+                                 .law = cj1(0.05, 0.7),
+                                 .density = rho,
+                                 .stages = {static_stage("gravity"),
+                                            static_stage("law", {{"laws", "scene"}}),
+                                            static_stage("shear", {{"laws", "scene"},
+                                                                   {"load_steps", 40},
+                                                                   {"undrained", {"block"}},
+                                                                   {"seismic_coefficient", k_h},
+                                                                   {"at_limit", "go_on"}}),
+                                            {{"type", "dynamic"},
+                                             {"name", "run"},
+                                             {"duration", duration},
+                                             {"time_step", std::min(5e-3, duration)},
+                                             {"ramp", 0.05}}}},
+                                "ssp"));
     scene["fem"]["largest_iterations"] = 200;
     scene["fem"]["water"]["pressure_stabilisation"] = stabilisation;
     return scene;
@@ -197,18 +191,19 @@ TEST(Undrained, DenseNorSandBiaxiallyCompressedPeaksAsFlacDid) {
          .law = cj1(-0.05, 0.95),
          .gravity = 0.0,
          .stages = {
-             stage("cell", {{"surcharge", top},
-                            {"pressures",
-                             {{{"name", "cell"},
-                               {"from", {1, 0}},
-                               {"to", {1, 1}},
-                               {"pressure_kPa", cell}}}}}),
-             stage("law", {{"laws", "scene"}}),
-             stage("drive",
-                   {{"laws", "scene"},
-                    {"load_steps", 200},
-                    {"displace",
-                     {{{"name", "platen"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -0.05}}}}})}});
+             static_stage("cell", {{"surcharge", top},
+                                   {"pressures",
+                                    {{{"name", "cell"},
+                                      {"from", {1, 0}},
+                                      {"to", {1, 1}},
+                                      {"pressure_kPa", cell}}}}}),
+             static_stage("law", {{"laws", "scene"}}),
+             static_stage(
+                 "drive",
+                 {{"laws", "scene"},
+                  {"load_steps", 200},
+                  {"displace",
+                   {{{"name", "platen"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -0.05}}}}})}});
     json& supports = scene["fem"]["supports"];
     supports.erase(1);
     supports[1]["fixes"] = "y";
@@ -230,36 +225,34 @@ TEST(Undrained, DenseNorSandBiaxiallyCompressedPeaksAsFlacDid) {
 TEST(StageLoads, PressureOnASideAndADisplacedEdgeGiveTheClosedForms) {
     constexpr double E = 20e6, nu = 0.3, q = 50e3;
     constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    json scene = bench::scene_of({.columns = 2,
-                                  .rows = 2,
-                                  .gravity = 0.0,
-                                  .stages = {stage("press", {{"pressures",
-                                                              {{{"name", "side"},
-                                                                {"from", {1, 0}},
-                                                                {"to", {1, 1}},
-                                                                {"pressure_kPa", q / 1e3}}}}})}});
+    json scene =
+        bench::scene_of({.columns = 2,
+                         .rows = 2,
+                         .gravity = 0.0,
+                         .stages = {static_stage("press", {{"pressures",
+                                                            {{{"name", "side"},
+                                                              {"from", {1, 0}},
+                                                              {"to", {1, 1}},
+                                                              {"pressure_kPa", q / 1e3}}}}})}});
     json& supports = scene["fem"]["supports"];
     supports.erase(1);
     supports[1]["fixes"] = "y";
-    const auto u_at = [](const Analysis& done, const Vec2& x) -> Vec2 {
-        const std::size_t node = nearest_node(done.model().mesh, x);
-        return done.motion().u.segment<2>(static_cast<Eigen::Index>(2 * node));
-    };
     bench::Run pressed(scene);
     const Vec2 u = u_at(pressed.go(), {1, 1});
     expect_error("a side under pressure moves in", std::abs(-u.x() / ((1 - nu * nu) * q / E) - 1.0),
                  1e-8);
-    scene["fem"]["stages"].push_back(stage("let go", {{"pressures", json::array()}}));
+    scene["fem"]["stages"].push_back(static_stage("let go", {{"pressures", json::array()}}));
     bench::Run let_go(scene);
     EXPECT_NEAR(u_at(let_go.go(), {1, 1}).norm(), 0.0, 1e-12);
 
     json moved = bench::scene_of({.columns = 2, .rows = 2, .gravity = 0.0});
     moved["fem"]["stages"] = {
-        stage("rest"),
-        stage("drive",
-              {{"load_steps", 3},
-               {"displace", {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -1e-3}}}}}),
-        stage("hold", {{"surcharge", surcharge(20)}})};
+        static_stage("rest"),
+        static_stage(
+            "drive",
+            {{"load_steps", 3},
+             {"displace", {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -1e-3}}}}}),
+        static_stage("hold", {{"surcharge", surcharge(20)}})};
     bench::Run run(moved);
     expect_error("stress under a displaced edge, which then stays",
                  std::abs(run.go().motion().points.at(0).sigma[1] / (-M * 1e-3) - 1.0), 1e-8);
@@ -276,17 +269,15 @@ TEST(StageLoads, ALocalOverpressureComesAndGoes) {
         {"water_boundaries",
          {{{"name", "base"}, {"from", {0, 0}}, {"to", {1, 0}}, {"level", H + head}}}}};
     json scene = wet_block(
-        {.height = H, .rows = 6, .stages = {stage("gravity"), stage("over", over)}}, "ssp");
-    const auto settled = [H](const Analysis& done) {
-        const std::size_t node = nearest_node(done.model().mesh, {1, H});
-        return -done.motion().u[static_cast<Eigen::Index>(2 * node + 1)];
-    };
+        {.height = H, .rows = 6, .stages = {static_stage("gravity"), static_stage("over", over)}},
+        "ssp");
+    const auto settled = [H](const Analysis& done) { return -u_at(done, {1, H}).y(); };
     const double own = (rho - rho_w) * g * H * H / (2.0 * M);
     bench::Run run(scene);  // the excess falls along a straight line from the base to the ground
     expect_error("settlement under an overpressure of 4 m of water at the base",
                  std::abs(settled(run.go()) / (own - rho_w * g * head * H / (2.0 * M)) - 1.0),
                  1e-8);
-    scene["fem"]["stages"].push_back(stage("gone", {{"water_boundaries", json::array()}}));
+    scene["fem"]["stages"].push_back(static_stage("gone", {{"water_boundaries", json::array()}}));
     bench::Run gone(scene);
     expect_error("settlement when it has gone", std::abs(settled(gone.go()) / own - 1.0), 1e-8);
 }
@@ -304,11 +295,11 @@ TEST(StageLoads, PsiOverDepthBeginsEachPointWithItsOwn) {
     };
     for (const std::string by : {"depth", "elevation"}) {
         law["psi_0_profile"]["by"] = by;
-        json scene =
-            bench::scene_of({.height = 4.0,
-                             .rows = 4,
-                             .law = law,
-                             .stages = {stage("gravity"), stage("law", {{"laws", "scene"}})}});
+        json scene = bench::scene_of(
+            {.height = 4.0,
+             .rows = 4,
+             .law = law,
+             .stages = {static_stage("gravity"), static_stage("law", {{"laws", "scene"}})}});
         scene["fem"]["element"] = "ssp";
         scene["fem"]["force_tolerance"] = 1e-9;
         bench::Run run(scene);
@@ -328,17 +319,17 @@ TEST(StageLoads, WhatCannotBeIsRefusedWithItsPlace) {
         if (!wet) scene["fem"].erase("water");
         return place_refused(scene);
     };
-    const json gravity = stage("a");
-    EXPECT_EQ(refused(gravity, stage("b", held)), "");
-    EXPECT_EQ(refused(stage("a", held), gravity), "/fem/stages/0/undrained");
-    EXPECT_EQ(refused(gravity, stage("b", held), false), "/fem/stages/1/undrained");
+    const json gravity = static_stage("a");
+    EXPECT_EQ(refused(gravity, static_stage("b", held)), "");
+    EXPECT_EQ(refused(static_stage("a", held), gravity), "/fem/stages/0/undrained");
+    EXPECT_EQ(refused(gravity, static_stage("b", held), false), "/fem/stages/1/undrained");
     json rises = held;
     rises["phreatic_line"] = {{0, 1}};
-    EXPECT_EQ(refused(gravity, stage("b", rises)), "/fem/stages/1/phreatic_line");
+    EXPECT_EQ(refused(gravity, static_stage("b", rises)), "/fem/stages/1/phreatic_line");
     const auto on = [](const char* key, double x, const json& more) {
         json each{{"name", "edge"}, {"from", {x, 0}}, {"to", {x, 2}}};
         each.update(more);
-        return stage("b", {{key, json::array({each})}});
+        return static_stage("b", {{key, json::array({each})}});
     };
     EXPECT_EQ(refused(gravity, on("displace", 5, {{"x", 0.1}})), "/fem/stages/1/displace/0");
     EXPECT_EQ(refused(gravity, on("displace", 1, json::object())), "/fem/stages/1/displace/0");
