@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
+#include "services/orchestrator/accuracy/neighbours.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 
@@ -207,6 +208,38 @@ class Scatter {
     std::map<Place, std::string> tasks_;
 };
 
+/// What the runouts of a variant scatter by over the transfer time.
+class OverTransferTime {
+  public:
+    explicit OverTransferTime(const std::vector<ResultRow>& rows) {
+        std::map<std::string, std::map<double, double>> curves;
+        for (const ResultRow& row : rows) {
+            const json& time = value_of(row, "transfer_time");
+            if (time.is_number() && value_of(row, "runout").is_number())
+                curves[value_of(row, "variant")].emplace(time, value_of(row, "runout"));
+        }
+        for (const auto& [variant, curve] : curves) {
+            std::vector<CurvePoint> samples;
+            for (const auto& [time, runout] : curve) samples.push_back({time, runout});
+            const auto scatter = scatter_among_neighbours(samples);
+            for (std::size_t i = 0; i < samples.size(); ++i)
+                if (scatter[i]) scatter_.emplace(Place{variant, samples[i].x}, *scatter[i]);
+        }
+    }
+
+    std::optional<Estimate> estimate(const ResultRow& row) const {
+        const auto found =
+            scatter_.find(place_at(value_of(row, "variant"), value_of(row, "transfer_time")));
+        if (found == scatter_.end()) return std::nullopt;
+        return Estimate{found->second,
+                        "scatter among neighbouring transfer times: noise and the curve's own "
+                        "bends, not the error of the setting"};
+    }
+
+  private:
+    std::map<Place, double> scatter_;
+};
+
 /// Bias by an accuracy study and scatter by the draws themselves.
 Estimate of_mean(const std::optional<Estimate>& studied, Estimate scatter) {
     if (!studied || !studied->bias || !scatter.error) return scatter;
@@ -219,6 +252,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
                         std::vector<ResultRow>& rows, std::vector<ResultRow>& means) {
     Studies studies(store, data);
     const Scatter scatter(store, run);
+    const OverTransferTime over_time(rows);
     std::map<std::string, std::optional<Estimate>> by_variant;
     for (ResultRow& row : rows) {
         if (!value_of(row, "runout").is_number()) continue;
@@ -234,10 +268,12 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         std::optional<Estimate> estimate = known->second;
         if (!estimate || !estimate->error)
             if (auto noise = scatter.estimate(row)) estimate = std::move(noise);
+        if (!estimate || !estimate->error)
+            if (auto noise = over_time.estimate(row)) estimate = std::move(noise);
         if (!estimate)
             estimate = Estimate{std::nullopt,
                                 "no accuracy study has this scene at this setting, and the sweep "
-                                "has no draws"};
+                                "has no draws and too few transfer times"};
         if (estimate->error) field(row, "runout_error", result_columns()) = *estimate->error;
         field(row, "runout_error_from", result_columns()) = estimate->from;
     }

@@ -1,6 +1,6 @@
 // How far a runout of any sweep is off, where something tells it: an accuracy study of the same
-// scene at the same setting, or the repeats that the sweep itself asks for. Else nothing, with the
-// reason.
+// scene at the same setting, the repeats that the sweep itself asks for, or its neighbours in transfer
+// time. Else nothing, with the reason.
 #pragma once
 
 #include <string>

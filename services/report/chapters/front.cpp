@@ -153,9 +153,10 @@ std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
 
 /// How far the number is to be believed: what is known of its error, and its result's doubts.
 std::string worth_of(const PhaseFolder& mpm) {
-    std::string text = mpm.runout_error ? "\u00b1 " + rounded(*mpm.runout_error, 2) +
-                                              " m: " + mpm.runout_error_from
-                                        : "its error is not known: no accuracy study, no draws";
+    std::string text =
+        mpm.runout_error
+            ? "\u00b1 " + rounded(*mpm.runout_error, 2) + " m: " + mpm.runout_error_from
+            : "its error is not known: no accuracy study, no draws, no neighbours";
     if (const std::string end = how_it_ended(mpm); end != "well") text += "; " + end;
     return text;
 }

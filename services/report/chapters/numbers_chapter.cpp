@@ -54,15 +54,16 @@ Table table_of(const Run& run, const std::string& phase, const std::string& titl
     return table;
 }
 
-/// How far each runout is off, as far as an accuracy study or the run's own draws tell it.
+/// How far each runout is off, as far as an accuracy study, the run's own draws or neighbours in
+/// transfer time tell it.
 Table errors_of(const Run& run) {
     Table table{"numbers_runout_error",
                 "How far the runouts are off",
                 {"run", "t_T [s]", "variant", "runout [m]", "error of one run [m]", "from"},
                 {},
                 "The error of a setting (bias and scatter against a reference) comes from an "
-                "accuracy study of the same scene at the same setting; draws tell the scatter "
-                "alone."};
+                "accuracy study of the same scene at the same setting; draws, and neighbours in "
+                "transfer time, tell the scatter alone."};
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->runout_error_from.empty()) continue;
         table.rows.push_back({each->label,

@@ -84,9 +84,8 @@ Figure runout_against_time(const Material& from) {
         "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
         "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
         "is a lower bound; hollow and dashed: questionable (table of flags); pale: its "
-        "result carries no flags. Where an accuracy study or draws tell the error of one run, it "
-        "is "
-        "drawn as a band."};
+        "result carries no flags. Where an accuracy study, draws or the neighbours in "
+        "transfer time tell the error of one run, it is drawn as a band."};
     for (const std::string& variant : variants_of(from.run)) {
         Series s{variant.empty() ? "runout" : variant, {}, {}, Style::line_and_points};
         for (const PhaseFolder* each : runouts_of(from.run, variant)) {

@@ -276,6 +276,28 @@ TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
     EXPECT_GT(squares, 0.0);
 }
 
+TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json sweep = accuracy_study();
+    sweep.erase("accuracy");
+    sweep["transfer_times"] = {0.25, 0.5, 0.75, 1.0, 1.25};
+    const std::string run = service.submit(sweep);
+    service.wait_for_end(run);
+    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
+    ASSERT_EQ(rows.size(), 5u);
+    const auto runout = [&](std::size_t i) { return rows[i].at("runout").get<double>(); };
+    double squares = 0.0;
+    for (const std::size_t i : {1, 2, 3})
+        squares += std::pow((runout(i - 1) + runout(i + 1)) / 2 - runout(i), 2) / 1.5;
+    for (const json& row : rows) {
+        EXPECT_NEAR(row.at("runout_error").get<double>(), std::sqrt(squares / 3), 1e-9);
+        EXPECT_TRUE(row.at("runout_error_from")
+                        .get<std::string>()
+                        .starts_with("scatter among neighbouring transfer times"));
+    }
+}
+
 // The shifts of the first three lattices are 0, 0.4588 and 0.0176, and each moves the runout by 2 cm.
 json drawn_study(const std::string& title = "") {
     json sweep = study("by_cell=1 fem_steps=1 mpm_steps=1 " + title, {0.5, 0.75});
