@@ -5,6 +5,8 @@
 #include <cassert>
 #include <map>
 
+#include "core/phases/phases.hpp"
+
 namespace breach::orchestrator {
 
 using nlohmann::json;
@@ -61,7 +63,7 @@ std::optional<double> result_of(const SampleRow& sample, std::string_view quanti
 }
 
 bool is_lower_bound(const SampleRow& sample, std::string_view quantity) {
-    return grows(quantity) && sample.row && value_of(*sample.row, "at_rest") == false;
+    return phases::grows(quantity) && sample.row && value_of(*sample.row, "at_rest") == false;
 }
 
 std::string first_quantity(const Ensemble& ensemble) {

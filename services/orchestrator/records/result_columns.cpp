@@ -84,10 +84,6 @@ const json& value_of(const ResultRow& row, std::string_view name) {
     return row[static_cast<std::size_t>(found - columns.begin())];
 }
 
-bool grows(std::string_view column) {
-    return column.starts_with("runout") || column.starts_with("area");
-}
-
 std::string codes_of(const json& flags) {
     std::string codes;
     std::set<std::string> said;

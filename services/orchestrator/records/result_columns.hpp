@@ -46,9 +46,6 @@ struct ResultTable {
 /// The value of the column with this name.
 const nlohmann::json& value_of(const ResultRow& row, std::string_view name);
 
-/// Soil that moves on only adds to this result: one of a runout that was cut off is a lower bound.
-bool grows(std::string_view column);
-
 /// "still_moving;implausible": the codes of a list of flags, each once.
 std::string codes_of(const nlohmann::json& flags);
 

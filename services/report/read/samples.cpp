@@ -1,7 +1,6 @@
 #include "services/report/read/samples.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/phases/phases.hpp"
@@ -53,14 +52,8 @@ std::vector<const PhaseFolder*> moving_samples(const Run& run) {
     return found;
 }
 
-bool grows(const std::string& quantity) {
-    constexpr std::array beginnings{"runout", "area", "deposit"};
-    return std::ranges::any_of(beginnings,
-                               [&](const char* each) { return quantity.starts_with(each); });
-}
-
 bool is_lower_bound(const Run& run, const std::string& quantity, double value) {
-    if (!grows(quantity)) return false;
+    if (!phases::grows(quantity)) return false;
     const auto moving = moving_samples(run);
     return std::ranges::any_of(moving, [&](const PhaseFolder* each) {
         const json own = each->result.value(quantity, json());

@@ -22,8 +22,6 @@ std::string why_no_percentile(const nlohmann::json& quantity, double p);
 std::vector<const PhaseFolder*> sampled_runouts(const Run& run);
 /// Those among them whose soil still moved when they were stopped.
 std::vector<const PhaseFolder*> moving_samples(const Run& run);
-/// Soil that moves on only adds to a quantity of this name.
-bool grows(const std::string& quantity);
 /// Some sample at or below this value of the quantity was stopped while it grew: a percentile of the
 /// value is a lower bound then.
 bool is_lower_bound(const Run& run, const std::string& quantity, double value);

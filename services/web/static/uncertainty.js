@@ -20,7 +20,7 @@ const has_result = (row) => Object.values(row.results ?? {}).some(Number.isFinit
 const plural = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 /// Soil that moves on only adds to these.
-const grows = (quantity) => /^(runout|area|deposit)/.test(quantity);
+const grows = (quantity) => /^(runout|area)/.test(quantity);
 
 export class Uncertainty {
     /// open_task(id), ask(sample): the task behind a sample; where its numbers come from.
