@@ -50,12 +50,14 @@ struct Edge {
 
 LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& regions,
                              double threshold)
-    : deepest_(nowhere) {
+    : highest_(-nowhere), lowest_(nowhere), deepest_(nowhere) {
     std::vector<Edge> edges;
     const std::vector<Reach> reach = reaches(mesh, regions);
     const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
     for (std::size_t i = 0; i < reach.size(); ++i) {
         if (!reach[i].counts) continue;
+        highest_ = std::max(highest_, mesh.position_0[i].y());
+        lowest_ = std::min(lowest_, mesh.position_0[i].y());
         if (pore_pressure_ratio(excess[i], mesh.sigma_v0[i]) <= threshold) continue;
         const Vec2& place = mesh.position_0[i];
         edges.push_back({place.x() - reach[i].left, place.y(), true});
@@ -73,6 +75,27 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
         if (i + 1 < edges.size() && edges[i + 1].x == edges[i].x) continue;
         level_from_[edges[i].x] = open.empty() ? nowhere : *open.begin();
     }
+}
+
+std::vector<LiquefiedGap> LiquefiedZone::gaps() const {
+    const double large = 0.2 * (highest_ - lowest_), thin = 0.025 * (highest_ - lowest_);
+    const auto level = [&](const auto& column) { return std::min(column->second, highest_); };
+    std::vector<LiquefiedGap> gaps;
+    for (auto before = level_from_.begin(); before != level_from_.end(); ++before) {
+        const auto first = std::next(before);
+        if (first == level_from_.end()) break;
+        const double rises_to = level(first);
+        if (rises_to - level(before) < large) continue;
+        auto after = std::next(first);
+        while (after != level_from_.end() && rises_to - level(after) < large) ++after;
+        if (after == level_from_.end()) break;
+        const double width = after->first - first->first;
+        if (width >= thin && width <= large)
+            gaps.push_back(
+                {first->first, after->first, rises_to, std::max(level(before), level(after))});
+        before = std::prev(after);
+    }
+    return gaps;
 }
 
 bool LiquefiedZone::holds(const Vec2& place) const {

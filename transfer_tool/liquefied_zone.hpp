@@ -11,6 +11,13 @@ namespace breach::transfer {
 
 using mechanics::Vec2;
 
+/// Columns that have liquefied less deep than those on both sides of them.
+struct LiquefiedGap {
+    double from, to;  ///< [m]
+    double level;     ///< down to which they have liquefied; the highest soil if not at all [m]
+    double beside;    ///< the same of the shallower side [m]
+};
+
 /// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold. It stands for the
 /// column between the middles of its elements to the left and to the right; everything above the
 /// deepest liquefied node of a column is liquefied. All on the undeformed mesh.
@@ -25,10 +32,14 @@ class LiquefiedZone {
     std::size_t liquefied_nodes() const { return nodes_; }
     /// Lowest level reached anywhere [m]; nothing liquefied: +infinity.
     double deepest_level() const { return deepest_; }
+    /// Gaps at least as high as a fifth of the soil that can liquefy, no wider than that and no mere
+    /// slits. Single nodes near the threshold decide on them, and a wall of sound soil can hold back
+    /// what flows.
+    std::vector<LiquefiedGap> gaps() const;
 
-    /// X where it begins -> level; +infinity: none
   private:
-    std::map<double, double> level_from_;
+    std::map<double, double> level_from_;  ///< x where it begins -> level; +infinity: none
+    double highest_, lowest_;              ///< of the soil that can liquefy [m]
     std::size_t nodes_ = 0;
     double deepest_;
 };

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
@@ -146,6 +147,25 @@ void log(const Transferred& t) {
                  t.gauss_fields.raised_strains, t.gauss_fields.merged_centres);
 }
 
+/// One flag, of the widest gap.
+void flag_gaps(process::Session& session, const std::vector<LiquefiedGap>& gaps) {
+    if (gaps.empty()) return;
+    const LiquefiedGap& gap = *std::ranges::max_element(
+        gaps, {}, [](const LiquefiedGap& each) { return each.to - each.from; });
+    const auto text = [](double value) {
+        return words::text_of(std::round(100.0 * value) / 100.0);
+    };
+    session.flag({"liquefied_gap", fault::Severity::warning,
+                  "from x = " + text(gap.from) + " to " + text(gap.to) +
+                      " m the soil has liquefied down to y = " + text(gap.level) +
+                      " m at most, and on both sides to " + text(gap.beside) + " m at least (" +
+                      std::to_string(gaps.size()) +
+                      " such gaps): at this instant single nodes near the threshold of r_u decide, "
+                      "and a wall of sound soil can hold the runout back; compare neighbouring "
+                      "transfer times",
+                  "/transfer/liquefied/r_u"});
+}
+
 void report(process::Session& session, const Transferred& t) {
     const scene::Transfer& settings = scene::transfer_of(session.scene());
     log(t);
@@ -166,6 +186,7 @@ void report(process::Session& session, const Transferred& t) {
     result["coincident_gauss_points"] = t.gauss_fields.merged_centres;
     result["ledger"] = as_json(t.ledger);
     report_options(t, result);
+    if (t.liquefaction) flag_gaps(session, t.liquefaction->gaps);
 }
 
 }  // namespace

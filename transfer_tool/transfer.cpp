@@ -18,7 +18,8 @@ Sampling sampling_of(const std::vector<Corners>& shapes, const scene::Scene& sce
 
 std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map) {
     if (!map.liquefied()) return std::nullopt;
-    return LiquefactionReport{map.liquefied()->liquefied_nodes(), map.liquefied()->deepest_level()};
+    const LiquefiedZone& zone = *map.liquefied();
+    return LiquefactionReport{zone.liquefied_nodes(), zone.deepest_level(), zone.gaps()};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace breach::transfer {
 struct LiquefactionReport {
     std::size_t nodes;     ///< liquefied
     double deepest_level;  ///< of them, undeformed [m]; +infinity: none
+    std::vector<LiquefiedGap> gaps;
 };
 
 struct Transferred {

@@ -59,6 +59,37 @@ TEST(LiquefiedZone, OnlySoilThatCanLiquefyCounts) {
     EXPECT_FALSE(zone.holds({6.1, 5.0}));
 }
 
+/// Liquefied down to y = 2 m of 10, but in a strip, where it is to `level`.
+std::vector<LiquefiedGap> gaps_with(double from, double to, double level) {
+    auto mesh = meshes::grid({.nx = 60, .ny = 20, .width = 30.0});
+    meshes::soak(mesh, 10.0, [&](const Vec2& x) {
+        const bool in_strip = x.x() > from && x.x() < to;
+        return x.y() > (in_strip ? level : 2.0) ? 1.0 : 0.0;
+    });
+    return LiquefiedZone(mesh, {1}, 0.7).gaps();
+}
+
+TEST(LiquefiedZone, AWallOfSoundSoilWithinItIsAGap) {
+    const auto found = gaps_with(14.0, 15.0, 20.0);
+    ASSERT_EQ(found.size(), 1u);
+    // The strip's nodes stand at 14.5 m alone: those on its sides have r_u = 0.75, and 0.56 in the row
+    // where the zone ends beside it.
+    EXPECT_NEAR(found[0].from, 14.25, 1e-9);
+    EXPECT_NEAR(found[0].to, 14.75, 1e-9);
+    EXPECT_EQ(found[0].level, 10.0) << "not at all: the highest soil";
+    EXPECT_NEAR(found[0].beside, 3.0, 1e-9);
+    const auto shallow = gaps_with(14.0, 15.0, 7.0);
+    ASSERT_EQ(shallow.size(), 1u);
+    EXPECT_NEAR(shallow[0].level, 7.5, 1e-9);
+}
+
+TEST(LiquefiedZone, WhatIsWideOrShallowOrHasOneSideIsNone) {
+    EXPECT_TRUE(gaps_with(12.0, 18.0, 20.0).empty()) << "wide";
+    EXPECT_TRUE(gaps_with(14.0, 15.0, 3.0).empty()) << "shallow";
+    EXPECT_TRUE(gaps_with(29.0, 30.5, 20.0).empty()) << "the zone's end";
+    EXPECT_TRUE(gaps_with(-1.0, -0.5, 20.0).empty()) << "no strip";
+}
+
 // No stress, no ratio: the dry surface with its pressure of nearly nothing does not liquefy.
 TEST(LiquefiedZone, NodesWithoutStressDoNotCount) {
     auto mesh = meshes::grid({});
