@@ -81,8 +81,8 @@ FULL = dict(QUICK, **{
     "h2.5_9_eta3000": case(eta=3000.0), "h2.5_16_eta3000": case(points=4, eta=3000.0),
     **{f"h2.5_{points ** 2}_nonlocal4{name}": case(points=points, nonlocal_length=4, shift=shift)
        for points in (3, 4) for name, shift in {"": 0.0, **SHIFTS}.items()},
-    **{f"h1.25_{points ** 2}_nonlocal{length}_cfl0.8": case(h=1.25, points=points, nonlocal_length=length, cfl=0.8)
-       for points in (3, 4) for length in (2, 4)},
+    **{f"h1.25_{points ** 2}_nonlocal{length}_cfl0.8{name}": case(h=1.25, points=points, nonlocal_length=length, cfl=0.8, shift=shift)
+       for points in (3, 4) for length in (2, 4) for name, shift in {"": 0.0, **SHIFTS}.items()},
     "h2.5_9_soft_off": case(softens=False), "h2.5_16_soft_off": case(softens=False, points=4),
     "h2.5_9_soft_off_musl": case(softens=False, order="musl"),
     "h2.5_9_cfl0.2": case(cfl=0.2), "h2.5_9_cfl0.8": case(cfl=0.8),
