@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
+#include "core/mechanics/excess_pressure.hpp"
 #include "core/motion/read_motion.hpp"
 #include "core/phases/files.hpp"
 #include "core/words/number.hpp"
@@ -471,11 +472,19 @@ bool Analysis::step_is_too_coarse(const Stage& stage, double dt) {
     return true;
 }
 
-/// The next time that must be met exactly: a wanted snapshot or the end of the stage.
+/// The next time that must be met exactly: a wanted snapshot, the end of the stage, or a multiple of
+/// the stage's time step. The last lets snapshots at such multiples change nothing, whatever steps
+/// were cut on the way.
 double Analysis::next_stop(double stage_end) const {
     const auto& times = decided_.snapshot_times.value;
     const auto next = static_cast<std::size_t>(position_.next_snapshot);
-    return next < times.size() ? std::min(times[next], stage_end) : stage_end;
+    const double wanted = next < times.size() ? std::min(times[next], stage_end) : stage_end;
+    constexpr double rounding = 1e-6;  // of a step
+    const double step = fem_.stages[position_.stage].time_step;
+    const double begin = stage_begin(position_.stage);
+    const double done = std::floor((position_.time - begin) / step + rounding);
+    const double multiple = begin + step * (done + 1.0);
+    return multiple < wanted - rounding * step ? multiple : wanted;
 }
 
 /// The wanted step, shortened to meet the next stop: the way there is divided evenly when less than
@@ -510,11 +519,25 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
         position_.dt = std::min(stage.time_step, growth * position_.dt);
         position_.easy_steps = 0;
     }
+    keep_largest_excess_pressure();
     write_due_outputs(dt, outcome);
     session_.progress(position_.time / span_,
                       "t = " + text_of(position_.time) + " s, crest moved " +
                           text_of(history_.empty() ? 0.0 : history_.back().crest_displacement) +
                           " m");
+}
+
+/// What has liquefied once does not regain its strength when its pore pressure dips.
+void Analysis::keep_largest_excess_pressure() {
+    if (beginning_.p.size() == 0) return;
+    const std::size_t nodes = model_.body.nodes;
+    const std::vector<double> excess =
+        mechanics::nodal_excess_pressure(std::span(model_.mesh.nodes).first(nodes),
+                                         std::span(model_.mesh.quads).first(model_.body.elements),
+                                         {motion_.p.data(), nodes}, {beginning_.p.data(), nodes});
+    if (excess_pressure_max_.empty()) excess_pressure_max_ = excess;
+    std::ranges::transform(excess, excess_pressure_max_, excess_pressure_max_.begin(),
+                           [](double now, double before) { return std::max(now, before); });
 }
 
 void Analysis::cut_step(const Stage& stage, const NewtonOutcome& outcome) {

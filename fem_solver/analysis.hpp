@@ -53,6 +53,7 @@ class Analysis {
     bool step_is_too_coarse(const scene::Stage& stage, double dt);
     double next_step_size(double stage_end) const;
     double next_stop(double stage_end) const;
+    void keep_largest_excess_pressure();
     void accept(double dt, double stop, const NewtonOutcome& outcome);
     void cut_step(const scene::Stage& stage, const NewtonOutcome& outcome);
     void read_strength(Reading& reading) const;
@@ -82,6 +83,8 @@ class Analysis {
     Position position_;
     Motion motion_, trial_;
     Beginning beginning_;
+    std::vector<double> excess_pressure_max_;  ///< since the first dynamic stage began, per node of
+                                               ///< the body; empty when dry [Pa]
     Eigen::VectorXd stage_force_;  ///< internal force when the static stage began; of a dynamic
                                    ///< one with a ramp what it withholds [N]
     Prediction prediction_;

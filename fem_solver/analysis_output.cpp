@@ -101,10 +101,10 @@ bool Analysis::snapshot_is_due(double dt) {
 void Analysis::write_snapshot() {
     const Stopwatch watch(seconds_, &Seconds::output);
     const std::string name = snapshot_name(position_.time);
-    exchange::write_mesh_snapshot(
-        session_.output(name),
-        snapshot_of(session_.scene(), model_, motion_, beginning_, position_.time, position_.step),
-        session_.provenance());
+    exchange::write_mesh_snapshot(session_.output(name),
+                                  snapshot_of(session_.scene(), model_, motion_, beginning_,
+                                              excess_pressure_max_, position_.time, position_.step),
+                                  session_.provenance());
     session_.announce_frame(name, phases::files::snapshot_prefix, position_.time);
     last_snapshot_ = position_.time;
 }
@@ -123,8 +123,14 @@ bool Analysis::checkpoint_is_due() const {
 
 void Analysis::write_checkpoint() {
     const Stopwatch watch(seconds_, &Seconds::output);
-    Checkpoint checkpoint{position_,         motion_,           beginning_, stage_force_,
-                          newton_->memory(), newton_->counts(), history_};
+    Checkpoint checkpoint{.position = position_,
+                          .motion = motion_,
+                          .beginning = beginning_,
+                          .excess_pressure_max = excess_pressure_max_,
+                          .stage_force = stage_force_,
+                          .newton = newton_->memory(),
+                          .counts = newton_->counts(),
+                          .history = history_};
     exchange::Archive archive = checkpoint_archive(checkpoint, session_.scene());
     const nlohmann::json& facts = session_.result();
     if (facts.contains(geostatic)) archive.texts[geostatic] = facts.at(geostatic).dump();
@@ -152,6 +158,7 @@ void Analysis::resume() {
     motion_ = std::move(checkpoint.motion);
     trial_ = motion_;
     beginning_ = std::move(checkpoint.beginning);
+    excess_pressure_max_ = std::move(checkpoint.excess_pressure_max);
     stage_force_ = std::move(checkpoint.stage_force);
     set_skeleton_modulus(beginning_, model_);
     history_ = std::move(checkpoint.history);

@@ -187,6 +187,7 @@ Checkpoint read(const exchange::Archive& archive, const Model& model) {
     Checkpoint c;
     c.motion = motion_from(archive, model);
     c.beginning = beginning_from(archive);
+    c.excess_pressure_max = archive.reals.at("excess_pressure_max");
     c.stage_force = vector_from(archive.reals.at("stage_force"));
     c.newton.values = archive.reals.at("newton.values");
     const Reals& rule = archive.reals.at("newton.rule");
@@ -225,6 +226,7 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
     put(archive, checkpoint.position);
     put(archive, checkpoint.motion);
     put(archive, checkpoint.beginning);
+    archive.reals["excess_pressure_max"] = checkpoint.excess_pressure_max;
     archive.reals["stage_force"] = flat(checkpoint.stage_force);
     const NewtonMemory& newton = checkpoint.newton;
     archive.reals["newton.values"] = newton.values;
@@ -262,6 +264,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
         Checkpoint checkpoint = read(archive, model);
         checkpoint.position = position;
         const bool whole = fits(checkpoint.motion, model) && fits(checkpoint.beginning, model) &&
+                           empty_or(checkpoint.excess_pressure_max, model.body.nodes) &&
                            empty_or(checkpoint.stage_force, model.mesh.nodes.size() * 2);
         if (whole) return checkpoint;
     } catch (const std::out_of_range&) {

@@ -34,7 +34,8 @@ struct Checkpoint {
     Position position;
     Motion motion;
     Beginning beginning;
-    Eigen::VectorXd stage_force;  ///< internal force when the static stage began [N]
+    std::vector<double> excess_pressure_max;  ///< per node of the body; empty when dry [Pa]
+    Eigen::VectorXd stage_force;              ///< internal force when the static stage began [N]
     NewtonMemory newton;
     NewtonCounts counts;
     std::vector<Reading> history;
@@ -49,6 +50,6 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
                            const Model& model, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
-inline constexpr int checkpoint_version = 6;
+inline constexpr int checkpoint_version = 7;
 
 }  // namespace breach::fem

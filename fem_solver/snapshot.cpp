@@ -62,7 +62,8 @@ void drop_absent(const Model& model, exchange::MeshSnapshot& s) {
 }  // namespace
 
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
-                                   const Motion& motion, const Beginning& beginning, double time,
+                                   const Motion& motion, const Beginning& beginning,
+                                   const std::vector<double>& excess_pressure_max, double time,
                                    std::int64_t step) {
     exchange::MeshSnapshot s;
     s.time = time;
@@ -86,6 +87,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
     if (beginning.p.size() > 0) {
         s.pore_pressure_0 = first(beginning.p, nodes);
         s.sigma_v0 = beginning.sigma_v0;
+        s.excess_pressure_max = excess_pressure_max;
     }
     s.base_motion = beginning.base_motion;
     s.quads = first(mesh.quads, elements);

@@ -8,8 +8,10 @@
 namespace breach::fem {
 
 /// The body alone: free-field columns stay behind.
+/// excess_pressure_max: [nodes of the body] Pa, since the first dynamic stage began; empty when dry.
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
-                                   const Motion& motion, const Beginning& beginning, double time,
+                                   const Motion& motion, const Beginning& beginning,
+                                   const std::vector<double>& excess_pressure_max, double time,
                                    std::int64_t step);
 
 /// "snapshot_0.250000.vtkhdf"

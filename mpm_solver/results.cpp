@@ -134,6 +134,9 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             .numerical_share = share(row.energy_numerical),
             .volume_ratio = row.volume_ratio,
             .overlap = row.overlap,
+            .deposit_depth =
+                row.runout_beyond_toe > 0.0 ? row.area_beyond_toe / row.runout_beyond_toe : 0.0,
+            .cell_size = mpm.cell_size,
             .until_rest = mpm.until_rest};
 }
 

@@ -49,11 +49,13 @@ struct Edge {
 }  // namespace
 
 LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& regions,
-                             double threshold)
+                             double threshold, scene::LiquefiedWhen when)
     : highest_(-nowhere), lowest_(nowhere), deepest_(nowhere) {
     std::vector<Edge> edges;
     const std::vector<Reach> reach = reaches(mesh, regions);
-    const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
+    const std::vector<double> excess = when == scene::LiquefiedWhen::ever
+                                           ? exchange::largest_excess_pressure(mesh)
+                                           : exchange::nodal_excess_pressure(mesh);
     for (std::size_t i = 0; i < reach.size(); ++i) {
         if (!reach[i].counts) continue;
         highest_ = std::max(highest_, mesh.position_0[i].y());

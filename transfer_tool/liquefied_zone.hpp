@@ -6,6 +6,7 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/mechanics/tensor.hpp"
+#include "core/scene/scene.hpp"
 
 namespace breach::transfer {
 
@@ -18,14 +19,14 @@ struct LiquefiedGap {
     double beside;    ///< the same of the shallower side [m]
 };
 
-/// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold. It stands for the
+/// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold, or was once. It stands for the
 /// column between the middles of its elements to the left and to the right; everything above the
 /// deepest liquefied node of a column is liquefied. All on the undeformed mesh.
 class LiquefiedZone {
   public:
     /// regions: [n_regions of the mesh] whether the region can liquefy. The mesh has sigma_v0.
     LiquefiedZone(const exchange::MeshSnapshot& mesh, const std::vector<char>& regions,
-                  double threshold);
+                  double threshold, scene::LiquefiedWhen when);
 
     /// Whether the place [m] lies in the zone.
     bool holds(const Vec2& place) const;

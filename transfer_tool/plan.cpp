@@ -83,8 +83,10 @@ PlanLine liquefied_line(const scene::Scene& scene, const scene::Transfer& settin
                 "each point above the deepest liquefied node at its own residual strength",
                 "/transfer/liquefied"};
     char reason[128];
-    std::snprintf(reason, sizeof reason, "%zu layers above the deepest node with r_u > %g",
-                  settings.liquefied->layers.size(), settings.liquefied->r_u);
+    std::snprintf(
+        reason, sizeof reason, "%zu layers above the deepest node with r_u > %g, %s",
+        settings.liquefied->layers.size(), settings.liquefied->r_u,
+        settings.liquefied->when == scene::LiquefiedWhen::ever ? "at t_T or before" : "at t_T");
     return {"liquefied layers", Use::on, reason, "/transfer/liquefied"};
 }
 

@@ -94,6 +94,7 @@ void report_options(const Transferred& t, nlohmann::json& result) {
                            {"least_points_in_a_filled_cell", t.supply->least_in_filled},
                            {"short", t.supply->short_cells}};
     if (t.liquefaction) {
+        result["liquefied_when"] = words::name_of(t.liquefaction->when);
         result["liquefied_nodes"] = t.liquefaction->nodes;
         if (t.liquefaction->nodes > 0)
             result["deepest_liquefied_level"] = t.liquefaction->deepest_level;
@@ -160,9 +161,8 @@ void flag_gaps(process::Session& session, const std::vector<LiquefiedGap>& gaps)
                       " m the soil has liquefied down to y = " + text(gap.level) +
                       " m at most, and on both sides to " + text(gap.beside) + " m at least (" +
                       std::to_string(gaps.size()) +
-                      " such gaps): at this instant single nodes near the threshold of r_u decide, "
-                      "and a wall of sound soil can hold the runout back; compare neighbouring "
-                      "transfer times",
+                      " such gaps): single nodes near the threshold of r_u decide, and a wall of "
+                      "sound soil can hold the runout back; compare neighbouring transfer times",
                   "/transfer/liquefied/r_u"});
 }
 

@@ -16,10 +16,14 @@ Sampling sampling_of(const std::vector<Corners>& shapes, const scene::Scene& sce
                                        .shift = settings.point_shift});
 }
 
-std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map) {
+std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
+                                                  const exchange::MeshSnapshot& mesh,
+                                                  scene::LiquefiedWhen asked) {
     if (!map.liquefied()) return std::nullopt;
     const LiquefiedZone& zone = *map.liquefied();
-    return LiquefactionReport{zone.liquefied_nodes(), zone.deepest_level(), zone.gaps()};
+    const scene::LiquefiedWhen when =
+        mesh.excess_pressure_max.empty() ? scene::LiquefiedWhen::at_transfer : asked;
+    return LiquefactionReport{when, zone.liquefied_nodes(), zone.deepest_level(), zone.gaps()};
 }
 
 }  // namespace
@@ -56,7 +60,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.soils = map.soils();
     t.shares = shares_of_soils(map, points.state);
     t.softening = softening_of(laws, points.state);
-    t.liquefaction = liquefaction_of(map);
+    if (settings.liquefied) t.liquefaction = liquefaction_of(map, mesh, settings.liquefied->when);
     t.collapse = map.collapse_report(points);
     t.state = std::move(points.state);
     t.state.base_motion = mesh.base_motion;

@@ -13,8 +13,9 @@ namespace breach::transfer {
 
 /// What the liquefied zone was.
 struct LiquefactionReport {
-    std::size_t nodes;     ///< liquefied
-    double deepest_level;  ///< of them, undeformed [m]; +infinity: none
+    scene::LiquefiedWhen when;  ///< at_transfer too where the snapshot knows no earlier instant
+    std::size_t nodes;          ///< liquefied
+    double deepest_level;       ///< of them, undeformed [m]; +infinity: none
     std::vector<LiquefiedGap> gaps;
 };
 

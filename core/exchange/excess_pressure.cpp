@@ -10,4 +10,9 @@ std::vector<double> nodal_excess_pressure(const MeshSnapshot& mesh) {
                                             mesh.pore_pressure_0);
 }
 
+std::vector<double> largest_excess_pressure(const MeshSnapshot& mesh) {
+    return mesh.excess_pressure_max.empty() ? nodal_excess_pressure(mesh)
+                                            : mesh.excess_pressure_max;
+}
+
 }  // namespace breach::exchange

@@ -23,6 +23,8 @@ void check_sizes(const MeshSnapshot& s) {
                        (s.pore_pressure.empty() || s.pore_pressure.size() == nodes) &&
                        (s.sigma_v0.empty() || s.sigma_v0.size() == nodes) &&
                        s.pore_pressure_0.size() == s.sigma_v0.size() &&
+                       (s.excess_pressure_max.empty() ||
+                        s.excess_pressure_max.size() == s.pore_pressure_0.size()) &&
                        (s.sigma_v0.empty() || !s.pore_pressure.empty()) &&
                        s.region_of_element.size() == elements && s.density.size() == elements &&
                        s.gauss_positions.size() == static_cast<std::size_t>(s.gauss_per_element) &&
@@ -86,6 +88,8 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
         image.array(nodal + "sigma_v0", s.sigma_v0, 0, "Pa");
         image.array(nodal + "pore_pressure_0", s.pore_pressure_0, 0, "Pa");
     }
+    if (!s.excess_pressure_max.empty())
+        image.array(nodal + "excess_pressure_max", s.excess_pressure_max, 0, "Pa");
 
     const std::string cell = "/VTKHDF/CellData/";
     const auto gauss = static_cast<std::size_t>(s.gauss_per_element);
@@ -153,6 +157,9 @@ void read_nodes(Hdf5Reader& reader, MeshSnapshot& s, std::size_t nodes, bool has
     s.pore_pressure_0.resize(nodes);
     reader.array(nodal + "sigma_v0", s.sigma_v0, 0);
     reader.array(nodal + "pore_pressure_0", s.pore_pressure_0, 0);
+    if (!reader.exists(nodal + "excess_pressure_max")) return;
+    s.excess_pressure_max.resize(nodes);
+    reader.array(nodal + "excess_pressure_max", s.excess_pressure_max, 0);
 }
 
 void read_elements(Hdf5Reader& reader, MeshSnapshot& s, std::size_t elements, std::size_t gauss) {

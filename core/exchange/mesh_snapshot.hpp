@@ -36,6 +36,9 @@ struct MeshSnapshot {
     /// - u_0) / sigma'_v0 can be formed; without them nothing can be called liquefied.
     std::vector<double> sigma_v0;
     std::vector<double> pore_pressure_0;
+    /// Largest excess pressure of each node since then [Pa], of what nodal_excess_pressure gives step
+    /// by step. May be empty though there is u_0: the snapshot knows its own instant alone.
+    std::vector<double> excess_pressure_max;
 
     // elements [n_elements]
     std::vector<std::array<std::int32_t, 4>> quads;  ///< corners counter-clockwise

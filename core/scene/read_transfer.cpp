@@ -158,7 +158,10 @@ void check_residuals(Reader& reader, const Scene& scene, const json& liquefied,
 void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer& result) {
     if (!transfer.contains("liquefied")) return;
     const json& liquefied = transfer.at("liquefied");
-    LiquefiedZone zone{.regions = {}, .r_u = liquefied.at("r_u"), .layers = {}};
+    LiquefiedZone zone{.regions = {},
+                       .r_u = liquefied.at("r_u"),
+                       .when = word_at<LiquefiedWhen>(liquefied, "when"),
+                       .layers = {}};
     for (std::size_t i = 0; i < liquefied.at("regions").size(); ++i) {
         const auto region =
             named(reader, scene.section.regions, liquefied.at("regions")[i],

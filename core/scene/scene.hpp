@@ -466,6 +466,9 @@ struct Fem {
 
 enum class Interpolation { local, paper };
 enum class SofteningStart { carried, zero };
+
+/// Which r_u tells that a node is liquefied: the largest since the shaking began, or that of t_T.
+enum class LiquefiedWhen { ever, at_transfer };
 /// What becomes of an element that the FEM has turned inside out.
 enum class Entangled { refuse, rebuild };
 /// What frictional laws get: the effective stress, with the pore pressure beside it, or the total
@@ -489,6 +492,7 @@ struct LiquefiedLayer {
 struct LiquefiedZone {
     std::vector<std::size_t> regions;  ///< whose soil can liquefy
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
+    LiquefiedWhen when;
     /// From 0, without gaps; the last also holds what is beyond. Empty: soil keeps its material,
     /// with the residual strength of that material's profile
     std::vector<LiquefiedLayer> layers;

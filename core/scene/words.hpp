@@ -166,6 +166,11 @@ constexpr auto words_of(Interpolation) {
     return words::in_order<Interpolation>({{local, "local"}, {paper, "paper"}});
 }
 
+constexpr auto words_of(LiquefiedWhen) {
+    using enum LiquefiedWhen;
+    return words::in_order<LiquefiedWhen>({{ever, "ever"}, {at_transfer, "at_transfer"}});
+}
+
 constexpr auto words_of(SofteningStart) {
     using enum SofteningStart;
     return words::in_order<SofteningStart>({{carried, "carried"}, {zero, "zero"}});

@@ -25,6 +25,17 @@ Flag still_moving(const Ending& ending) {
             bound};
 }
 
+Flag thin_deposit(const Ending& ending) {
+    return {
+        "thin_deposit", Severity::warning,
+        "what lies beyond the toe is " + text_of(ending.deposit_depth) + " m deep on the mean, " +
+            text_of(ending.deposit_depth / ending.cell_size) + " cells: on fewer than " +
+            text_of(deposit_cells_wanted) +
+            " a runout is likely too short, the unsafe side; a run with half the /mpm/cell_size "
+            "tells by how much",
+        "/mpm/cell_size"};
+}
+
 }  // namespace
 
 std::vector<Flag> doubts_of(const Ending& ending) {
@@ -56,6 +67,9 @@ std::vector<Flag> doubts_of(const Ending& ending) {
                               "nine points per cell",
                           "/mpm/overlap_correction/rate"});
     }
+    if (ending.deposit_depth > 0.0 &&
+        ending.deposit_depth < deposit_cells_wanted * ending.cell_size)
+        doubts.push_back(thin_deposit(ending));
     return doubts;
 }
 

@@ -24,6 +24,11 @@ constexpr double most_volume_ratio = 1.3;
 /// missing from the deposit.
 constexpr double largest_overlap = 0.05;
 
+/// Cells across the mean depth of what lies beyond the toe. The Mochikoshi dam with residual strengths from
+/// the start ran 68, 140 and 180 m on 1.8, 3.0 and 5.5 cells, a collapsing column of sand 28.8, 30.2 and
+/// 31.5 m on 1.3, 2 and 5 (docs/mpm_convergence.md, docs/accuracy.md): thin sheets run too short.
+constexpr double deposit_cells_wanted = 5.0;
+
 /// How a run ended, as far as doubts go.
 struct Ending {
     double time;                        ///< [s]
@@ -32,7 +37,9 @@ struct Ending {
     double numerical_share;             ///< of the same [-]
     double volume_ratio;
     double overlap;
-    bool until_rest;  ///< the run was to go on until rest, and met its bound
+    double deposit_depth;  ///< mean over what lies beyond the toe; 0: nothing does [m]
+    double cell_size;      ///< [m]
+    bool until_rest;       ///< the run was to go on until rest, and met its bound
 };
 
 std::vector<fault::Flag> doubts_of(const Ending& ending);

@@ -56,6 +56,7 @@ class FemPhase {
         sound_ = fem::checkpoint_archive({.position = in_failure,
                                           .motion = analysis.motion(),
                                           .beginning = analysis.beginning(),
+                                          .excess_pressure_max = {},
                                           .stage_force = analysis.motion().force,
                                           .newton = {},
                                           .counts = {},

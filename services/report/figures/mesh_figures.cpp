@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -54,20 +55,27 @@ std::vector<double> element_epsilon_q(const MeshSnapshot& mesh) {
     return average;
 }
 
-std::vector<double> element_r_u(const MeshSnapshot& mesh) {
-    if (mesh.pore_pressure.empty() || mesh.sigma_v0.empty()) return {};
+std::vector<double> element_r_u(const MeshSnapshot& mesh, std::span<const double> excess) {
+    if (excess.empty() || mesh.sigma_v0.empty()) return {};
     std::vector<double> average;
     for (const auto& quad : mesh.quads) {
         double rise = 0.0;  // what alternates from corner to corner drops out
         double sigma = 0.0;
         for (const std::int32_t node : quad) {
             const auto i = static_cast<std::size_t>(node);
-            rise += mesh.pore_pressure[i] - mesh.pore_pressure_0[i];
+            rise += excess[i];
             sigma += mesh.sigma_v0[i];
         }
         average.push_back(sigma > 0.0 ? rise / sigma : 0.0);
     }
     return average;
+}
+
+std::vector<double> element_r_u(const MeshSnapshot& mesh) {
+    if (mesh.pore_pressure_0.empty()) return {};
+    std::vector<double> excess = mesh.pore_pressure;
+    std::ranges::transform(excess, mesh.pore_pressure_0, excess.begin(), std::minus());
+    return element_r_u(mesh, excess);
 }
 
 Field on_deformed_mesh(const MeshSnapshot& mesh, std::vector<double> value,

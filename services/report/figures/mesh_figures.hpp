@@ -1,6 +1,8 @@
 // Pictures of a FEM snapshot: values on the deformed mesh, its borders and its edges.
 #pragma once
 
+#include <span>
+
 #include "core/exchange/mesh_snapshot.hpp"
 #include "services/report/chart/chart.hpp"
 
@@ -11,6 +13,8 @@ std::vector<double> element_epsilon_q(const exchange::MeshSnapshot& mesh);
 /// r_u = (u - u_0) / sigma'_v0, averaged over an element's nodes [-]; empty for a dry mesh. Nodes
 /// without vertical stress count as 0.
 std::vector<double> element_r_u(const exchange::MeshSnapshot& mesh);
+/// The same with another u - u_0. excess: [nodes] Pa
+std::vector<double> element_r_u(const exchange::MeshSnapshot& mesh, std::span<const double> excess);
 
 /// The elements where they have moved to, coloured by `value`.
 Field on_deformed_mesh(const exchange::MeshSnapshot& mesh, std::vector<double> value,

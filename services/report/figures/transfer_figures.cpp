@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/exchange/excess_pressure.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
@@ -46,7 +47,9 @@ std::vector<double> sigma_v(const ParticleState& points) {
 
 /// Number of the layer, from 1; 0: not liquefied.
 std::vector<double> layer_numbers(const MeshSnapshot& mesh, const LayerColours& layers) {
-    const std::vector<double> r_u = element_r_u(mesh);
+    const std::vector<double> r_u = layers.ever
+                                        ? element_r_u(mesh, exchange::largest_excess_pressure(mesh))
+                                        : element_r_u(mesh);
     std::vector<double> numbers;
     for (std::size_t e = 0; e < r_u.size(); ++e) {
         double sigma_v0 = 0.0;
@@ -157,6 +160,7 @@ LayerColours layers_of(const json& scene) {
     const json liquefied = scene.at("transfer").value("liquefied", json::object());
     if (liquefied.empty()) return layers;
     layers.r_u = liquefied.at("r_u");
+    layers.ever = liquefied.value("when", "at_transfer") == "ever";  // older runs do not say it
     for (const json& layer : liquefied.at("layers")) {
         layers.ends.push_back(1e3 * layer.at("sigma_v0_kPa").at(1).get<double>());
         const std::string made =

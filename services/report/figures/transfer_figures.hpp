@@ -13,6 +13,7 @@ namespace breach::report {
 /// Layers by initial vertical effective stress.
 struct LayerColours {
     double r_u = 0.7;                    ///< liquefied above this
+    bool ever = false;                   ///< at any time before; else at that of the transfer
     std::vector<double> ends;            ///< of each layer [Pa]
     std::vector<std::string> materials;  ///< of each layer
 };

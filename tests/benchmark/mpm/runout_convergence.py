@@ -92,6 +92,8 @@ FULL = dict(QUICK, **{
     "h2.5_16_musl": case(points=4, order="musl"),
     "h1.25_9_cfl0.8": case(h=1.25, cfl=0.8), "h1.25_16_cfl0.8": case(h=1.25, points=4, cfl=0.8),
     "h1.25_9_soft_off_cfl0.8": case(h=1.25, softens=False, cfl=0.8), "h1.25_16_soft_off_cfl0.8": case(h=1.25, points=4, softens=False, cfl=0.8),
+    "h5_9_soft_off": case(h=5.0, softens=False), "h0.625_9_soft_off_cfl0.8": case(h=0.625, softens=False, cfl=0.8),
+    "h0.625_9_nonlocal2_cfl0.8": case(h=0.625, nonlocal_length=2, cfl=0.8),
     "h1.25_9": case(h=1.25), "h1.25_4": case(h=1.25, points=2),
     "h1.25_9_musl": case(h=1.25, order="musl"),
     "h1.25_9_unscaled": case(h=1.25, length=None),

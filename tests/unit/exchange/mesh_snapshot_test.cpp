@@ -76,6 +76,14 @@ TEST(MeshSnapshot, CarriesTheStressBeforeTheShakingWhenThereIsOne) {
     const MeshSnapshot r = read_mesh_snapshot(folder / "with.vtkhdf").snapshot;
     EXPECT_EQ(r.sigma_v0, s.sigma_v0);
     EXPECT_EQ(r.pore_pressure_0, s.pore_pressure_0);
+    EXPECT_TRUE(r.excess_pressure_max.empty());
+    s.excess_pressure_max = s.sigma_v0;
+    write_mesh_snapshot(folder / "largest.vtkhdf", s, {});
+    EXPECT_EQ(read_mesh_snapshot(folder / "largest.vtkhdf").snapshot.excess_pressure_max,
+              s.excess_pressure_max);
+    s.excess_pressure_max.pop_back();
+    EXPECT_THROW(write_mesh_snapshot(folder / "no.vtkhdf", s, {}), std::logic_error);
+    s.excess_pressure_max.clear();
     s.pore_pressure_0.pop_back();
     EXPECT_THROW(write_mesh_snapshot(folder / "no.vtkhdf", s, {}), std::logic_error);
 }

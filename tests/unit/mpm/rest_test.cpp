@@ -162,13 +162,16 @@ Ending sound() {
             .numerical_share = 0.02,
             .volume_ratio = 1.02,
             .overlap = 0.01,
+            .deposit_depth = 6.0,
+            .cell_size = 1.0,
             .until_rest = false};
 }
 
 std::vector<std::string> codes(const Ending& ending) {
     std::vector<std::string> found;
     for (const fault::Flag& each : doubts_of(ending)) {
-        EXPECT_EQ(each.severity, fault::Severity::questionable);
+        EXPECT_EQ(each.severity, each.code == "thin_deposit" ? fault::Severity::warning
+                                                             : fault::Severity::questionable);
         found.push_back(each.code);
     }
     return found;
@@ -196,6 +199,12 @@ TEST(Doubts, AreNoneOfASoundRunAndOneForEachLimitPassed) {
         ending.volume_ratio = ratio;
         EXPECT_EQ(codes(ending), Codes{"volume_ratio"}) << ratio;
     }
+    ending = sound();
+    ending.cell_size = 1.21;
+    EXPECT_EQ(codes(ending), Codes{"thin_deposit"});
+    EXPECT_THAT(doubts_of(ending)[0].message, HasSubstr("6 m deep on the mean, 4.96 cells"));
+    ending.deposit_depth = 0.0;
+    EXPECT_EQ(codes(ending), Codes{}) << "nothing came past the toe";
     ending = sound();
     ending.overlap = 0.051;
     EXPECT_EQ(codes(ending), Codes{"overlap"});

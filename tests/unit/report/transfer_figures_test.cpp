@@ -30,7 +30,7 @@ exchange::ParticleState points() {
     return s;
 }
 
-const LayerColours layers{0.7, {50e3, 100e3}, {"liquefied_1", "liquefied_2"}};
+const LayerColours layers{0.7, false, {50e3, 100e3}, {"liquefied_1", "liquefied_2"}};
 
 TEST(TransferFigures, BothSidesShowTheSameQuantityWithTheSameColours) {
     const auto pairs = compare(mesh(), points(), layers);

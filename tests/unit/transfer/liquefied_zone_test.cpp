@@ -5,10 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/exchange/excess_pressure.hpp"
 #include "tests/verification/transfer/meshes.hpp"
 
 namespace breach::transfer {
 namespace {
+
+using scene::LiquefiedWhen;
 
 // 6 columns of 2 m, 5 rows of 2 m, water to the top; a node's r_u is the mean of its elements'.
 TEST(LiquefiedZone, ReachesDownToTheDeepestNodeOfEveryColumn) {
@@ -16,7 +19,7 @@ TEST(LiquefiedZone, ReachesDownToTheDeepestNodeOfEveryColumn) {
     meshes::soak(mesh, 10.0, [](const Vec2& x) {
         return x.x() < 4.1 && x.y() > 3.9 && x.y() < 6.1 ? 1.0 : 0.0;
     });
-    const LiquefiedZone zone(mesh, {1}, 0.55);
+    const LiquefiedZone zone(mesh, {1}, 0.55, LiquefiedWhen::ever);
     // At x = 0 and 2 two thirds at y = 4, 0.875 at y = 6; at x = 4, half liquefied, 0.5 and 0.656.
     EXPECT_EQ(zone.liquefied_nodes(), 5u);
     EXPECT_EQ(zone.deepest_level(), 4.0);
@@ -38,13 +41,13 @@ TEST(LiquefiedZone, IsEmptyWhereThePressureOnlyAlternatesFromNodeToNode) {
         const bool even = std::lround(0.5 * (x.x() + x.y())) % 2 == 0;
         mesh.pore_pressure[i] += even ? 80e3 : -80e3;
     }
-    EXPECT_EQ(LiquefiedZone(mesh, {1}, 0.7).liquefied_nodes(), 0u);
+    EXPECT_EQ(LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::ever).liquefied_nodes(), 0u);
 }
 
 TEST(LiquefiedZone, IsEmptyWhenNothingIsAboveTheThreshold) {
     auto mesh = meshes::grid({});
     meshes::soak(mesh, 10.0, [](const Vec2&) { return 0.69; });
-    const LiquefiedZone zone(mesh, {1}, 0.7);
+    const LiquefiedZone zone(mesh, {1}, 0.7, LiquefiedWhen::ever);
     EXPECT_EQ(zone.liquefied_nodes(), 0u);
     EXPECT_EQ(zone.deepest_level(), std::numeric_limits<double>::infinity());
     EXPECT_FALSE(zone.holds({5.0, 5.0}));
@@ -53,7 +56,7 @@ TEST(LiquefiedZone, IsEmptyWhenNothingIsAboveTheThreshold) {
 TEST(LiquefiedZone, OnlySoilThatCanLiquefyCounts) {
     auto mesh = meshes::grid({.regions = 2});  // borders at x = 6
     meshes::soak(mesh, 10.0, [](const Vec2&) { return 1.0; });
-    const LiquefiedZone zone(mesh, {1, 0}, 0.7);
+    const LiquefiedZone zone(mesh, {1, 0}, 0.7, LiquefiedWhen::ever);
     EXPECT_TRUE(zone.holds({1.0, 5.0}));
     EXPECT_TRUE(zone.holds({5.9, 5.0}));
     EXPECT_FALSE(zone.holds({6.1, 5.0}));
@@ -66,7 +69,7 @@ std::vector<LiquefiedGap> gaps_with(double from, double to, double level) {
         const bool in_strip = x.x() > from && x.x() < to;
         return x.y() > (in_strip ? level : 2.0) ? 1.0 : 0.0;
     });
-    return LiquefiedZone(mesh, {1}, 0.7).gaps();
+    return LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::ever).gaps();
 }
 
 TEST(LiquefiedZone, AWallOfSoundSoilWithinItIsAGap) {
@@ -90,12 +93,25 @@ TEST(LiquefiedZone, WhatIsWideOrShallowOrHasOneSideIsNone) {
     EXPECT_TRUE(gaps_with(-1.0, -0.5, 20.0).empty()) << "no strip";
 }
 
+// At t_T the pore pressure has dipped everywhere; before, it had reached down to y = 4.
+TEST(LiquefiedZone, WhatHasLiquefiedOnceStaysSoUnlessTheInstantIsAskedFor) {
+    auto before = meshes::grid({});
+    meshes::soak(before, 10.0, [](const Vec2& x) { return x.y() > 3.9 ? 1.0 : 0.0; });
+    auto mesh = meshes::grid({});
+    meshes::soak(mesh, 10.0, [](const Vec2&) { return 0.3; });
+    mesh.excess_pressure_max = exchange::nodal_excess_pressure(before);
+    const LiquefiedZone ever(mesh, {1}, 0.7, LiquefiedWhen::ever);
+    EXPECT_EQ(ever.deepest_level(), 6.0) << "at y = 4 the mean over a node's elements is below 0.7";
+    EXPECT_TRUE(ever.holds({5.0, 6.1}));
+    EXPECT_EQ(LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::at_transfer).liquefied_nodes(), 0u);
+}
+
 // No stress, no ratio: the dry surface with its pressure of nearly nothing does not liquefy.
 TEST(LiquefiedZone, NodesWithoutStressDoNotCount) {
     auto mesh = meshes::grid({});
     meshes::soak(mesh, 5.0, [](const Vec2&) { return 0.0; });
     for (double& u : mesh.pore_pressure) u += 1.0;
-    EXPECT_EQ(LiquefiedZone(mesh, {1}, 0.7).liquefied_nodes(), 0u);
+    EXPECT_EQ(LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::ever).liquefied_nodes(), 0u);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Snapshots that somebody asks for, or that come at an interval, leave the computation as it is.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -71,6 +72,20 @@ TEST(SnapshotInterval, GivesOneSnapshotPerMultipleWithoutCuttingAStep) {
     for (int k = 1; k * 0.022 <= 0.1; ++k)
         expected.insert(snapshot_name(time_step * std::ceil(k * 0.022 / time_step - 1e-9)));
     EXPECT_EQ(snapshots_in(folder.path() / "regular"), expected);
+}
+
+TEST(SnapshotTimes, AtMultiplesOfTheStepChangeNothingThoughStepsWereCut) {
+    const bench::Folder folder;
+    json scene = falling_column();
+    scene["fem"]["largest_step_error"] = 2e-6;
+    const std::string undisturbed = telemetry_of(scene, folder.path() / "plain");
+    scene["fem"]["snapshot_times"] = {0.015, 0.04, 0.045, 0.08};
+    EXPECT_EQ(telemetry_of(scene, folder.path() / "wanted"), undisturbed);
+    EXPECT_EQ(snapshots_in(folder.path() / "wanted").size(), 5U);
+    const auto lines = std::ranges::count(undisturbed, '\n');
+    std::printf("    %td steps, %g without a cut\n", lines - 1, 0.1 / time_step);
+    EXPECT_GT(lines, 30) << "steps were cut";
+    EXPECT_LT(lines, 150);
 }
 
 TEST(SnapshotInterval, EqualToTheStepGivesEveryStepOnce) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <thread>
 
+#include "core/exchange/excess_pressure.hpp"
 #include "fem_solver/run.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/bench.hpp"
@@ -125,6 +126,12 @@ TEST(Stopped, AShakenWetSceneGoesOnBitForBit) {
     EXPECT_FALSE(end_1.pore_pressure.empty());
     EXPECT_EQ(end_1.pore_pressure, end_2.pore_pressure);
     EXPECT_EQ(end_1.sigma_v0, end_2.sigma_v0);
+    EXPECT_EQ(end_1.excess_pressure_max, end_2.excess_pressure_max);
+    const std::vector<double> now = exchange::nodal_excess_pressure(end_1);
+    double fell = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        fell = std::max(fell, end_1.excess_pressure_max.at(i) - now[i]);
+    EXPECT_GT(fell, 1e3) << "the largest lies before the end";
     EXPECT_TRUE(end_1.base_motion.any());
     EXPECT_EQ(end_1.base_motion.velocity, end_2.base_motion.velocity);
     EXPECT_EQ(end_1.quads.size(), 40U) << "columns stay behind";
@@ -144,7 +151,7 @@ exchange::Archive archive_in_failure(bench::Run& run) {
     const Analysis& a = run.analysis();
     Position position = a.position();
     position.stage = 1;
-    return checkpoint_archive({position, a.motion(), a.beginning(), {}, {}, {}, a.history()},
+    return checkpoint_archive({position, a.motion(), a.beginning(), {}, {}, {}, {}, a.history()},
                               run.session().scene());
 }
 

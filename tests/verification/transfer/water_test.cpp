@@ -97,8 +97,10 @@ TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
     // r_u = 1 at y = 4 and 5 m for x < 4 m: what lies above liquefies with it. At x = 3, where half of
     // the elements have it, the mean is 0.6.
     Ground g = ground([](const Vec2& x) { return x.x() < 3.5 && std::abs(x.y() - 4.5) < 0.6; });
-    g.scene.transfer->liquefied = scene::LiquefiedZone{
-        .regions = {0}, .r_u = 0.7, .layers = {{0.0, 36e3, 1}, {36e3, 40e3, 2}}};
+    g.scene.transfer->liquefied = scene::LiquefiedZone{.regions = {0},
+                                                       .r_u = 0.7,
+                                                       .when = scene::LiquefiedWhen::ever,
+                                                       .layers = {{0.0, 36e3, 1}, {36e3, 40e3, 2}}};
     const auto t = meshes::transferred(g.mesh, g.scene);
     ASSERT_TRUE(t.liquefaction.has_value());
     EXPECT_EQ(t.liquefaction->nodes, 6u);
@@ -121,8 +123,8 @@ TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
 
 TEST(LiquefiedLayers, NeedASnapshotThatKnowsTheStressBefore) {
     Ground g = ground([](const Vec2&) { return 0.0; });
-    g.scene.transfer->liquefied =
-        scene::LiquefiedZone{.regions = {0}, .r_u = 0.7, .layers = {{0.0, 36e3, 1}}};
+    g.scene.transfer->liquefied = scene::LiquefiedZone{
+        .regions = {0}, .r_u = 0.7, .when = scene::LiquefiedWhen::ever, .layers = {{0.0, 36e3, 1}}};
     g.mesh.sigma_v0.clear();
     g.mesh.pore_pressure_0.clear();
     EXPECT_THROW(transfer(g.mesh, g.scene, {}, "snapshot"), fault::BadInput);
@@ -146,8 +148,10 @@ TEST(PhreaticLine, PartsSaturatedFromUnsaturatedSoil) {
 // What the file says is what the MPM runs: layers of one region have laws of their own.
 TEST(LiquefiedLayers, HaveTheirOwnLawsInTheMpm) {
     Ground g = ground([](const Vec2& x) { return x.y() > 4.9; });
-    g.scene.transfer->liquefied = scene::LiquefiedZone{
-        .regions = {0}, .r_u = 0.7, .layers = {{0.0, 20e3, 1}, {20e3, 50e3, 2}}};
+    g.scene.transfer->liquefied = scene::LiquefiedZone{.regions = {0},
+                                                       .r_u = 0.7,
+                                                       .when = scene::LiquefiedWhen::ever,
+                                                       .layers = {{0.0, 20e3, 1}, {20e3, 50e3, 2}}};
     g.scene.mpm = meshes::cells(1.0, 12.0, 20.0);
     g.scene.mpm->stiffness_scale = 1.0;
     const auto t = meshes::transferred(g.mesh, g.scene);
