@@ -1,6 +1,6 @@
-// Threads that share the tasks of a loop. Between loops they sleep (no spinning: other programs may
-// want the cores), and nobody waits for one that wakes late: the caller does its tasks. Which
-// thread takes a task is a matter of luck, so tasks must not depend on it.
+// Threads that share the tasks of a loop. Between loops they look for the next one a while, letting
+// whoever wants the core have it, and sleep then. Nobody waits for one that wakes late: the caller
+// does its tasks. Which thread takes a task is a matter of luck, so tasks must not depend on it.
 #pragma once
 
 #include <atomic>
