@@ -31,6 +31,7 @@ namespace {
 constexpr double cut = 0.5;
 constexpr double growth = 2.0;
 constexpr int easy_steps_before_growth = 4;
+constexpr double told_residual = 10.0;    // times force_tolerance, at the end of a static stage
 constexpr double least_load_step = 1e-4;  // share of gravity
 
 /// Static stages without plasticity, all dynamic ones (the mass keeps the symmetrised tangent
@@ -399,6 +400,14 @@ void Analysis::note_geostatic_state(const Stage& stage, const NewtonOutcome& out
                                                        {"K_average", K.average},
                                                        {"K_least", K.least},
                                                        {"K_largest", K.largest}});
+    if (outcome.residual <= told_residual * fem_.force_tolerance) return;
+    session_.flag({"out_of_balance", fault::Severity::warning,
+                   "stage '" + stage.name + "' ends with " + text_of(outcome.residual) +
+                       " of the weight out of balance, " +
+                       text_of(outcome.residual / fem_.force_tolerance) +
+                       " times the tolerance: its points jump between states, and the residual "
+                       "falls no further; a finer mesh or smaller load steps may help",
+                   "/fem/force_tolerance"});
 }
 
 Analysis::StageEnd Analysis::dynamic_stage(const Stage& stage) {
@@ -479,12 +488,12 @@ double Analysis::next_stop(double stage_end) const {
     const auto& times = decided_.snapshot_times.value;
     const auto next = static_cast<std::size_t>(position_.next_snapshot);
     const double wanted = next < times.size() ? std::min(times[next], stage_end) : stage_end;
-    constexpr double rounding = 1e-6;  // of a step
+    const double near = 0.05 * position_.dt;  // no step for so little
     const double step = fem_.stages[position_.stage].time_step;
     const double begin = stage_begin(position_.stage);
-    const double done = std::floor((position_.time - begin) / step + rounding);
+    const double done = std::floor((position_.time - begin + near) / step);
     const double multiple = begin + step * (done + 1.0);
-    return multiple < wanted - rounding * step ? multiple : wanted;
+    return multiple < wanted - near ? multiple : wanted;
 }
 
 /// The wanted step, shortened to meet the next stop: the way there is divided evenly when less than

@@ -3,35 +3,16 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
+
+#include "core/numerics/team.hpp"
 
 namespace breach::numerics {
 
 /// Calls work(0) .. work(count - 1), each once. The first exception is thrown again here.
 template <class Work>
 void run_blocks(std::size_t count, int threads, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr failure;
-    std::mutex failing;
-    const auto take_blocks = [&] {
-        try {
-            for (std::size_t block = next++; block < count; block = next++) work(block);
-        } catch (...) {
-            const std::lock_guard lock(failing);
-            if (!failure) failure = std::current_exception();
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int n = 1; n < threads; ++n) others.emplace_back(take_blocks);
-        take_blocks();
-    }
-    if (failure) std::rethrow_exception(failure);
+    Team(threads).share(count, work);
 }
 
 /// Cuts [0, count) into one part per thread: part(begin, end, k), k below the number of threads and

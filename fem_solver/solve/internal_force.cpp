@@ -32,12 +32,13 @@ Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
 
 }  // namespace
 
-InternalForce::InternalForce(const Model& model, Seconds& seconds, int threads)
+InternalForce::InternalForce(const Model& model, Seconds& seconds,
+                             std::shared_ptr<numerics::Team> team)
     : model_(model),
       points_(model.points_per_element),
-      threads_(threads),
+      team_(std::move(team)),
       seconds_(seconds),
-      memory_(model, threads) {
+      memory_(model, team_) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     if (model.kinematics == scene::Kinematics::updated_lagrangian) {
@@ -47,7 +48,7 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds, int threads)
         hourglass_ = model.hourglass;
     }
     d_q_.resize(model.hourglass.size());
-    if (threads > 1) nodal_.resize(model.mesh.quads.size());
+    if (team_->threads() > 1) nodal_.resize(model.mesh.quads.size());
     for (const Zone& zone : model.zones) {
         const double G = materials::elasticity(zone.law).shear_modulus();
         elastic_c_s_.insert(elastic_c_s_.end(), d_q_.empty() ? 0 : zone.count, 4.0 * G);
@@ -66,13 +67,13 @@ Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
     const std::size_t elements = model_.mesh.quads.size();
     if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
         std::atomic<bool> folded = false;
-        for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+        for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t e = begin; e < end && !folded; ++e)
                 if (moving_strains(e, old, trial) == Geometry::degenerate) folded = true;
         });
         return folded ? Geometry::degenerate : Geometry::sound;
     }
-    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) small_strains(e, old, trial);
     });
     return Geometry::sound;
@@ -152,9 +153,9 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
         }
     };
     if (half_angle_.empty())
-        for_ranges(zone.count * points_, threads_, still);
+        for_ranges(zone.count * points_, *team_, still);
     else
-        for_ranges(zone.count * points_, threads_, turning);
+        for_ranges(zone.count * points_, *team_, turning);
     return Geometry::sound;
 }
 
@@ -164,7 +165,7 @@ Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t 
     const Zone& zone = model_.zones[z];
     const std::size_t first = zone.first * points_;
     const bool turns = !half_angle_.empty();
-    for_ranges(zone.count * points_, threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(zone.count * points_, *team_, [&](std::size_t begin, std::size_t end) {
         Matrix4 D;
         for (std::size_t p = first + begin; p < first + end; ++p) {
             State start = old.points[p];
@@ -300,8 +301,8 @@ void InternalForce::force_pass(const Motion& old, Motion& trial) {
         if (!d_q_.empty()) advance_hourglass(begin, end, old, trial);
         visit_nodal_forces(begin, end, trial, take);
     };
-    if (threads_ <= 1) return range(0, elements, add);
-    for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {
+    if (team_->threads() == 1) return range(0, elements, add);
+    for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
         range(begin, end, [&](std::size_t e, const Dofs8& f) { nodal_[e] = f; });
     });
     for (std::size_t e = 0; e < elements; ++e) add(e, nodal_[e]);

@@ -2,6 +2,7 @@
 // pass. Small strains on the undeformed mesh, or updated Lagrangian on the moving one.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fem_solver/solve/linear_system.hpp"
@@ -18,8 +19,9 @@ enum class Geometry {
 
 class InternalForce {
   public:
-    /// threads: change no number.
-    InternalForce(const Model& model, Seconds& seconds, int threads = 1);
+    /// team: its threads change no number.
+    InternalForce(const Model& model, Seconds& seconds,
+                  std::shared_ptr<numerics::Team> team = std::make_shared<numerics::Team>(1));
 
     /// Stresses, strains and nodal forces of `trial` (points, strain, force) at displacement
     /// trial.u, coming from `old`.
@@ -81,7 +83,7 @@ class InternalForce {
 
     const Model& model_;
     const std::size_t points_;  ///< per element
-    const int threads_;
+    std::shared_ptr<numerics::Team> team_;
     Seconds& seconds_;
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]

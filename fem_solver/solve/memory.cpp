@@ -94,8 +94,8 @@ StressBias begin_memory(const Model& model, Motion& motion) {
     return bias;
 }
 
-MemoryPass::MemoryPass(const Model& model, int threads)
-    : model_(model), points_(model.points_per_element), threads_(threads) {
+MemoryPass::MemoryPass(const Model& model, std::shared_ptr<numerics::Team> team)
+    : model_(model), points_(model.points_per_element), team_(std::move(team)) {
     for (const Zone& zone : model.zones) {
         materials::if_remembers(zone.law, [&]<class Law>(const Law&) {
             auto& updates = std::get<Buffer<Law>>(buffers_).updates;

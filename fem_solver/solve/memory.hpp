@@ -4,6 +4,7 @@
 // its stress.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <tuple>
@@ -45,8 +46,9 @@ std::size_t points_with_memory(const Model& model, const Motion& motion);
 /// Runs laws over zones; its buffers are as large as the largest zone of each.
 class MemoryPass {
   public:
-    /// threads: change no number.
-    explicit MemoryPass(const Model& model, int threads = 1);
+    /// team: its threads change no number.
+    explicit MemoryPass(const Model& model,
+                        std::shared_ptr<numerics::Team> team = std::make_shared<numerics::Team>(1));
 
     enum class Answer {
         done,
@@ -101,7 +103,7 @@ class MemoryPass {
 
     const Model& model_;
     std::size_t points_;  ///< per element
-    int threads_;
+    std::shared_ptr<numerics::Team> team_;
     Refusal refusal_;
     decltype(buffers_of(static_cast<const materials::Law*>(nullptr))) buffers_;
     std::vector<Voigt> in_own_axes_;  ///< increments of a zone, on a moving mesh
@@ -124,7 +126,7 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
         std::span(std::get<Buffer<Law>>(buffers_).updates).first(d_epsilon.size());
     const std::size_t first = zone.first * points_;
     if (!half_angles.empty()) d_epsilon = turn(first, d_epsilon, half_angles, old, trial);
-    for_ranges(updates.size(), threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(updates.size(), *team_, [&](std::size_t begin, std::size_t end) {
         const std::size_t count = end - begin;
         materials::integrate(law, from.subspan(begin, count), d_epsilon.subspan(begin, count),
                              updates.subspan(begin, count));

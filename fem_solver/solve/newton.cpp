@@ -73,7 +73,8 @@ Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symme
     : model_(model),
       settings_(settings),
       seconds_(seconds),
-      internal_force_(model, seconds, settings.threads),
+      team_(std::make_shared<numerics::Team>(settings.threads)),
+      internal_force_(model, seconds, team_),
       matrix_(model, model.unknowns(solved), symmetry) {
     const Unknowns& unknowns = matrix_.unknowns();
     if (model.rayleigh.stiffness > 0.0) {
@@ -204,7 +205,7 @@ void Newton::add_water(const StepProblem& problem, Motion& trial) {
     double rounding = 0.0;
     const auto& elements = model_.water.elements;
     of_water_.resize(elements.size());
-    for_ranges(elements.size(), settings_.threads, [&](std::size_t begin, std::size_t end) {
+    for_ranges(elements.size(), *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
             of_water_[e] = water_share(elements[e], problem, trial);
         }

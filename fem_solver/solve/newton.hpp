@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -95,6 +96,7 @@ class Newton {
     const Model& model_;
     NewtonSettings settings_;
     Seconds& seconds_;
+    std::shared_ptr<numerics::Team> team_;
     InternalForce internal_force_;
     LinearSystem matrix_;
     std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping

@@ -67,7 +67,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     const std::size_t n = body.points.size();
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
-    body.team = std::make_shared<Team>(useful_threads(computing.threads, n));
+    body.team = std::make_shared<numerics::Team>(useful_threads(computing.threads, n));
     if (body.order == UpdateOrder::musl) body.drift_x.resize(n), body.drift_y.resize(n);
     for (std::size_t p = 0; p < n; ++p) {
         const Vec2 v{body.points.vx[p], body.points.vy[p]};

@@ -7,12 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "core/numerics/team.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
 #include "mpm_solver/body/nonlocal.hpp"
 #include "mpm_solver/body/points.hpp"
 #include "mpm_solver/body/strips.hpp"
-#include "mpm_solver/body/team.hpp"
 
 namespace breach::mpm {
 
@@ -59,7 +59,7 @@ struct Body {
     std::vector<Loops> loops;  ///< per zone
     NonlocalSoftening softening;
     Strips strips;
-    std::shared_ptr<Team> team;
+    std::shared_ptr<numerics::Team> team;
     std::vector<Totals> sums;  ///< of every zone of every strip
     Tally tally;
 };

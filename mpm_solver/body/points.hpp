@@ -2,6 +2,7 @@
 // points that obey one law.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ struct Points {
     Carried carried;
 
     std::size_t size() const { return x.size(); }
+    /// Of the soil alone, without gaps that stand open after tension: what depths are made of [m3].
+    double soil_volume(std::size_t p) const { return volume[p] * std::exp(-gap[p]); }
     void resize(std::size_t n);
 };
 

@@ -24,9 +24,8 @@ constexpr double most_volume_ratio = 1.3;
 /// missing from the deposit.
 constexpr double largest_overlap = 0.05;
 
-/// Cells across the mean depth of what lies beyond the toe. The Mochikoshi dam with residual strengths from
-/// the start ran 68, 140 and 180 m on 1.8, 3.0 and 5.5 cells, a collapsing column of sand 28.8, 30.2 and
-/// 31.5 m on 1.3, 2 and 5 (docs/mpm_convergence.md, docs/accuracy.md): thin sheets run too short.
+/// Cells across the mean depth of what lies beyond the toe. The Mochikoshi dam with residual
+/// strengths from the start ran 68, 140, 180 and 176 m on 1.8, 3.0, 5.6 and 11 (docs/mpm_convergence.md).
 constexpr double deposit_cells_wanted = 5.0;
 
 /// How a run ended, as far as doubts go.

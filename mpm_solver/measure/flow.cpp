@@ -17,7 +17,7 @@ struct Sums {
     std::int32_t count = 0;
 
     void add(const Points& points, std::size_t p, double weight) {
-        V += weight * points.volume[p];
+        V += weight * points.soil_volume(p);
         m += weight * points.m[p];
         mv += weight * points.m[p] * points.vx[p];
         ++count;
@@ -121,7 +121,7 @@ std::vector<double> ground_profile(const Points& points, const FlowView& view,
 std::vector<double> surface_profile(const Points& points, const FlowView& view,
                                     std::vector<double> ground) {
     for (std::size_t p = 0; p < points.size(); ++p) {
-        const double top = points.y[p] + 0.5 * std::sqrt(points.volume[p] / view.thickness);
+        const double top = points.y[p] + 0.5 * std::sqrt(points.soil_volume(p) / view.thickness);
         const auto k = static_cast<std::size_t>(std::lround((points.x[p] - view.low) / view.width));
         ground[k] = std::max(ground[k], top);
     }

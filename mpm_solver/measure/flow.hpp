@@ -23,7 +23,7 @@ struct FlowView {
 FlowView flow_view(const scene::Scene& scene, const Grid& grid);
 
 struct Flow {
-    double depth = 0.0;       ///< volume over the plan area [m]
+    double depth = 0.0;       ///< volume of soil over the plan area [m]
     double velocity = 0.0;    ///< mass-weighted mean of v_x; 0 where there is no soil [m/s]
     std::int32_t points = 0;  ///< that it is the mean of
 };

@@ -35,7 +35,7 @@ Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, 
         if (!mobile[points.region[p]]) continue;
         const double distance = points.x[p] - toe_x;
         all.emplace_back(distance, points.m[p]);
-        if (distance > 0.0) volume_beyond += points.volume[p];
+        if (distance > 0.0) volume_beyond += points.soil_volume(p);
     }
     if (all.empty()) return {};
     std::sort(all.begin(), all.end());

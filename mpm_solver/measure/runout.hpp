@@ -17,7 +17,7 @@ struct Runout {
     double beyond_95 = 0.0;  ///< 95th percentile of it
     double beyond_50 = 0.0;  ///< its median
     double largest = 0.0;    ///< of any point
-    double volume_beyond = 0.0;  ///< at x > x_toe [m3]
+    double volume_beyond = 0.0;  ///< of soil at x > x_toe [m3]
 };
 
 /// Per region of the section: does its soil count for the runout?

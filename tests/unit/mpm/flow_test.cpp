@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mpm_solver/measure/gauges.hpp"
+#include "mpm_solver/measure/runout.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {
@@ -38,6 +41,22 @@ TEST(Flow, ProfileOfALayerIsItsDepthUpToTheWall) {
         volume += profile[k].depth * (k == 0 || k + 1 == profile.size() ? 0.5 : 1.0);
     }
     EXPECT_NEAR(volume, 15.0, 1e-12);
+}
+
+TEST(Flow, DepthIsOfSoilAndNotOfTheGapsInIt) {
+    const scene::Scene scene = layer();
+    Body body = moving_layer(scene);
+    const FlowView view = flow_view(scene, body.grid);
+    const std::vector<Flow> before = flow_profile(body.points, view);
+    const double beyond = runout_of(body.points, view.mobile, 2.0).volume_beyond;
+    for (std::size_t p = 0; p < body.points.size(); ++p) {
+        body.points.gap[p] = 1.0 + body.points.x[p];
+        body.points.volume[p] *= std::exp(body.points.gap[p]);
+    }
+    const std::vector<Flow> opened = flow_profile(body.points, view);
+    for (std::size_t k = 0; k < before.size(); ++k)
+        EXPECT_NEAR(opened[k].depth, before[k].depth, 1e-12) << k;
+    EXPECT_NEAR(runout_of(body.points, view.mobile, 2.0).volume_beyond, beyond, 1e-11);
 }
 
 TEST(Flow, GaugeBetweenColumnsSeesTheLayerToo) {

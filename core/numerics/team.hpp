@@ -6,10 +6,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
-namespace breach::mpm {
+namespace breach::numerics {
 
 class Team {
   public:
@@ -19,7 +21,10 @@ class Team {
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
 
-    /// Calls work(task) for task = 0 .. tasks - 1 and returns when all are done.
+    std::size_t threads() const { return members_.size() + 1; }
+
+    /// Calls work(task) for task = 0 .. tasks - 1, each once, and returns when all are done. The first
+    /// exception is thrown again here; tasks that nobody has taken by then may be left out.
     template <class Work>
     void share(std::size_t tasks, const Work& work) {
         if (members_.empty() || tasks < 2) {
@@ -45,7 +50,9 @@ class Team {
     /// Number of the round, whether it is open, and how many members are at work in it.
     std::atomic<std::uint32_t> state_{0};
     std::atomic<bool> closing_{false};
+    std::mutex failing_;
+    std::exception_ptr failure_;
     std::vector<std::thread> members_;
 };
 
-}  // namespace breach::mpm
+}  // namespace breach::numerics

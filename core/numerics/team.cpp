@@ -1,6 +1,8 @@
-#include "mpm_solver/body/team.hpp"
+#include "core/numerics/team.hpp"
 
-namespace breach::mpm {
+#include <utility>
+
+namespace breach::numerics {
 
 namespace {
 
@@ -47,10 +49,17 @@ void Team::share_out(std::size_t tasks, Call call, const void* work) {
     for (std::uint32_t state = state_; (state & members_mask) != 0; state = state_) {
         wait_while(state_, state);
     }
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void Team::take_tasks() {
-    for (std::size_t task = next_++; task < tasks_; task = next_++) call_(work_, task);
+    try {
+        for (std::size_t task = next_++; task < tasks_; task = next_++) call_(work_, task);
+    } catch (...) {
+        next_ = tasks_;
+        const std::lock_guard lock(failing_);
+        if (!failure_) failure_ = std::current_exception();
+    }
 }
 
 void Team::serve() {
@@ -70,4 +79,4 @@ void Team::serve() {
     }
 }
 
-}  // namespace breach::mpm
+}  // namespace breach::numerics
