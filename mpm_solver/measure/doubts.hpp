@@ -25,7 +25,7 @@ constexpr double most_volume_ratio = 1.3;
 constexpr double largest_overlap = 0.05;
 
 /// Cells across the mean depth of what lies beyond the toe. The Mochikoshi dam with residual
-/// strengths from the start ran 68, 140, 180 and 176 m on 1.8, 3.0, 5.6 and 11 (docs/mpm_convergence.md).
+/// strengths from the start ran 68, 140, 180 and 176 m on 1.6, 2.7, 5.2 and 11 (docs/mpm_convergence.md).
 constexpr double deposit_cells_wanted = 5.0;
 
 /// How a run ended, as far as doubts go.
