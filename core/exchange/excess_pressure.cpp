@@ -1,5 +1,7 @@
 #include "core/exchange/excess_pressure.hpp"
 
+#include <algorithm>
+
 #include "core/mechanics/excess_pressure.hpp"
 
 namespace breach::exchange {
@@ -11,8 +13,10 @@ std::vector<double> nodal_excess_pressure(const MeshSnapshot& mesh) {
 }
 
 std::vector<double> largest_excess_pressure(const MeshSnapshot& mesh) {
-    return mesh.excess_pressure_max.empty() ? nodal_excess_pressure(mesh)
-                                            : mesh.excess_pressure_max;
+    std::vector<double> largest = nodal_excess_pressure(mesh);
+    for (std::size_t i = 0; i < mesh.excess_pressure_max.size(); ++i)
+        largest[i] = std::max(largest[i], mesh.excess_pressure_max[i]);
+    return largest;
 }
 
 }  // namespace breach::exchange

@@ -9,7 +9,7 @@ namespace breach::exchange {
 /// where the snapshot has no u_0.
 std::vector<double> nodal_excess_pressure(const MeshSnapshot& mesh);
 
-/// The largest of it since the shaking began, where the snapshot has that; its own otherwise.
+/// The largest of it since the shaking began, as far as the snapshot knows: its own instant at least.
 std::vector<double> largest_excess_pressure(const MeshSnapshot& mesh);
 
 }  // namespace breach::exchange

@@ -109,6 +109,7 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<FreeFieldSides>({fem + "/free_field/properties/sides"});
     words.are_those_of<Interpolation>({transfer + "/interpolation"});
     words.are_those_of<SofteningStart>({transfer + "/softening_start"});
+    words.are_those_of<LiquefiedWhen>({transfer + "/liquefied/properties/when"});
     words.are_those_of<Entangled>({transfer + "/entangled"});
     words.are_those_of<TransferredStress>({transfer + "/stress"});
     words.are_those_of<Kernel>({mpm + "/kernel"});
