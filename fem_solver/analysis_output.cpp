@@ -163,6 +163,7 @@ void Analysis::resume() {
     set_skeleton_modulus(beginning_, model_);
     history_ = std::move(checkpoint.history);
     session_.truncate_telemetry(position_.telemetry_lines);
+    session_.went_on_after(archive.spent);
     before_ = {position_.step, checkpoint.counts.iterations};
     make_newton(fem_.stages[position_.stage], checkpoint.counts);
     if (!newton_->restore(checkpoint.newton))

@@ -240,7 +240,7 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
             refuse(file.string(), "/run.looks", "counts looks of which there is no record");
         return {Simulation(scene, std::move(body), clock, start, std::move(records),
                            load_ground(archive, file.string())),
-                count_at(archive, "run.telemetry_lines", file.string())};
+                count_at(archive, "run.telemetry_lines", file.string()), archive.spent};
     } catch (const std::out_of_range&) {
         refuse(file.string(), "/", "lacks an array of a checkpoint");
     }

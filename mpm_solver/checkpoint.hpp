@@ -15,6 +15,7 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
 struct Resumed {
     Simulation simulation;
     std::int64_t telemetry_lines;
+    exchange::Spent spent;
 };
 
 /// Throws BadInput if the checkpoint belongs to another scene or input, or is damaged.

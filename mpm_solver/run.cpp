@@ -26,6 +26,7 @@ Simulation begin_or_resume(Session& session) {
         Resumed resumed = load_checkpoint(checkpoint, session.scene(), session.provenance(),
                                           computing_of(session));
         session.truncate_telemetry(resumed.telemetry_lines);
+        session.went_on_after(resumed.spent);
         spdlog::info("goes on at t = {:.6f} s, step {}", resumed.simulation.clock().time,
                      resumed.simulation.clock().step);
         return std::move(resumed.simulation);

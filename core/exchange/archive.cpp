@@ -46,6 +46,7 @@ Archive read_archive(const std::filesystem::path& path, const std::string& kind,
     for (const std::string& name : reader.names_in(texts))
         for (const std::string& text : reader.strings(texts + "/" + name))
             archive.texts[name] += text;
+    archive.spent = read_provenance(reader).spent;
     reader.refuse_if_faulty();
     return archive;
 }

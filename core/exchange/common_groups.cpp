@@ -118,8 +118,8 @@ void write_provenance(Hdf5Image& image, const Provenance& provenance) {
     image.attribute(here, "version", provenance.version);
     const std::int64_t threads = provenance.threads;
     image.attribute(here, "threads", std::span(&threads, 1));
-    image.attribute(here, "wall_seconds", provenance.wall_seconds);
-    image.attribute(here, "cpu_seconds", provenance.cpu_seconds);
+    image.attribute(here, "wall_seconds", provenance.spent.wall);
+    image.attribute(here, "cpu_seconds", provenance.spent.cpu);
     image.strings(here + "/scene", {provenance.scene});
     image.strings(here + "/overrides", provenance.overrides);
     std::vector<std::string> paths;
@@ -138,8 +138,8 @@ Provenance read_provenance(Hdf5Reader& reader) {
     provenance.phase = reader.text_attribute(here, "phase");
     provenance.version = reader.text_attribute(here, "version");
     provenance.threads = static_cast<int>(reader.integer_attribute(here, "threads"));
-    provenance.wall_seconds = reader.real_attribute(here, "wall_seconds");
-    provenance.cpu_seconds = reader.real_attribute(here, "cpu_seconds");
+    provenance.spent.wall = reader.real_attribute(here, "wall_seconds");
+    provenance.spent.cpu = reader.real_attribute(here, "cpu_seconds");
     for (const std::string& text : reader.strings(here + "/scene")) provenance.scene += text;
     provenance.overrides = reader.strings(here + "/overrides");
     const std::vector<std::string> paths = reader.strings(here + "/input_paths");

@@ -12,6 +12,12 @@ struct InputDigest {
     std::string sha256;
 };
 
+/// By all processes that had a part in a file, up to its writing [s].
+struct Spent {
+    double wall = 0.0;
+    double cpu = 0.0;
+};
+
 struct Provenance {
     std::string phase;                   ///< "fem_solver", ...
     std::string version;                 ///< Breachline version
@@ -19,8 +25,7 @@ struct Provenance {
     std::vector<std::string> overrides;  ///< "/pointer=value" as given
     std::vector<InputDigest> inputs;
     int threads = 1;
-    double wall_seconds = 0.0;  ///< when the file was written
-    double cpu_seconds = 0.0;
+    Spent spent = {};
 };
 
 /// SHA-256 of a file as 64 hexadecimal digits. Throws IoError.

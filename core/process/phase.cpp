@@ -129,8 +129,8 @@ json as_json(const exchange::Provenance& p) {
             {"overrides", p.overrides},
             {"inputs", inputs},
             {"threads", p.threads},
-            {"wall_seconds", p.wall_seconds},
-            {"cpu_seconds", p.cpu_seconds}};
+            {"wall_seconds", p.spent.wall},
+            {"cpu_seconds", p.spent.cpu}};
 }
 
 json as_json(const std::vector<fault::Flag>& flags) {
@@ -164,8 +164,9 @@ json known_of(Session& session, const Plan& plan) {
     known["plan"] = as_json(plan);
     known["flags"] = as_json(session.flags());
     known["questionable"] = fault::is_questionable(session.flags());
-    known["wall_seconds"] = session.wall_seconds();
-    known["cpu_seconds"] = session.cpu_seconds();
+    const exchange::Spent spent = session.spent();
+    known["wall_seconds"] = spent.wall;
+    known["cpu_seconds"] = spent.cpu;
     if (const auto peak = session.peak_memory()) known["peak_memory_MB"] = *peak;
     known["provenance"] = as_json(session.provenance());
     return known;

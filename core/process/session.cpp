@@ -74,8 +74,7 @@ exchange::Provenance Session::provenance() const {
             .overrides = settings_.overrides,
             .inputs = digests_,
             .threads = settings_.threads,
-            .wall_seconds = wall_seconds(),
-            .cpu_seconds = cpu_seconds()};
+            .spent = spent()};
 }
 
 double Session::wall_seconds() const {
@@ -86,6 +85,10 @@ double Session::cpu_seconds() const {
     timespec used{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+exchange::Spent Session::spent() const {
+    return {earlier_.wall + wall_seconds(), earlier_.cpu + cpu_seconds()};
 }
 
 std::optional<double> Session::peak_memory() const {

@@ -47,8 +47,12 @@ class Session {
 
     /// Provenance with the times of now.
     exchange::Provenance provenance() const;
-    double wall_seconds() const;
-    double cpu_seconds() const;
+    double wall_seconds() const;  ///< of this process
+    double cpu_seconds() const;   ///< of this process
+    /// Of all processes of the run: this one and those before it whose work it has.
+    exchange::Spent spent() const;
+    /// The run goes on from what others computed.
+    void went_on_after(const exchange::Spent& earlier) { earlier_ = earlier; }
     /// Most physical memory that the process has held at once [MB]; nothing: the system does not
     /// say.
     std::optional<double> peak_memory() const;
@@ -88,6 +92,7 @@ class Session {
     scene::Scene scene_;
     std::vector<exchange::InputDigest> digests_;
     std::chrono::steady_clock::time_point began_;
+    exchange::Spent earlier_;
     std::chrono::steady_clock::time_point shown_{};
     std::ofstream telemetry_;
     std::int64_t telemetry_lines_ = 0;

@@ -28,7 +28,7 @@ constexpr double bytes_per_point = 210;                // of a whole state
 constexpr double bytes_per_framed_point = 20;          // of a frame with the usual fields
 constexpr double bytes_per_fem_line = 900, bytes_per_mpm_line = 250;  // of telemetry
 constexpr double bytes_beside = 5e4;                                  // result, scene, history
-constexpr double fold = 2.0;
+constexpr double fold = 2.0, widening_of_means = 1.5;
 
 Range around(double middle) { return {middle / fold, middle * fold}; }
 
@@ -39,6 +39,8 @@ PhaseCost lem_cost(const scene::Lem& lem) {
             {{"surfaces", surfaces}},
             around(start_up + per_surface_and_slice * surfaces * lem.slices),
             around(bytes_beside + 8e3 * std::min(searches.stages, 100.0)),
+            {},
+            {},
             ""};
 }
 
@@ -80,6 +82,8 @@ PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool count
             around(start_up + rate_of(scene, mesh) * mesh.elements * steps.steps),
             around(bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
                    bytes_per_fem_line * lines),
+            {},
+            {},
             ""};
 }
 
@@ -88,6 +92,8 @@ PhaseCost transfer_cost(double points) {
             {{"points, about", points}},
             around(2.0 * start_up + per_transferred_point * points),
             around(0.5 * bytes_beside + bytes_per_point * points),
+            {},
+            {},
             ""};
 }
 
@@ -105,6 +111,8 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
              {mpm.until_rest ? "seconds until rest, about" : "seconds of flow", duration}},
             around(start_up + per_point_step * points * steps),
             around(bytes_beside + per_point * points + bytes_per_mpm_line * lines),
+            {},
+            {},
             ""};
 }
 
@@ -163,10 +171,13 @@ Sum sum_of(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
     Sum sum;
     for (const PhaseCost& each : costs) {
         const Range times = times_of(each.phase, repeats);
-        sum.cpu_seconds.low += times.low * each.cpu_seconds.low;
-        sum.cpu_seconds.high += times.high * each.cpu_seconds.high;
-        sum.bytes.low += times.low * each.bytes.low;
-        sum.bytes.high += times.high * each.bytes.high;
+        const bool many = times.low > 1.0;
+        const Range& cpu_seconds = many ? each.mean_cpu_seconds : each.cpu_seconds;
+        const Range& bytes = many ? each.mean_bytes : each.bytes;
+        sum.cpu_seconds.low += times.low * cpu_seconds.low;
+        sum.cpu_seconds.high += times.high * cpu_seconds.high;
+        sum.bytes.low += times.low * bytes.low;
+        sum.bytes.high += times.high * bytes.high;
     }
     return sum;
 }
@@ -195,7 +206,11 @@ std::vector<PhaseCost> cost_of(const scene::Scene& scene, const std::optional<Me
     if (scene.fem) costs.push_back(fem_cost(scene, meshed, mesh.has_value()));
     if (scene.fem && scene.transfer && scene.mpm) costs.push_back(transfer_cost(points));
     if (scene.mpm) costs.push_back(mpm_cost(scene, points));
-    for (PhaseCost& each : costs) each.basis = "by the scene alone";
+    for (PhaseCost& each : costs) {
+        each.mean_cpu_seconds = each.cpu_seconds;
+        each.mean_bytes = each.bytes;
+        each.basis = "by the scene alone";
+    }
     return costs;
 }
 
@@ -217,10 +232,21 @@ void learn(std::vector<PhaseCost>& costs, const std::string& scene,
             return Range{range.middle() * (low->*ratio) / widening,
                          range.middle() * (high->*ratio) * widening};
         };
+        const auto mean = [&](const Range& range, double Earlier::*ratio) {
+            double sum = 0.0;
+            for (const Earlier* each : used) sum += each->*ratio;
+            const double middle = range.middle() * sum / static_cast<double>(used.size());
+            const double factor = same.empty() ? fold : widening_of_means;
+            return Range{middle / factor, middle * factor};
+        };
+        cost.mean_cpu_seconds = mean(cost.cpu_seconds, &Earlier::cpu_ratio);
         cost.cpu_seconds = moved(cost.cpu_seconds, &Earlier::cpu_ratio);
         const bool sized =
             std::ranges::all_of(used, [](const Earlier* each) { return each->bytes_ratio > 0.0; });
-        if (sized) cost.bytes = moved(cost.bytes, &Earlier::bytes_ratio);
+        if (sized) {
+            cost.mean_bytes = mean(cost.bytes, &Earlier::bytes_ratio);
+            cost.bytes = moved(cost.bytes, &Earlier::bytes_ratio);
+        }
         cost.basis = "by " + std::to_string(used.size()) +
                      (used.size() == 1 ? " earlier run" : " earlier runs") +
                      (same.empty() ? " of other scenes" : " of this scene");

@@ -30,6 +30,8 @@ struct PhaseCost {
     std::vector<std::pair<std::string, double>> counts;  ///< "elements", how many
     Range cpu_seconds;                                   ///< [s]
     Range bytes;                                         ///< on disk
+    Range mean_cpu_seconds;                              ///< of many such runs [s]
+    Range mean_bytes;
     std::string basis;                                   ///< where the ranges come from
 };
 
@@ -48,7 +50,8 @@ struct Earlier {
 
 /// Moves the ranges to what earlier runs took, from their least to their largest ratio: of a scene of
 /// the same name where there are any, widened by a quarter, or by half for one run alone; else of
-/// others, widened by the factor of two that they know no better. Phases that have not run stay.
+/// others, widened by the factor of two that they know no better. The mean of many goes by the mean
+/// ratio, widened by half. Phases that have not run stay.
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier);
 

@@ -1,5 +1,7 @@
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -13,7 +15,7 @@ namespace {
 using estimate::Earlier;
 using Found = std::optional<Earlier>;  // none: the task says nothing
 
-constexpr std::size_t newest_runs = 8, first_tasks = 24, tasks_of_a_phase = 2;
+constexpr std::size_t newest_runs = 8, tasks_of_a_phase = 8;
 
 double bytes_of(const Store& store, const std::string& task) {
     double sum = 0.0;
@@ -35,27 +37,43 @@ Found earlier_of(const Store& store, const Task& task, const std::string& run_sc
     return std::nullopt;
 }
 
-/// Tasks that were read, by id; what has succeeded does not change.
+/// What runs said when they had as many tasks done as now; what has succeeded does not change.
 class Memory {
   public:
-    Found of(const Store& store, const Task& task, const std::string& run_scene) {
+    std::vector<Earlier> of(const Store& store, const Run& run) {
         {
             const std::lock_guard lock(mutex_);
-            if (const auto known = found_.find(task.id); known != found_.end())
-                return known->second;
+            const auto known = runs_.find(run.id);
+            if (known != runs_.end() && known->second.tasks_done == run.tasks_done)
+                return known->second.earlier;
         }
-        Found found;
-        try {
-            found = earlier_of(store, task, run_scene);
-        } catch (const fault::BadInput&) {  // a scene of an earlier version
-        }
+        std::vector<Earlier> earlier = read(store, run.id);
         const std::lock_guard lock(mutex_);
-        return found_[task.id] = std::move(found);
+        runs_[run.id] = {run.tasks_done, earlier};
+        return earlier;
     }
 
   private:
+    static std::vector<Earlier> read(const Store& store, const std::string& run) {
+        std::vector<Earlier> earlier;
+        const auto run_scene = store.scene_of(run);
+        if (!run_scene) return earlier;
+        for (const Task& task : store.computed_tasks_of(run, tasks_of_a_phase)) {
+            try {
+                if (const Found found = earlier_of(store, task, *run_scene))
+                    earlier.push_back(*found);
+            } catch (const fault::BadInput&) {  // a scene of an earlier version
+            }
+        }
+        return earlier;
+    }
+
+    struct Known {
+        std::int64_t tasks_done = 0;
+        std::vector<Earlier> earlier;
+    };
     std::mutex mutex_;
-    std::map<std::string, Found> found_;
+    std::map<std::string, Known> runs_;
 };
 
 Memory memory;
@@ -64,20 +82,8 @@ Memory memory;
 
 std::vector<Earlier> earlier_costs(const Store& store) {
     std::vector<Earlier> earlier;
-    for (const Run& run : store.runs(newest_runs)) {
-        if (run.tasks_done == 0) continue;
-        const auto run_scene = store.scene_of(run.id);
-        if (!run_scene) continue;
-        std::map<std::string, std::size_t> taken;
-        for (const Task& task : store.tasks_of(run.id, "", first_tasks)) {
-            if (task.state != TaskState::succeeded || taken[task.phase] >= tasks_of_a_phase)
-                continue;
-            if (const Found found = memory.of(store, task, *run_scene)) {
-                earlier.push_back(*found);
-                ++taken[task.phase];
-            }
-        }
-    }
+    for (const Run& run : store.runs(newest_runs))
+        if (run.tasks_done > 0) std::ranges::copy(memory.of(store, run), std::back_inserter(earlier));
     return earlier;
 }
 

@@ -8,8 +8,9 @@
 
 namespace breach::orchestrator {
 
-/// Of the newest runs, a few tasks of each phase that succeeded by computing (not from the cache). A
-/// task is read once: the answer is quick the second time.
+/// Of the newest runs, some tasks of each phase that succeeded by computing (not from the cache),
+/// spread over their transfer times: what runs out costs ten times what stays. The answer is quick
+/// the second time.
 std::vector<estimate::Earlier> earlier_costs(const Store& store);
 
 }  // namespace breach::orchestrator

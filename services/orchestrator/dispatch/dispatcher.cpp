@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "core/exchange/publish.hpp"
 #include "core/scene/file_paths.hpp"
@@ -247,10 +248,19 @@ std::vector<Task> Dispatcher::tasks_that_fit() {
     std::vector<Task> chosen;
     bool held_back = false;
     const auto most = static_cast<std::size_t>(std::max<std::int64_t>(cores, 0)) + look_ahead +
-                      in_the_cache_.size();
+                      in_the_cache_.size() + wait_for_equals_.size();
+    const std::set<std::string> waited = std::exchange(wait_for_equals_, {});
     for (Task& task : store_.tasks_to_start(full, most)) {
         if (leave_to_the_cache(task)) continue;
         if (held_back || is_full(task.phase)) continue;
+        if (waits_for_an_equal(task, chosen)) {
+            wait_for_equals_.insert(task.id);
+            continue;
+        }
+        if (waited.contains(task.id)) {  // that has ended: its answer is stored, or there is none
+            not_cached_.erase(task.id);
+            if (leave_to_the_cache(task)) continue;
+        }
         const bool alone = live_.empty() && chosen.empty();
         const bool fits = task.resources.cores <= cores &&
                           (settings_.memory_mb == 0 || task.resources.memory_mb <= memory);
@@ -268,6 +278,18 @@ bool Dispatcher::leave_to_the_cache(const Task& task) {
     in_the_cache_.insert(task.id);
     cache_.examine(task);
     return true;
+}
+
+/// What is being computed now, for another run, is not computed a second time beside it.
+bool Dispatcher::waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const {
+    const auto may_be_equal = [&](const Task& other) {
+        return task.recipe && other.recipe == task.recipe && other.run != task.run;
+    };
+    if (std::ranges::any_of(chosen, may_be_equal)) {
+        bell_.ring();  // once that has been started the store knows
+        return true;
+    }
+    return store_.equal_in_flight(task).has_value();
 }
 
 /// One commit before the processes are started and one after, for all of them.
@@ -456,6 +478,14 @@ void Dispatcher::settle_children(const std::string& parent_id) {
     for (const std::string& each : skipped) settle_children(each);
 }
 
+/// `ended` may be what others waited for without knowing. Tasks of one run are not equal.
+void Dispatcher::look_up_again(const std::optional<Task>& ended) {
+    if (!ended || !ended->recipe) return;
+    std::erase_if(not_cached_, [&](const auto& each) {
+        return each.second.recipe == ended->recipe && each.second.run != ended->run;
+    });
+}
+
 /// What is not got through, because an exception ends it, is got through by the next reconciling.
 void Dispatcher::settle_after_registrar() {
     std::vector<std::string> tasks;
@@ -468,13 +498,15 @@ void Dispatcher::settle_after_registrar() {
     for (const std::string& task : looked_up) in_the_cache_.erase(task);
     for (const std::string& task : tasks) settle_children(task);
     for (const std::string& task : looked_up) {
-        const auto now = store_.task(task);
+        auto now = store_.task(task);
         if (now && now->state == TaskState::ready) {
-            not_cached_.insert(task);
+            not_cached_.emplace(task, std::move(*now));
         } else {
             settle_children(task);
         }
     }
+    for (const std::string& task : tasks)
+        if (!not_cached_.empty()) look_up_again(store_.task(task));
 }
 
 }  // namespace breach::orchestrator

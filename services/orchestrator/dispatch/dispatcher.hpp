@@ -98,6 +98,7 @@ class Dispatcher {
     void start_ready_tasks();
     std::vector<Task> tasks_that_fit();
     bool leave_to_the_cache(const Task& task);
+    bool waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const;
     void start(const std::vector<Task>& tasks);
     void link_files(const std::string& run);
     bool hand_over(Live& live);
@@ -126,6 +127,7 @@ class Dispatcher {
     /// Releases or skips what waits for this task, and what waits for that.
     void settle_children(const std::string& parent);
     void settle_after_registrar();
+    void look_up_again(const std::optional<Task>& ended);
 
     Store& store_;
     const DataFolder& data_;
@@ -145,7 +147,10 @@ class Dispatcher {
     std::vector<std::string> registered_;  ///< tasks that the registrar has finished with
     std::vector<std::string> looked_up_;   ///< tasks that the cache has finished with
     std::set<std::string> in_the_cache_;   ///< ready tasks that the cache looks up now
-    std::set<std::string> not_cached_;     ///< ready tasks that must run
+    /// Ready tasks that must run, as far as is known: each until a task of its recipe succeeds in
+    /// another run.
+    std::map<std::string, Task> not_cached_;
+    std::set<std::string> wait_for_equals_;  ///< ready tasks, in the last round
     std::atomic<bool> unsettled_ = false;
     ClockOfDay clock_;
     Histogram queue_wait_{{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 60, 600, 3600}};

@@ -30,7 +30,12 @@ json why_it_ran(const Store& store, const Task& task) {
     if (task.same_as) return because("taken from an earlier task", json::array(), *task.same_as);
     if (task.state == TaskState::cached)
         return because("taken from an earlier task, which was removed");
-    if (!task.started) return because("has not run");
+    if (!task.started) {
+        const auto equal = task.state == TaskState::ready ? store.equal_in_flight(task)
+                                                          : std::optional<std::string>();
+        return equal ? because("waits for an equal task", json::array(), *equal)
+                     : because("has not run");
+    }
     if (!task.recipe) return because("reuse is switched off");
     if (task.cache_refusal) {
         json answer = because("stored outputs are damaged");

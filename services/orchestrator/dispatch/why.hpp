@@ -8,6 +8,7 @@ namespace breach::orchestrator {
 /// {"reason":"scene part changed","differs":["/mpm/cfl"],"compared_with":"<task>"}. Reasons:
 ///
 ///     has not run                    it waits, or never will
+///     waits for an equal task        which is being computed for another run
 ///     taken from an earlier task     it did not run; compared_with is that task
 ///     reuse is switched off          by the study, or the result does not follow from the scene
 ///     first of its kind              no earlier task of this phase; stands alone

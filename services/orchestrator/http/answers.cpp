@@ -1,8 +1,5 @@
 #include "services/orchestrator/http/answers.hpp"
 
-#include <algorithm>
-#include <ctime>
-
 #include "core/exchange/csv.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 
@@ -28,18 +25,6 @@ json of_result(const Task& task, const char* key) {
     return task.result && task.result->is_object() ? task.result->value(key, json()) : json();
 }
 
-/// As if the rest went like what has been done since the start; null until that says something.
-json seconds_left(const Run& run, double progress) {
-    constexpr double too_early = 0.02;
-    if (run.finished || !run.started || run.paused || run.state == "budget_exhausted" ||
-        progress < too_early)
-        return nullptr;
-    std::tm begin{};
-    if (strptime(run.started->c_str(), "%Y-%m-%dT%H:%M:%S", &begin) == nullptr) return nullptr;
-    const double elapsed = std::difftime(std::time(nullptr), timegm(&begin));
-    return std::max(0.0, elapsed) * (1.0 - progress) / progress;
-}
-
 json schema_of(ColumnKind kind) {
     switch (kind) {
         case ColumnKind::number:
@@ -58,11 +43,13 @@ json schema_of(ColumnKind kind) {
 }  // namespace
 
 json as_json(const Run& run, const ProgressBoard& board) {
+    const double fractions = board.sum_of_run(run.id);
     double progress = 1.0;
     if (!run.finished && run.tasks_total > 0) {
-        progress = (static_cast<double>(run.tasks_ended) + board.sum_of_run(run.id)) /
+        progress = (static_cast<double>(run.tasks_ended) + fractions) /
                    static_cast<double>(run.tasks_total);
     }
+    const bool going = !run.left.empty() && !run.paused;
     return {{"id", run.id},
             {"name", run.name},
             {"title", run.title},
@@ -79,7 +66,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"budget_cpu_seconds", or_null(run.budget)},
             {"spent_cpu_seconds", run.spent},
             {"submitted_by", or_null(run.submitted_by)},
-            {"seconds_left", seconds_left(run, progress)},
+            {"seconds_left", or_null(going ? time_left(run.left, fractions) : std::nullopt)},
             {"questionable", run.questionable},
             {"flag_counts", counts_of(run.flags)},
             {"message", run.message}};

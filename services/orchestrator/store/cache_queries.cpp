@@ -45,6 +45,23 @@ std::vector<Task> Store::answers_to(const std::string& recipe, const std::string
     return found;
 }
 
+std::optional<std::string> Store::equal_in_flight(const Task& task) const {
+    std::optional<std::string> found;
+    if (!task.recipe) return found;
+    read([&](Connection& database) {
+        // Inputs are equal if they are one file of one task, computed or taken over; nothing is hashed.
+        database.query(
+            "SELECT other.id FROM tasks AS other INDEXED BY tasks_by_state LEFT JOIN tasks AS "
+            "theirs ON theirs.id=other.parent LEFT JOIN tasks AS mine ON mine.id=?1 WHERE "
+            "other.state IN ('starting', 'running', 'finalizing') AND other.recipe=?2 AND "
+            "other.input=?3 AND other.id<>?4 AND coalesce(theirs.same_as, theirs.id, '')="
+            "coalesce(mine.same_as, mine.id, '') LIMIT 1",
+            {task.parent.value_or(""), *task.recipe, task.input, task.id},
+            [&](const Row& row) { found = row.text(0); });
+    });
+    return found;
+}
+
 std::optional<Recipe> Store::recipe(const std::string& hash) const {
     std::optional<Recipe> found;
     read([&](Connection& database) {

@@ -140,6 +140,7 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
         database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
         tell_what_is_missing(database, found);
+        tell_what_is_left(database, found);
     });
     return found;
 }
@@ -178,6 +179,7 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
                        [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
         tell_what_is_missing(database, found);
+        tell_what_is_left(database, found);
     });
     if (found.empty()) return std::nullopt;
     return std::move(found.front());
@@ -254,6 +256,20 @@ std::vector<Task> Store::tasks_of(const std::string& run, const std::string& aft
         database.query(std::string(task_columns) + "WHERE id>? AND id<? ORDER BY id LIMIT ?",
                        {after.empty() ? run + "-" : after, run + ".", as_value(most)},
                        [&](const Row& row) { found.push_back(task_from(row)); });
+    });
+    return found;
+}
+
+std::vector<Task> Store::computed_tasks_of(const std::string& run, std::size_t most) const {
+    std::vector<Task> found;
+    read([&](Connection& database) {
+        database.query(
+            std::string(task_columns) +
+                "WHERE id IN (SELECT id FROM (SELECT id, row_number() OVER places AS place, "
+                "count(*) OVER (PARTITION BY phase) AS n FROM tasks WHERE run=?1 AND "
+                "state='succeeded' WINDOW places AS (PARTITION BY phase ORDER BY transfer_time, "
+                "variant, id)) WHERE place * ?2 / n > (place - 1) * ?2 / n) ORDER BY id",
+            {run, as_value(most)}, [&](const Row& row) { found.push_back(task_from(row)); });
     });
     return found;
 }

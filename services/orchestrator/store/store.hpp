@@ -56,6 +56,8 @@ class Store {
     /// Tasks that succeeded with this recipe and input, newest first.
     std::vector<Task> answers_to(const std::string& recipe, const std::string& input_sha256,
                                  std::size_t most) const;
+    /// A task that is being computed now, with this one's recipe and input: its answer will do.
+    std::optional<std::string> equal_in_flight(const Task& task) const;
     std::optional<Recipe> recipe(const std::string& hash) const;
     std::optional<Task> earlier_equal_recipe(const Task& task) const;
     /// Other recipes of the phase that were used before this task, newest first, with the last task
@@ -68,6 +70,9 @@ class Store {
     /// A page of them: those after the id `after`, in the order of their ids.
     std::vector<Task> tasks_of(const std::string& run, const std::string& after,
                                std::size_t most) const;
+    /// Of each phase up to `most` that succeeded by computing, evenly spread over transfer times and
+    /// variants.
+    std::vector<Task> computed_tasks_of(const std::string& run, std::size_t most) const;
     std::vector<Task> tasks_in(TaskState state, std::size_t most) const;
     /// Blocked tasks whose input comes from `parent`.
     std::vector<BlockedTask> blocked_children(const std::string& parent) const;
@@ -150,6 +155,7 @@ class Store {
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void add_flags(Connection& database, std::vector<Run>& runs);
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
+    static void tell_what_is_left(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;

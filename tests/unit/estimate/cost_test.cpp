@@ -90,6 +90,21 @@ TEST(Cost, LearnsFromRunsOfItsOwnSceneFirst) {
     EXPECT_EQ(of(costs, "mpm_solver").basis, "by 1 earlier run of other scenes");
 }
 
+TEST(Cost, ManyRunoutsCostTheirMean) {
+    // A sweep's first runouts stay, its last flow: 1 and 19 times what the scene alone says.
+    auto costs = cost_of(shipped("slope"));
+    const double middle = of(costs, "mpm_solver").cpu_seconds.middle();
+    learn(costs, "slope", {{"mpm_solver", "slope", 1.0, 1.0}, {"mpm_solver", "slope", 19.0, 1.0}});
+    const PhaseCost& mpm = of(costs, "mpm_solver");
+    EXPECT_NEAR(mpm.mean_cpu_seconds.low, 10.0 * middle / 1.5, 1e-9);
+    EXPECT_NEAR(mpm.mean_cpu_seconds.high, 10.0 * middle * 1.5, 1e-9);
+    const auto sum = [&](double runouts) {
+        return as_json(costs, {runouts, 1.0})["cpu_seconds"][1].get<double>();
+    };
+    EXPECT_NEAR(sum(5.0) - sum(4.0),
+                mpm.mean_cpu_seconds.high + of(costs, "transfer_tool").cpu_seconds.high, 1e-9);
+}
+
 TEST(Cost, AStudyRepeatsItsRunouts) {
     const nlohmann::json scene = nlohmann::json::object();
     EXPECT_EQ(repeats_of(scene).runouts, 1.0);

@@ -28,6 +28,7 @@ TEST(Archive, ComesBackBitForBit) {
     EXPECT_EQ(r.integers, sample().integers);
     EXPECT_EQ(r.texts, sample().texts);
     EXPECT_EQ(r.units, sample().units);
+    EXPECT_EQ(r.spent.cpu, samples::provenance().spent.cpu);
 }
 
 TEST(Archive, AStateToGoOnFromHasFiniteNumbersOnly) {

@@ -51,8 +51,8 @@ TEST(MeshSnapshot, CarriesItsProvenance) {
     EXPECT_EQ(r.inputs[0].path, p.inputs[0].path);
     EXPECT_EQ(r.inputs[0].sha256, p.inputs[0].sha256);
     EXPECT_EQ(r.threads, p.threads);
-    EXPECT_EQ(r.wall_seconds, p.wall_seconds);
-    EXPECT_EQ(r.cpu_seconds, p.cpu_seconds);
+    EXPECT_EQ(r.spent.wall, p.spent.wall);
+    EXPECT_EQ(r.spent.cpu, p.spent.cpu);
 }
 
 TEST(MeshSnapshot, WithoutWaterHasNoPorePressure) {

@@ -94,8 +94,7 @@ inline Provenance provenance() {
             .overrides = {"/gravity=9.8", "/name=x"},
             .inputs = {{"scene.json", std::string(64, 'a')}},
             .threads = 2,
-            .wall_seconds = 3.5,
-            .cpu_seconds = 6.25};
+            .spent = {.wall = 3.5, .cpu = 6.25}};
 }
 
 }  // namespace breach::exchange::samples

@@ -25,7 +25,8 @@ class StoreTest : public ::testing::Test {
   protected:
     std::filesystem::path file() const { return folder_ / "test.db"; }
 
-    static void bring_to_success(Store& store, const std::string& task, const json& result) {
+    static void bring_to_success(Store& store, const std::string& task, const json& result,
+                                 double wall_seconds = 1.0) {
         store.write([&](Transaction& t) {
             t.try_move_task(task, TaskEvent::release);
             t.move_task(task, TaskEvent::claim);
@@ -34,6 +35,7 @@ class StoreTest : public ::testing::Test {
             t.move_task(task, TaskEvent::start);
             AttemptEnd end;
             end.exit_code = 0;
+            end.wall_seconds = wall_seconds;
             t.move_attempt(task, number, AttemptEvent::exit, end);
             t.move_task(task, TaskEvent::exit_well);
             t.finish_task(task, result, {{task, "result.json", std::string(64, 'a'), 10}});
@@ -60,6 +62,35 @@ TEST_F(StoreTest, SweepsRefineWhenMoreIsDrawnThanAtFirst) {
     filter.state = "refining";
     filter.sweeps_only = true;
     EXPECT_EQ(store.runs(filter, 10).size(), 1u);
+}
+
+TEST_F(StoreTest, CostsAndPaceOfASweepAreNotThoseOfItsFirstRunouts) {
+    Store store(file());
+    NewRun run = small_run();
+    const TaskPlan runout = run.tasks[2];
+    run.tasks.clear();
+    for (int i = 0; i < 20; ++i) {
+        run.tasks.push_back(runout);
+        run.tasks.back().label = "mpm_" + std::to_string(i);
+        run.tasks.back().transfer_time = i;
+        run.tasks.back().parent = {};
+        run.tasks.back().release = Release::at_once;
+    }
+    store.write([&](Transaction& t) { t.add_run(run); });
+    for (int i = 0; i < 12; ++i)
+        bring_to_success(store, task_id(run.id, i), {{"number", i}}, i < 4 ? 1.0 : 10.0);
+
+    std::vector<double> times;
+    for (const Task& each : store.computed_tasks_of(run.id, 4))
+        times.push_back(*each.transfer_time);
+    EXPECT_EQ(times, (std::vector<double>{2, 5, 8, 11}));
+    EXPECT_EQ(store.computed_tasks_of(run.id, 50).size(), 12u);
+
+    const std::vector<PhaseLeft> left = store.run(run.id)->left;
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_EQ(left[0].waiting, 8);
+    EXPECT_EQ(left[0].running, 0);
+    EXPECT_DOUBLE_EQ(*left[0].pace, 10.0);
 }
 
 TEST_F(StoreTest, SpendingIsThatOfEveryAttemptAndBudgetsHoldBackNewOnes) {

@@ -1,5 +1,6 @@
 """fem_solver killed by SIGKILL in the middle of shaking wet PM4Sand, and resumed: every dataset of history and last
 snapshot, and every line of telemetry, as of a run that nobody disturbed. So with another number of threads."""
+import json
 import os
 import pathlib
 import signal
@@ -7,6 +8,9 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import h5py
+import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import coarse_slope
@@ -56,7 +60,12 @@ def main():
         run(scene, whole)
         first, last = kill_after_checkpoint(scene, killed)
         assert not (killed / "result.json").exists()
+        with h5py.File(killed / "checkpoint.h5") as file:
+            spent = float(np.squeeze(file["breachline/provenance"].attrs["cpu_seconds"]))
         run(scene, killed, "--resume")
+        said = json.loads((killed / "result.json").read_text())["cpu_seconds"]
+        print(f"    {said:.2f} CPU s, of which {spent:.2f} until the checkpoint")
+        assert said > spent + 0.05, "seconds of both processes"
         print(f"    killed with {last} lines of telemetry, {first} when its checkpoint appeared, {lines_of(whole)} in all")
         assert first < last < lines_of(whole)
         wrong = compare("killed and resumed", whole, killed)

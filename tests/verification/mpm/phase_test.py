@@ -139,12 +139,19 @@ def test_outputs_and_resume(scratch):
     assert child.wait() == 143, child.returncode
     assert os.path.exists(os.path.join(stopped, "checkpoint.h5"))
     assert 2 <= len(series(stopped)) < 5, series(stopped)
+    with h5py.File(os.path.join(stopped, "checkpoint.h5")) as file:
+        spent = file["breachline/provenance"].attrs
+        before = {each: float(np.squeeze(spent[each])) for each in ("wall_seconds", "cpu_seconds")}
     again = run(stopped, *SHORT, "--resume")
     assert again.returncode == 0, again.stderr
+    after = json.load(open(os.path.join(stopped, "result.json")))
+    for each, until_stopped in before.items():
+        assert after[each] > until_stopped > 0.1 * result[each], (each, until_stopped, after[each], result[each])
+        assert 0.5 * result[each] < after[each] < 3.0 * result[each], (each, after[each], result[each])
     same(os.path.join(whole, "final.vtkhdf"), os.path.join(stopped, "final.vtkhdf"))
     same(os.path.join(whole, "history.h5"), os.path.join(stopped, "history.h5"))
     assert telemetry(whole) == telemetry(stopped) and series(whole) == series(stopped)
-    print("resume after SIGTERM: final.vtkhdf, history.h5 and telemetry have the same bits")
+    print("resume after SIGTERM: final.vtkhdf, history.h5 and telemetry have the same bits; its seconds are of both processes")
 
 
 def test_grid_too_small(scratch):

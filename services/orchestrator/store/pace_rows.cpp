@@ -1,0 +1,43 @@
+// What of open runs has not ended, and how long its like took.
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+namespace {
+
+/// Of the last eight: a sweep goes from what stays to what flows, and its first say little of its last.
+std::optional<double> pace_of(Connection& database, const std::string& run,
+                              const std::string& phase) {
+    std::optional<double> pace;
+    database.query(
+        "SELECT avg(seconds) FROM (SELECT (SELECT sum(wall_seconds) FROM attempts WHERE "
+        "attempts.task=tasks.id) AS seconds FROM tasks WHERE run=?1 AND state='succeeded' AND "
+        "phase=?2 ORDER BY started DESC LIMIT 8)",
+        {run, phase}, [&](const Row& row) { pace = row.optional_real(0); });
+    return pace;
+}
+
+}  // namespace
+
+void Store::tell_what_is_left(Connection& database, std::vector<Run>& runs) {
+    for (Run& each : runs) {
+        if (!each.started || each.finished || each.state == "budget_exhausted") continue;
+        std::vector<std::string> phases;
+        database.query(
+            "SELECT phase, sum(NOT runs), sum(runs), coalesce(sum(CASE WHEN runs THEN "
+            "(julianday('now') - julianday(started)) * 86400.0 END), 0.0) FROM (SELECT phase, "
+            "started, state IN ('starting', 'running', 'finalizing', 'cancelling') AS runs FROM "
+            "tasks WHERE run=? AND finished IS NULL) GROUP BY phase",
+            {each.id}, [&](const Row& row) {
+                phases.push_back(row.text(0));
+                each.left.push_back({.waiting = row.integer(1),
+                                     .running = row.integer(2),
+                                     .running_for = row.real(3),
+                                     .pace = {}});
+            });
+        for (std::size_t p = 0; p < phases.size(); ++p)
+            each.left[p].pace = pace_of(database, each.id, phases[p]);
+    }
+}
+
+}  // namespace breach::orchestrator
