@@ -149,6 +149,15 @@ TEST_P(ExecutorConformance, ClearingAwayReachesWhatIsForkedMeanwhile) {
     EXPECT_TRUE(eventually([&] { return !is_held(folder().lock()); }, 10));
 }
 
+TEST_P(ExecutorConformance, ClearingAwayReachesWhatIsBetweenTwoPrograms) {
+    submit(folder(),
+           "echo 'echo $$ >pids; exec /bin/sh again' >again; "
+           "for i in 0 1 2 3 4 5 6 7; do /bin/sh again & done; wait");
+    ASSERT_TRUE(eventually([&] { return pid_in(root_ / "pids") > 0; }));
+    executor_->clear_away(folder(), attempt_of(folder()));
+    EXPECT_TRUE(eventually([&] { return !is_held(folder().lock()); }, 10));
+}
+
 TEST_P(ExecutorConformance, StopReachesATreeThatIgnoresTermAndHasLeftItsSession) {
     submit(folder(),
            "trap '' TERM; setsid sh -c 'trap \"\" TERM; echo $$ >far; sleep 300' & "

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "services/orchestrator/executors/order.hpp"
 
@@ -91,31 +93,59 @@ std::string host_name() {
     return name.data();
 }
 
-static std::vector<pid_t> marked_processes(const std::string& attempt) {
+namespace {
+
+struct Marked {
+    std::vector<pid_t> processes;
+    bool unsure = false;  ///< one could not be asked
+};
+
+/// A program that is just being replaced by another (exec) shows no environment, a thread of the
+/// kernel never does and has no program.
+bool is_between_programs(pid_t pid) {
+    std::error_code error;
+    const auto program =
+        std::filesystem::read_symlink("/proc/" + std::to_string(pid) + "/exe", error);
+    return !program.empty() && parent_of(pid) != 0;
+}
+
+Marked marked_processes(const std::string& attempt) {
     const std::string mark = std::string(attempt_mark) + "=" + attempt;
-    std::vector<pid_t> found;
+    Marked found;
     for (const pid_t pid : all_processes()) {
         std::ifstream stream("/proc/" + std::to_string(pid) + "/environ", std::ios::binary);
         std::string entry;
+        bool has_any = !stream.is_open();  // another user's, or gone
         while (std::getline(stream, entry, '\0')) {
+            has_any = true;
             if (entry != mark) continue;
-            found.push_back(pid);
+            found.processes.push_back(pid);
             break;
         }
+        if (!has_any && is_between_programs(pid)) found.unsure = true;
     }
     return found;
 }
 
+}  // namespace
+
 void kill_marked_processes(const std::string& attempt) {
+    constexpr int most_waits = 100;  // for one that is run without any environment
+    constexpr auto wait = std::chrono::milliseconds(1);
     std::set<pid_t> killed{getpid()};
     // Who is killed may have forked after the look that found it: looked again until nobody is new.
+    int waits = 0;
     for (bool again = true; again;) {
         again = false;
-        for (const pid_t pid : marked_processes(attempt)) {
+        const Marked marked = marked_processes(attempt);
+        for (const pid_t pid : marked.processes) {
             if (!killed.insert(pid).second) continue;
             kill(pid, SIGKILL);
             again = true;
         }
+        if (again || !marked.unsure || waits++ == most_waits) continue;
+        std::this_thread::sleep_for(wait);
+        again = true;
     }
 }
 
