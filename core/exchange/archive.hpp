@@ -19,7 +19,7 @@ struct Archive {
     std::map<std::string, std::vector<std::int64_t>> integers;
     std::map<std::string, std::string> texts;
     std::map<std::string, std::string> units;  ///< unit of an array, by its name; optional
-    Spent spent = {};  ///< as read: what the file has cost so far
+    Spent spent = {};                          ///< as read: what the file has cost so far
 };
 
 void write_archive(const std::filesystem::path& path, const Archive& archive,

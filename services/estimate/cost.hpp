@@ -32,7 +32,7 @@ struct PhaseCost {
     Range bytes;                                         ///< on disk
     Range mean_cpu_seconds;                              ///< of many such runs [s]
     Range mean_bytes;
-    std::string basis;                                   ///< where the ranges come from
+    std::string basis;  ///< where the ranges come from
 };
 
 /// Of every phase that the scene has a part for. Ranges reach from half to twice the likeliest. Where

@@ -83,7 +83,8 @@ Memory memory;
 std::vector<Earlier> earlier_costs(const Store& store) {
     std::vector<Earlier> earlier;
     for (const Run& run : store.runs(newest_runs))
-        if (run.tasks_done > 0) std::ranges::copy(memory.of(store, run), std::back_inserter(earlier));
+        if (run.tasks_done > 0)
+            std::ranges::copy(memory.of(store, run), std::back_inserter(earlier));
     return earlier;
 }
 

@@ -12,12 +12,15 @@ TEST(TimeLeft, GoesByThePaceOfEachPhaseAndTheWorkersOfNow) {
         {.waiting = 4, .running = 0, .running_for = 0.0, .pace = 0.5}};
     EXPECT_DOUBLE_EQ(*time_left(left, 0.7), (1000.0 + 170.0 + 2.0) / 2.0);
     // Longer than the last ones: nothing is owed for it, and nothing is taken off the others.
-    EXPECT_DOUBLE_EQ(*time_left({{.waiting = 1, .running = 1, .running_for = 500.0, .pace = 100.0}}, 0.9), 100.0);
+    EXPECT_DOUBLE_EQ(
+        *time_left({{.waiting = 1, .running = 1, .running_for = 500.0, .pace = 100.0}}, 0.9),
+        100.0);
 }
 
 TEST(TimeLeft, IsNotSaidWhereAPhaseThatWaitsHasNotRun) {
     const PhaseLeft fem{.waiting = 0, .running = 1, .running_for = 60.0, .pace = {}};
-    EXPECT_FALSE(time_left({fem, {.waiting = 51, .running = 0, .running_for = 0.0, .pace = {}}}, 0.5));
+    EXPECT_FALSE(
+        time_left({fem, {.waiting = 51, .running = 0, .running_for = 0.0, .pace = {}}}, 0.5));
     EXPECT_FALSE(time_left({{.waiting = 3, .running = 0, .running_for = 0.0, .pace = {}}}, 0.0));
 }
 
