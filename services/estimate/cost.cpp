@@ -39,8 +39,6 @@ PhaseCost lem_cost(const scene::Lem& lem) {
             {{"surfaces", surfaces}},
             around(start_up + per_surface_and_slice * surfaces * lem.slices),
             around(bytes_beside + 8e3 * std::min(searches.stages, 100.0)),
-            {},
-            {},
             ""};
 }
 
@@ -82,8 +80,6 @@ PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool count
             around(start_up + rate_of(scene, mesh) * mesh.elements * steps.steps),
             around(bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
                    bytes_per_fem_line * lines),
-            {},
-            {},
             ""};
 }
 
@@ -92,8 +88,6 @@ PhaseCost transfer_cost(double points) {
             {{"points, about", points}},
             around(2.0 * start_up + per_transferred_point * points),
             around(0.5 * bytes_beside + bytes_per_point * points),
-            {},
-            {},
             ""};
 }
 
@@ -111,8 +105,6 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
              {mpm.until_rest ? "seconds until rest, about" : "seconds of flow", duration}},
             around(start_up + per_point_step * points * steps),
             around(bytes_beside + per_point * points + bytes_per_mpm_line * lines),
-            {},
-            {},
             ""};
 }
 

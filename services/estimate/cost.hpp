@@ -30,9 +30,9 @@ struct PhaseCost {
     std::vector<std::pair<std::string, double>> counts;  ///< "elements", how many
     Range cpu_seconds;                                   ///< [s]
     Range bytes;                                         ///< on disk
-    Range mean_cpu_seconds;                              ///< of many such runs [s]
-    Range mean_bytes;
-    std::string basis;  ///< where the ranges come from
+    std::string basis;                                   ///< where the ranges come from
+    Range mean_cpu_seconds = {0.0, 0.0};                 ///< of many such runs [s]
+    Range mean_bytes = {0.0, 0.0};
 };
 
 /// Of every phase that the scene has a part for. Ranges reach from half to twice the likeliest. Where

@@ -100,6 +100,13 @@ class ExecutorConformance : public ::testing::TestWithParam<const char*> {
     bool becomes(const AttemptFolder& where, Life wanted) {
         return eventually([&] { return executor_->probe(where).life == wanted; });
     }
+    /// `what` writes the file `pids` when its processes are there.
+    void clear_away_reaches_all_of(const std::string& what) {
+        submit(folder(), what);
+        ASSERT_TRUE(eventually([&] { return pid_in(root_ / "pids") > 0; }));
+        executor_->clear_away(folder(), attempt_of(folder()));
+        EXPECT_TRUE(eventually([&] { return !is_held(folder().lock()); }, 10));
+    }
 
     fs::path root_;
     std::unique_ptr<Executor> executor_;
@@ -141,21 +148,15 @@ TEST_P(ExecutorConformance, SameAttemptIsNotTakenTwice) {
 }
 
 TEST_P(ExecutorConformance, ClearingAwayReachesWhatIsForkedMeanwhile) {
-    submit(folder(),
-           "for i in 0 1 2 3 4 5 6 7 8 9; do for j in 0 1 2 3 4 5 6 7 8 9; do sleep 300 & "
-           "echo $! >>pids; done; done; wait");
-    ASSERT_TRUE(eventually([&] { return pid_in(root_ / "pids") > 0; }));
-    executor_->clear_away(folder(), attempt_of(folder()));
-    EXPECT_TRUE(eventually([&] { return !is_held(folder().lock()); }, 10));
+    clear_away_reaches_all_of(
+        "for i in 0 1 2 3 4 5 6 7 8 9; do for j in 0 1 2 3 4 5 6 7 8 9; do sleep 300 & "
+        "echo $! >>pids; done; done; wait");
 }
 
 TEST_P(ExecutorConformance, ClearingAwayReachesWhatIsBetweenTwoPrograms) {
-    submit(folder(),
-           "echo 'echo $$ >pids; exec /bin/sh again' >again; "
-           "for i in 0 1 2 3 4 5 6 7; do /bin/sh again & done; wait");
-    ASSERT_TRUE(eventually([&] { return pid_in(root_ / "pids") > 0; }));
-    executor_->clear_away(folder(), attempt_of(folder()));
-    EXPECT_TRUE(eventually([&] { return !is_held(folder().lock()); }, 10));
+    clear_away_reaches_all_of(
+        "echo 'echo $$ >pids; exec /bin/sh again' >again; "
+        "for i in 0 1 2 3 4 5 6 7; do /bin/sh again & done; wait");
 }
 
 TEST_P(ExecutorConformance, StopReachesATreeThatIgnoresTermAndHasLeftItsSession) {

@@ -2,6 +2,7 @@
 
 #include "core/exchange/csv.hpp"
 #include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/records/time_left.hpp"
 
 namespace breach::orchestrator {
 
@@ -42,14 +43,17 @@ json schema_of(ColumnKind kind) {
 
 }  // namespace
 
-json as_json(const Run& run, const ProgressBoard& board) {
+json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
     const double fractions = board.sum_of_run(run.id);
     double progress = 1.0;
     if (!run.finished && run.tasks_total > 0) {
         progress = (static_cast<double>(run.tasks_ended) + fractions) /
                    static_cast<double>(run.tasks_total);
     }
-    const bool going = !run.left.empty() && !run.paused;
+    const bool goes_on =
+        run.started && !run.finished && !run.paused && run.state != "budget_exhausted";
+    std::optional<double> left;
+    if (goes_on) left = time_left(store.left_of(run.id), fractions);
     return {{"id", run.id},
             {"name", run.name},
             {"title", run.title},
@@ -66,7 +70,7 @@ json as_json(const Run& run, const ProgressBoard& board) {
             {"budget_cpu_seconds", or_null(run.budget)},
             {"spent_cpu_seconds", run.spent},
             {"submitted_by", or_null(run.submitted_by)},
-            {"seconds_left", or_null(going ? time_left(run.left, fractions) : std::nullopt)},
+            {"seconds_left", or_null(left)},
             {"questionable", run.questionable},
             {"flag_counts", counts_of(run.flags)},
             {"message", run.message}};

@@ -7,10 +7,11 @@
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/records/result_columns.hpp"
+#include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {
 
-nlohmann::json as_json(const Run& run, const ProgressBoard& board);
+nlohmann::json as_json(const Run& run, const Store& store, const ProgressBoard& board);
 nlohmann::json as_json(const Task& task, const std::vector<Attempt>& attempts,
                        const std::vector<Artifact>& artifacts, const ProgressBoard& board);
 nlohmann::json as_json(const Event& event);

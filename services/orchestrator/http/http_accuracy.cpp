@@ -54,7 +54,7 @@ void draw_check(Service& service, Call& call) {
     const std::string check =
         accept_made_study(service, call, study_of_check(service.store, run.id, table, wish));
     call.response.set_header("Location", "/v1/runs/" + check);
-    reply(call.response, as_json(wanted_run(service, check), service.board), 202);
+    reply(call.response, as_json(wanted_run(service, check), service.store, service.board), 202);
 }
 
 /// What the draws of such a run make of the promise, as far as it has come.

@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t tasks_at_once = 500;  // read and sent together
 
 json run_json(const Service& service, const std::string& id) {
-    return as_json(wanted_run(service, id), service.board);
+    return as_json(wanted_run(service, id), service.store, service.board);
 }
 
 /// These tasks with their attempts and artifacts: three queries however many they are.
@@ -56,7 +56,7 @@ void list_runs(const Service& service, Call& call) {
     call.allow_parameters({"limit", "cursor", "state", "name", "search"});
     const RunPage page = wanted_page(service, call, RunFilter{});
     json runs = json::array();
-    for (const Run& each : page.runs) runs.push_back(as_json(each, service.board));
+    for (const Run& each : page.runs) runs.push_back(as_json(each, service.store, service.board));
     reply(call.response, {{"runs", runs}, {"next", page.next}});
 }
 
@@ -105,7 +105,7 @@ void show_run(const Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
-    json body = as_json(run, service.board);
+    json body = as_json(run, service.store, service.board);
     body["study"] = service.store.study_of(id).value();
     body["study"]["scene"] = json::parse(service.store.scene_of(id).value());
     body["files"] = files_json(service, id);
@@ -241,7 +241,7 @@ void results(const Service& service, Call& call) {
 /// run can be read so; the list holds those with several points.
 json sweep_json(const Service& service, const Run& run) {
     const auto [points, done] = service.store.points_of(run.id);
-    json body = as_json(run, service.board);
+    json body = as_json(run, service.store, service.board);
     body["run"] = run.id;
     body["points_total"] = points;
     body["points_done"] = done;
@@ -327,7 +327,7 @@ void list_sweeps(const Service& service, Call& call) {
     filter.sweeps_only = true;
     const RunPage page = wanted_page(service, call, filter);
     json sweeps = json::array();
-    for (const Run& each : page.runs) sweeps.push_back(as_json(each, service.board));
+    for (const Run& each : page.runs) sweeps.push_back(as_json(each, service.store, service.board));
     reply(call.response, {{"sweeps", sweeps}, {"next", page.next}});
 }
 

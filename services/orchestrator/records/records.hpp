@@ -11,7 +11,6 @@
 
 #include "services/orchestrator/records/flag_tally.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
-#include "services/orchestrator/records/time_left.hpp"
 #include "services/orchestrator/records/trigger.hpp"
 
 namespace breach::orchestrator {
@@ -154,7 +153,6 @@ struct Run {
     /// The token's name; nothing: the service asked for none.
     std::optional<std::string> submitted_by = {};
     std::vector<FlagTally> flags = {};
-    std::vector<PhaseLeft> left = {};  ///< by phase, while it goes on
 };
 
 /// The MPM of a rung of an accuracy study.

@@ -5,6 +5,7 @@
 namespace breach::orchestrator {
 
 std::optional<double> time_left(const std::vector<PhaseLeft>& phases, double fractions) {
+    if (phases.empty()) return std::nullopt;  // a trigger may still add tasks
     double work = 0.0, waiting = 0.0, running = 0.0, running_for = 0.0;
     bool known = true;
     for (const PhaseLeft& each : phases) {

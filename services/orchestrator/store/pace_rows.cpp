@@ -1,4 +1,4 @@
-// What of open runs has not ended, and how long its like took.
+// What of an open run has not ended, and how long its like took.
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {
@@ -19,25 +19,26 @@ std::optional<double> pace_of(Connection& database, const std::string& run,
 
 }  // namespace
 
-void Store::tell_what_is_left(Connection& database, std::vector<Run>& runs) {
-    for (Run& each : runs) {
-        if (!each.started || each.finished || each.state == "budget_exhausted") continue;
+std::vector<PhaseLeft> Store::left_of(const std::string& run) const {
+    std::vector<PhaseLeft> left;
+    read([&](Connection& database) {
         std::vector<std::string> phases;
         database.query(
             "SELECT phase, sum(NOT runs), sum(runs), coalesce(sum(CASE WHEN runs THEN "
             "(julianday('now') - julianday(started)) * 86400.0 END), 0.0) FROM (SELECT phase, "
             "started, state IN ('starting', 'running', 'finalizing', 'cancelling') AS runs FROM "
             "tasks WHERE run=? AND finished IS NULL) GROUP BY phase",
-            {each.id}, [&](const Row& row) {
+            {run}, [&](const Row& row) {
                 phases.push_back(row.text(0));
-                each.left.push_back({.waiting = row.integer(1),
-                                     .running = row.integer(2),
-                                     .running_for = row.real(3),
-                                     .pace = {}});
+                left.push_back({.waiting = row.integer(1),
+                                .running = row.integer(2),
+                                .running_for = row.real(3),
+                                .pace = {}});
             });
         for (std::size_t p = 0; p < phases.size(); ++p)
-            each.left[p].pace = pace_of(database, each.id, phases[p]);
-    }
+            left[p].pace = pace_of(database, run, phases[p]);
+    });
+    return left;
 }
 
 }  // namespace breach::orchestrator

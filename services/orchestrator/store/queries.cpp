@@ -140,7 +140,6 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
         database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
         tell_what_is_missing(database, found);
-        tell_what_is_left(database, found);
     });
     return found;
 }
@@ -179,7 +178,6 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
                        [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
         tell_what_is_missing(database, found);
-        tell_what_is_left(database, found);
     });
     if (found.empty()) return std::nullopt;
     return std::move(found.front());

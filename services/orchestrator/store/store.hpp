@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "services/orchestrator/records/result_columns.hpp"
+#include "services/orchestrator/records/time_left.hpp"
 #include "services/orchestrator/store/histogram.hpp"
 #include "services/orchestrator/store/recent_events.hpp"
 #include "services/orchestrator/store/transaction.hpp"
@@ -43,6 +44,8 @@ class Store {
     std::optional<Run> run(const std::string& id) const;
     /// The same with the state of a sweep (RunFilter::sweeps_only).
     std::optional<Run> sweep(const std::string& id) const;
+    /// What of it has not ended, by phase, and how long its like took.
+    std::vector<PhaseLeft> left_of(const std::string& run) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 
@@ -155,7 +158,6 @@ class Store {
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void add_flags(Connection& database, std::vector<Run>& runs);
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
-    static void tell_what_is_left(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;

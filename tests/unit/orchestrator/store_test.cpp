@@ -86,7 +86,7 @@ TEST_F(StoreTest, CostsAndPaceOfASweepAreNotThoseOfItsFirstRunouts) {
     EXPECT_EQ(times, (std::vector<double>{2, 5, 8, 11}));
     EXPECT_EQ(store.computed_tasks_of(run.id, 50).size(), 12u);
 
-    const std::vector<PhaseLeft> left = store.run(run.id)->left;
+    const std::vector<PhaseLeft> left = store.left_of(run.id);
     ASSERT_EQ(left.size(), 1u);
     EXPECT_EQ(left[0].waiting, 8);
     EXPECT_EQ(left[0].running, 0);
