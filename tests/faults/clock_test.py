@@ -5,6 +5,7 @@ Needs Debian's faketime (else skipped). The clock's file says how far it is off;
 file server that has a clock of its own.
 """
 import collections
+import itertools
 import os
 import pathlib
 import signal
@@ -22,7 +23,7 @@ attempts_wanted = {"mpm_steps=15": 1, "crash=1 mpm_steps=5": 2}  # of the MPM, b
 
 
 class Clock:
-    """Set to another hour again and again."""
+    """Set to another hour again and again, now and then, and in a rush: between two looks at it, too."""
 
     def __init__(self, folder):
         self.file, self.stop = folder / "clock", threading.Event()
@@ -35,11 +36,11 @@ class Clock:
         draft.rename(self.file)
 
     def swing(self):
-        while not self.stop.wait(0.4):
+        for rest in itertools.cycle([0.4] * 2 + [0.005] * 80):
             for offset in ("+1h", "-1h"):
-                self.set(offset)
-                if self.stop.wait(0.4):
+                if self.stop.wait(rest):
                     return
+                self.set(offset)
 
     def __enter__(self):
         self.thread.start()

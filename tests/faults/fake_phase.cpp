@@ -8,7 +8,7 @@
 //     damage=T               the snapshot at T holds nonsense
 //     deaf=1                 the MPM ignores TERM and leaves a daemon
 //     try_again=1            the MPM's first attempt ends with 75
-//     crash=1                the MPM's first attempt ends by SIGKILL
+//     crash=1                the MPM ends by SIGKILL when it began at its start
 //     always_crash=1         the MPM never gets through
 //     moving_from=T          the MPM of transfers at T and after still moves at its end
 //     fails_above=S          the MPM of a lattice shifted by more than S ends with 70
@@ -138,11 +138,18 @@ void say(const json& line) { std::cout << line.dump() << std::endl; }
     std::exit(0);
 }
 
+fs::path checkpoint_of(const Order& order) { return order.output / "checkpoint.h5"; }
+
+int steps_done_before(const Order& order) {
+    const fs::path checkpoint = checkpoint_of(order);
+    return order.resume && fs::exists(checkpoint) ? std::stoi(text_of(checkpoint)) : 0;
+}
+
 /// Steps of 20 ms with a checkpoint after each; a resumed phase goes on where the last one was.
 template <class Step>
 void walk(const Order& order, int steps, Step step) {
-    const fs::path checkpoint = order.output / "checkpoint.h5";
-    int done = order.resume && fs::exists(checkpoint) ? std::stoi(text_of(checkpoint)) : 0;
+    const fs::path checkpoint = checkpoint_of(order);
+    int done = steps_done_before(order);
     for (; done < steps; ++done) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         step(done);
@@ -288,9 +295,10 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
         std::signal(SIGTERM, SIG_IGN);
         leave_a_daemon(order.output / "daemon.pid");
     }
+    // Not by --resume: an attempt that was lost before it began has left it nothing to resume from.
+    const bool crash = wish(wanted, "crash", 0) > 0 && steps_done_before(order) == 0;
     walk(order, static_cast<int>(wish(wanted, "mpm_steps", 5)), [&](int done) {
-        const bool crash = wish(wanted, "crash", 0) > 0 && !order.resume && done == 2;
-        if (crash || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
+        if ((crash && done == 2) || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
     });
     const json own = changed(scene, order.overrides);
     if (shift > wish(wanted, "fails_above", 1.0) ||

@@ -4,24 +4,30 @@ namespace breach::orchestrator {
 
 namespace {
 
+using std::chrono::milliseconds;
+
 constexpr auto least_setting = std::chrono::seconds(1);  // less is a clock that is kept right
+
+template <class Clock>
+milliseconds reading_of() {
+    return std::chrono::duration_cast<milliseconds>(Clock::now().time_since_epoch());
+}
 
 }  // namespace
 
-std::optional<double> ClockOfDay::seconds_since(std::int64_t moment) {
-    const std::chrono::nanoseconds now_ahead = ahead();
-    const std::int64_t now = epoch_ms();
-    if (std::chrono::abs(now_ahead - ahead_) > least_setting) {
-        ahead_ = now_ahead;
-        true_since_ = now;
-    }
-    if (moment < true_since_ || moment > now) return std::nullopt;
-    return 1e-3 * static_cast<double>(now - moment);
+ClockReading ClockReading::now() {
+    return {reading_of<std::chrono::system_clock>(), reading_of<std::chrono::steady_clock>()};
 }
 
-std::chrono::nanoseconds ClockOfDay::ahead() {
-    return std::chrono::system_clock::now().time_since_epoch() -
-           std::chrono::steady_clock::now().time_since_epoch();
+std::optional<double> ClockOfDay::seconds_since(std::int64_t moment, ClockReading now) {
+    const milliseconds ahead = now.of_day - now.monotonic;
+    if (std::chrono::abs(ahead - ahead_) > least_setting) {
+        ahead_ = ahead;
+        true_since_ = now.of_day;
+    }
+    const milliseconds since(moment);
+    if (since < true_since_ || since > now.of_day) return std::nullopt;
+    return std::chrono::duration<double>(now.of_day - since).count();
 }
 
 }  // namespace breach::orchestrator

@@ -5,21 +5,29 @@
 #include <cstdint>
 #include <optional>
 
-#include "services/orchestrator/records/identity.hpp"
-
 namespace breach::orchestrator {
+
+/// Both clocks at a moment. Whatever is asked of that moment is asked of one reading: between two the clock may be set.
+struct ClockReading {
+    std::chrono::milliseconds of_day;  ///< since 1970
+    std::chrono::milliseconds monotonic;
+
+    static ClockReading now();
+};
 
 class ClockOfDay {
   public:
+    explicit ClockOfDay(ClockReading now = ClockReading::now())
+        : ahead_(now.of_day - now.monotonic), true_since_(now.of_day) {}
+
     /// [s] since that moment [ms since 1970]. Nothing: the clock was set after it, so that the difference is no duration; or it is
     /// before this object, when nobody watched the clock.
-    std::optional<double> seconds_since(std::int64_t moment);
+    std::optional<double> seconds_since(std::int64_t moment,
+                                        ClockReading now = ClockReading::now());
 
   private:
-    std::chrono::nanoseconds ahead_ = ahead();  ///< of the monotonic clock
-    std::int64_t true_since_ = epoch_ms();
-
-    static std::chrono::nanoseconds ahead();
+    std::chrono::milliseconds ahead_;  ///< of the monotonic clock
+    std::chrono::milliseconds true_since_;
 };
 
 }  // namespace breach::orchestrator

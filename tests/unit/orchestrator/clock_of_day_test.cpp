@@ -6,12 +6,40 @@
 namespace breach::orchestrator {
 namespace {
 
+using namespace std::chrono_literals;
+
+constexpr ClockReading start{.of_day = 1'000'000s, .monotonic = 50s};
+
+/// That much later, by a clock of the day that was set forward by so much since the start.
+ClockReading later(std::chrono::milliseconds passed, std::chrono::milliseconds set = 0ms) {
+    return {start.of_day + passed + set, start.monotonic + passed};
+}
+
+std::int64_t of_day(ClockReading reading) { return reading.of_day.count(); }
+
 TEST(ClockOfDay, GivesADurationOnlyOfWhatItWatched) {
-    const std::int64_t earlier = epoch_ms() - 5;
+    ClockOfDay clock(start);
+    EXPECT_FALSE(clock.seconds_since(of_day(later(-5ms)), later(1s)))
+        << "it may have been set before the service began";
+    EXPECT_FALSE(clock.seconds_since(of_day(later(2h)), later(1s))) << "it was set back since then";
+    EXPECT_DOUBLE_EQ(clock.seconds_since(of_day(later(1s)), later(3500ms)).value(), 2.5);
+}
+
+TEST(ClockOfDay, SetForwardMakesNoHoursOfWaiting) {
+    ClockOfDay clock(start);
+    EXPECT_FALSE(clock.seconds_since(of_day(later(1s)), later(2s, 1h)));
+    EXPECT_FALSE(clock.seconds_since(of_day(later(1s)), later(3s, 1h))) << "nor when asked again";
+    EXPECT_DOUBLE_EQ(clock.seconds_since(of_day(later(4s, 1h)), later(5s, 1h)).value(), 1.0);
+}
+
+TEST(ClockOfDay, KeptRightByLittleStepsIsStillWatched) {
+    ClockOfDay clock(start);
+    EXPECT_DOUBLE_EQ(clock.seconds_since(of_day(later(1s)), later(2s, 300ms)).value(), 1.3);
+}
+
+TEST(ClockOfDay, ReadsTheMachinesClocks) {
     ClockOfDay clock;
-    EXPECT_FALSE(clock.seconds_since(earlier)) << "it may have been set before the service began";
-    EXPECT_FALSE(clock.seconds_since(epoch_ms() + 7'200'000)) << "it was set back since then";
-    const auto waited = clock.seconds_since(epoch_ms());
+    const auto waited = clock.seconds_since(ClockReading::now().of_day.count());
     ASSERT_TRUE(waited);
     EXPECT_GE(*waited, 0.0);
     EXPECT_LT(*waited, 60.0);
