@@ -83,16 +83,15 @@ void add(Totals& whole, const Totals& part) {
 Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
     const Strips& strips = body.strips;
     const std::size_t zones = body.zones.size();
-    body.sums.assign(strips.count() * zones, {});
+    body.sums.resize(strips.count() * zones);
     const auto over = [&](const std::vector<std::size_t>& together) {
         body.team->share(together.size(), [&](std::size_t task) {
             const std::size_t strip = together[task];
             for (std::size_t z = 0; z < zones; ++z) {
                 const Span span = strips.span(strip, z);
                 const Loop chosen = body.loops[z].*loop;
-                if (chosen && span.begin < span.end) {
-                    chosen(work_of(body, z, dt), span, body.sums[strip * zones + z]);
-                }
+                Totals& sums = body.sums[strip * zones + z] = {};
+                if (chosen && span.begin < span.end) chosen(work_of(body, z, dt), span, sums);
             }
         });
     };
@@ -109,9 +108,10 @@ Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
 }
 
 void forget_averages(Body& body) {
-    for (std::vector<CellSum>& sums : body.averages) {
+    for (std::size_t z = 0; z < body.averages.size(); ++z) {
+        std::vector<CellSum>& sums = body.averages[z];
         if (sums.empty()) continue;
-        for (const std::int32_t cell : body.grid.active) sums[cell] = {};
+        for (const std::int32_t cell : body.strips.cells(z)) sums[cell] = {};
     }
 }
 

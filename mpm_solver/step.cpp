@@ -41,9 +41,10 @@ void move_strayed(Body& body, const Totals& sums) {
 
 /// Totals of one kind in the cells become averages over their volume.
 void average(Body& body, double CellSum::*number) {
-    for (std::vector<CellSum>& sums : body.averages) {
+    for (std::size_t z = 0; z < body.averages.size(); ++z) {
+        std::vector<CellSum>& sums = body.averages[z];
         if (sums.empty()) continue;
-        for (const std::int32_t cell : body.grid.active) {
+        for (const std::int32_t cell : body.strips.cells(z)) {
             if (sums[cell].V > 0.0) sums[cell].*number /= sums[cell].V;
         }
     }

@@ -1,6 +1,8 @@
-// Threads that share the tasks of a loop. Between loops they look for the next one a while, letting
-// whoever wants the core have it, and sleep then. Nobody waits for one that wakes late: the caller
-// does its tasks. Which thread takes a task is a matter of luck, so tasks must not depend on it.
+// Threads that share the tasks of a loop. Each begins with a part of its own, the same in every loop of
+// as many tasks, so that what its tasks touch stays in its core's cache; who is done helps the others from
+// their end. Between loops they look for the next one a while, letting whoever wants the core have it, and
+// sleep then. Nobody waits for one that wakes late: the caller does its tasks. Which thread takes a task
+// is a matter of luck, so tasks must not depend on it.
 #pragma once
 
 #include <atomic>
@@ -8,6 +10,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -39,14 +42,25 @@ class Team {
 
   private:
     using Call = void (*)(const void*, std::size_t);
+    enum class End { front, back };
+
+    /// Tasks that nobody has taken, [begin, end) in one word; on a cache line of its own.
+    class alignas(64) Range {
+      public:
+        void set(std::size_t begin, std::size_t end);
+        std::optional<std::size_t> take(End from);
+
+      private:
+        std::atomic<std::uint64_t> left_{0};
+    };
+
     void share_out(std::size_t tasks, Call call, const void* work);
-    void take_tasks();
-    void serve();
+    void take_tasks(std::size_t own);
+    void serve(std::size_t own);
 
     Call call_ = nullptr;
     const void* work_ = nullptr;
-    std::size_t tasks_ = 0;
-    std::atomic<std::size_t> next_{0};
+    std::vector<Range> ranges_;  ///< the caller's, then the members'
     /// Number of the round, whether it is open, and how many members are at work in it.
     std::atomic<std::uint32_t> state_{0};
     std::atomic<bool> closing_{false};

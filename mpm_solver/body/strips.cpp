@@ -26,6 +26,23 @@ void order_zone(const Grid& grid, const Points& points, const Zone& zone,
     }
 }
 
+void mark_reachable(const Grid& grid, const Points& points, const Zone& zone,
+                    std::vector<std::uint8_t>& marked) {
+    std::int32_t last = -1;
+    for (std::size_t p = zone.begin; p < zone.end; ++p) {
+        const std::int32_t home = points.home[p];
+        if (home == last) continue;
+        last = home;
+        const std::int32_t i = home / grid.rows;
+        const std::int32_t j = home % grid.rows;
+        for (std::int32_t k = std::max(i - 2, 0); k <= std::min(i + 2, grid.columns - 1); ++k) {
+            const auto column = marked.begin() + k * grid.rows;
+            std::fill(column + std::max(j - 2, 0), column + std::min(j + 3, grid.rows),
+                      std::uint8_t{1});
+        }
+    }
+}
+
 }  // namespace
 
 void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
@@ -70,28 +87,28 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
         all_.insert(all_.end(), apart_[colour].begin(), apart_[colour].end());
     }
     std::sort(all_.begin(), all_.end());
-    find_active_nodes(grid, points);
+    find_active_nodes(grid, points, zones);
 }
 
 /// The 5 x 5 nodes about every home: what a point can reach from at most a cell away.
-void Strips::find_active_nodes(Grid& grid, const Points& points) {
+void Strips::find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
     clear(grid);
-    std::vector<std::uint8_t> is_active(static_cast<std::size_t>(grid.nodes()), 0);
-    std::int32_t last = -1;
-    for (const std::int32_t home : points.home) {
-        if (home == last) continue;
-        last = home;
-        const std::int32_t i = home / grid.rows;
-        const std::int32_t j = home % grid.rows;
-        for (std::int32_t k = std::max(i - 2, 0); k <= std::min(i + 2, grid.columns - 1); ++k) {
-            const auto column = is_active.begin() + k * grid.rows;
-            std::fill(column + std::max(j - 2, 0), column + std::min(j + 3, grid.rows),
-                      std::uint8_t{1});
+    const auto nodes = static_cast<std::size_t>(grid.nodes());
+    std::vector<std::uint8_t> of_any(nodes, 0);
+    std::vector<std::uint8_t> of_zone;
+    cells_.assign(zones.size(), {});
+    for (std::size_t z = 0; z < zones.size(); ++z) {
+        of_zone.assign(nodes, 0);
+        mark_reachable(grid, points, zones[z], of_zone);
+        for (std::size_t node = 0; node < nodes; ++node) {
+            if (!of_zone[node]) continue;
+            cells_[z].push_back(static_cast<std::int32_t>(node));
+            of_any[node] = 1;
         }
     }
     grid.active.clear();
-    for (std::int32_t node = 0; node < grid.nodes(); ++node) {
-        if (is_active[node]) grid.active.push_back(node);
+    for (std::size_t node = 0; node < nodes; ++node) {
+        if (of_any[node]) grid.active.push_back(static_cast<std::int32_t>(node));
     }
 }
 

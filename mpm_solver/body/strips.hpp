@@ -32,15 +32,18 @@ class Strips {
     /// Strips that share no node with one another: the even ones, the odd ones.
     const std::array<std::vector<std::size_t>, 2>& apart() const { return apart_; }
     const std::vector<std::size_t>& all() const { return all_; }
+    /// Cells (as their nodes) that a zone's points can be in; every active node is of some zone.
+    const std::vector<std::int32_t>& cells(std::size_t zone) const { return cells_[zone]; }
 
   private:
-    void find_active_nodes(Grid& grid, const Points& points);
+    void find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones);
 
     std::size_t count_ = 0;
     std::size_t zones_ = 0;
     std::vector<Span> spans_;
     std::array<std::vector<std::size_t>, 2> apart_;
     std::vector<std::size_t> all_;
+    std::vector<std::vector<std::int32_t>> cells_;
 };
 
 }  // namespace breach::mpm

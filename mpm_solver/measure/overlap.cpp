@@ -23,12 +23,14 @@ std::vector<double> capacities(const Body& body, const WallRows& walls, std::int
     return capacity;
 }
 
-/// Calls visit(p, i, j, weight) for every point and each of its nodes.
+constexpr std::size_t points_of_task = 1024;
+
+/// Calls visit(p, i, j, weight) for these points and each of their nodes.
 template <class Visit>
-void for_each_weight(const Body& body, Visit&& visit) {
+void for_each_weight(const Body& body, Span span, Visit&& visit) {
     const Grid& grid = body.grid;
     grid::with_kernel(body.kernel, body.gimp_half_size, [&](const auto& kernel) {
-        for (std::size_t p = 0; p < body.points.size(); ++p) {
+        for (std::size_t p = span.begin; p < span.end; ++p) {
             const auto sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
             const auto sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);
             const auto first_i = static_cast<std::int32_t>(sx.first);
@@ -42,6 +44,16 @@ void for_each_weight(const Body& body, Visit&& visit) {
     });
 }
 
+/// Over all points, shared out: `work` writes no point outside its span.
+template <class Work>
+void for_spans(const Body& body, Work&& work) {
+    const std::size_t points = body.points.size();
+    body.team->share((points + points_of_task - 1) / points_of_task, [&](std::size_t task) {
+        const std::size_t begin = task * points_of_task;
+        work(Span{begin, std::min(begin + points_of_task, points)});
+    });
+}
+
 }  // namespace
 
 OverlapMeter::OverlapMeter(const Body& body, double thickness)
@@ -49,58 +61,71 @@ OverlapMeter::OverlapMeter(const Body& body, double thickness)
       capacity_y_(capacities(body, body.grid.walls_y, body.grid.rows)),
       thickness_(thickness) {}
 
-void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& filled) {
-    filled.assign(body.grid.nodes(), 0.0);
+void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& fill) const {
+    fill.assign(body.grid.nodes(), 0.0);
     const Points& points = body.points;
     const std::int32_t rows = body.grid.rows;
-    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        filled[i * rows + j] += points.V[p] * N;
-    });
-}
-
-double OverlapMeter::fill_at(const std::vector<double>& filled, std::int32_t i,
-                             std::int32_t j) const {
-    const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
-    const auto rows = static_cast<std::int32_t>(capacity_y_.size());
-    return capacity > 0.0 ? filled[i * rows + j] / capacity : 0.0;
+    // Not shared out: a node's sum must not depend on the threads.
+    for_each_weight(body, {0, points.size()},
+                    [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+                        fill[i * rows + j] += points.V[p] * N;
+                    });
+    for (std::int32_t i = 0; i < body.grid.columns; ++i) {
+        for (std::int32_t j = 0; j < rows; ++j) {
+            double& node = fill[i * rows + j];
+            if (node == 0.0) continue;
+            const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
+            node = capacity > 0.0 ? node / capacity : 0.0;
+        }
+    }
 }
 
 double OverlapMeter::measure(const Body& body) const {
-    std::vector<double> filled;
-    fill_nodes(body, filled);
+    std::vector<double> fill;
+    fill_nodes(body, fill);
     const Points& points = body.points;
+    const std::int32_t rows = body.grid.rows;
     double excess = 0.0;
-    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        if (N > 0.0) excess += points.V[p] * N * std::max(fill_at(filled, i, j) - 1.0, 0.0);
-    });
+    for_each_weight(body, {0, points.size()},
+                    [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+                        if (N > 0.0)
+                            excess += points.V[p] * N * std::max(fill[i * rows + j] - 1.0, 0.0);
+                    });
     double volume = 0.0;
     for (const double V : points.V) volume += V;
     return volume > 0.0 ? excess / volume : 0.0;
 }
 
 void OverlapMeter::mark(Body& body, double tolerance) {
-    fill_nodes(body, filled_);
-    std::fill(body.points.excess.begin(), body.points.excess.end(), 0.0);
-    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        if (N > 0.0)
-            body.points.excess[p] += N * std::max(fill_at(filled_, i, j) - 1.0 - tolerance, 0.0);
+    fill_nodes(body, fill_);
+    Points& points = body.points;
+    const std::int32_t rows = body.grid.rows;
+    for_spans(body, [&](Span span) {
+        std::fill(&points.excess[span.begin], points.excess.data() + span.end, 0.0);
+        for_each_weight(body, span, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+            if (N > 0.0)
+                points.excess[p] += N * std::max(fill_[i * rows + j] - 1.0 - tolerance, 0.0);
+        });
     });
 }
 
 void OverlapMeter::hold_gaps_to_room(Body& body) {
-    fill_nodes(body, filled_);
+    fill_nodes(body, fill_);
     Points& points = body.points;
-    fill_.assign(points.size(), 0.0);
-    for_each_weight(body, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-        fill_[p] += N * fill_at(filled_, i, j);
+    fill_about_.assign(points.size(), 0.0);
+    const std::int32_t rows = body.grid.rows;
+    for_spans(body, [&](Span span) {
+        for_each_weight(body, span, [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
+            fill_about_[p] += N * fill_[i * rows + j];
+        });
+        for (std::size_t p = span.begin; p < span.end; ++p) {
+            const double room = points.V[p] / fill_about_[p];
+            if (points.gap[p] <= 0.0 || points.volume[p] <= room) continue;
+            const double closing = std::min(std::log(points.volume[p] / room), points.gap[p]);
+            points.gap[p] -= closing;
+            points.volume[p] *= std::exp(-closing);
+        }
     });
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const double room = points.V[p] / fill_[p];
-        if (points.gap[p] <= 0.0 || points.volume[p] <= room) continue;
-        const double closing = std::min(std::log(points.volume[p] / room), points.gap[p]);
-        points.gap[p] -= closing;
-        points.volume[p] *= std::exp(-closing);
-    }
 }
 
 }  // namespace breach::mpm

@@ -28,16 +28,15 @@ class OverlapMeter {
     void hold_gaps_to_room(Body& body);
 
   private:
-    /// Volume at each node [m3].
-    static void fill_nodes(const Body& body, std::vector<double>& filled);
-    double fill_at(const std::vector<double>& filled, std::int32_t i, std::int32_t j) const;
+    /// Of every node, sum_p V_p N_i / capacity_i [-].
+    void fill_nodes(const Body& body, std::vector<double>& fill) const;
 
     /// Integral of the nodal weight over the domain, per column [m]
     std::vector<double> capacity_x_;
     std::vector<double> capacity_y_;
     double thickness_;
-    std::vector<double> filled_;  ///< of marks and gaps; empty in runs without either [m3]
-    std::vector<double> fill_;    ///< about each point; empty in runs that leave gaps alone [-]
+    std::vector<double> fill_;        ///< of nodes; empty in runs without marks and gaps [-]
+    std::vector<double> fill_about_;  ///< each point; empty in runs that leave gaps alone [-]
 };
 
 }  // namespace breach::mpm

@@ -72,6 +72,28 @@ TEST(Sort, ChangesTheOrderAndNothingElse) {
     }
 }
 
+/// Sums of a zone's cells are emptied and averaged in these cells alone.
+TEST(Sort, KnowsTheCellsThatEachZonesPointsReach) {
+    scene::Scene scene = sand_block();
+    scene.materials.push_back({.name = "other", .density = 1600.0, .law = elastic(5e6, 0.3)});
+    scene.section.regions.push_back(
+        {.name = "front", .material = 1, .polygon = rectangle(6, 0, 8, 1)});
+    Body body = filled_body(scene);
+    ASSERT_EQ(body.zones.size(), 2u);
+    const double dt = courant_step(body, 0.4);
+    for (int k = 0; k < 600; ++k) {
+        step(body, dt);
+        for (std::size_t z = 0; z < body.zones.size(); ++z) {
+            const std::vector<std::int32_t>& cells = body.strips.cells(z);
+            EXPECT_LT(cells.size(), body.grid.active.size());
+            for (std::size_t p = body.zones[z].begin; p < body.zones[z].end; ++p) {
+                ASSERT_TRUE(std::ranges::binary_search(cells, body.points.cell[p])) << k;
+                ASSERT_GT(body.averages[z][body.points.cell[p]].V, 0.0) << k;
+            }
+        }
+    }
+}
+
 TEST(Input, PointsOutsideTheGridAreRefusedWithARemedy) {
     scene::Scene scene = one_soil(elastic(1e6, 0.3), 2000.0, rectangle(1, 0, 7, 4), 1.0, 8.0, 6.0);
     exchange::ParticleState state = fill_section(scene).state;
