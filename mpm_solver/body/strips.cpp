@@ -43,6 +43,16 @@ void mark_reachable(const Grid& grid, const Points& points, const Zone& zone,
     }
 }
 
+/// In their order, and no room for more: there are as many as points.
+std::vector<std::int32_t> marked(const std::vector<std::uint8_t>& nodes) {
+    std::vector<std::int32_t> found;
+    found.reserve(static_cast<std::size_t>(std::ranges::count(nodes, 1)));
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        if (nodes[node]) found.push_back(static_cast<std::int32_t>(node));
+    }
+    return found;
+}
+
 }  // namespace
 
 void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
@@ -93,23 +103,16 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
 /// The 5 x 5 nodes about every home: what a point can reach from at most a cell away.
 void Strips::find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
     clear(grid);
-    const auto nodes = static_cast<std::size_t>(grid.nodes());
-    std::vector<std::uint8_t> of_any(nodes, 0);
+    std::vector<std::uint8_t> of_any(static_cast<std::size_t>(grid.nodes()), 0);
     std::vector<std::uint8_t> of_zone;
-    cells_.assign(zones.size(), {});
-    for (std::size_t z = 0; z < zones.size(); ++z) {
-        of_zone.assign(nodes, 0);
-        mark_reachable(grid, points, zones[z], of_zone);
-        for (std::size_t node = 0; node < nodes; ++node) {
-            if (!of_zone[node]) continue;
-            cells_[z].push_back(static_cast<std::int32_t>(node));
-            of_any[node] = 1;
-        }
+    cells_.clear();
+    for (const Zone& zone : zones) {
+        of_zone.assign(of_any.size(), 0);
+        mark_reachable(grid, points, zone, of_zone);
+        cells_.push_back(marked(of_zone));
+        for (const std::int32_t node : cells_.back()) of_any[node] = 1;
     }
-    grid.active.clear();
-    for (std::size_t node = 0; node < nodes; ++node) {
-        if (of_any[node]) grid.active.push_back(static_cast<std::int32_t>(node));
-    }
+    grid.active = marked(of_any);
 }
 
 }  // namespace breach::mpm

@@ -25,9 +25,9 @@ struct AccuracyRow {
     std::optional<Repeats> value = {};  ///< of the draws that have one
     std::optional<Cost> cost = {};      ///< mean over the draws; of memory the most
     std::optional<double> error = {};   ///< of the mean of the draws, relative to the reference
-    /// What its own ladder says it is off, relative: with the finest rung as reference the difference
-    /// from that, and what that one is off itself
-    std::optional<double> error_of_own_ladder = {};
+    /// What its own ladder says it is off: with the finest rung as reference the difference from
+    /// that, and what that one is off itself
+    std::optional<Share> of_own_ladder = {};
     /// What the base's rungs of the other ladders are off, together: what this row shares with them
     double error_of_other_ladders = 0.0;
     /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
@@ -49,7 +49,7 @@ struct LadderSummary {
     bool reference_is_questionable = false;  ///< its rung carries such a flag
     std::string message;                     ///< the course in a sentence
     /// What the rung is off that is the base; nothing: no rung is the base, or its error is not known
-    std::optional<double> error_of_base;
+    std::optional<Share> of_base;
 };
 
 struct AccuracyTable {

@@ -115,12 +115,14 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
 
 /// What a rung is off by what its own ladder says: with the finest rung as reference its difference
 /// from that, and what that one is off itself.
-std::optional<double> bias_of(const AccuracyRow& row, const LadderSummary& ladder,
+std::optional<Share> share_of(const AccuracyRow& row, const LadderSummary& ladder,
                               ReferenceKind reference) {
     const std::optional<double>& of_finest = ladder.convergence.error_of_finest;
-    if (row.is_reference) return of_finest;
-    if (!row.error || reference != ReferenceKind::finest) return row.error;
-    return *row.error + of_finest.value_or(0.0);
+    const bool finest_is_told = ladder.convergence.course != Course::below_noise;
+    if (row.is_reference && of_finest) return Share{*of_finest, finest_is_told};
+    if (!row.error) return std::nullopt;
+    if (reference != ReferenceKind::finest) return Share{*row.error, !row.below_noise};
+    return Share{*row.error + of_finest.value_or(0.0), !row.below_noise || finest_is_told};
 }
 
 /// A row is off by its own ladder's error, and by what the base is off on the others: a number from
@@ -130,15 +132,18 @@ void tell_errors_of_runs(AccuracyTable& table) {
     const bool in_it = reference == ReferenceKind::given;
     for (const AccuracyRow& row : table.rows)
         if (row.setting.is_base && !in_it)
-            table.ladders[row.setting.ladder].error_of_base =
-                bias_of(row, table.ladders[row.setting.ladder], reference);
+            table.ladders[row.setting.ladder].of_base =
+                share_of(row, table.ladders[row.setting.ladder], reference);
     for (AccuracyRow& row : table.rows) {
         const LadderSummary& own = table.ladders[row.setting.ladder];
+        std::vector<Share> shares;
         for (const LadderSummary& each : table.ladders)
-            if (&each != &own) row.error_of_other_ladders += each.error_of_base.value_or(0.0);
-        row.error_of_own_ladder = bias_of(row, own, reference);
-        if (!row.error_of_own_ladder) continue;
-        row.bias = *row.error_of_own_ladder + row.error_of_other_ladders;
+            if (&each != &own && each.of_base) shares.push_back(*each.of_base);
+        row.error_of_other_ladders = sum_of(shares);
+        row.of_own_ladder = share_of(row, own, reference);
+        if (!row.of_own_ladder) continue;
+        shares.push_back(*row.of_own_ladder);
+        row.bias = sum_of(shares);
         row.error_of_a_run = error_of_one_run(*row.bias, *row.value, *own.reference);
     }
 }
@@ -187,19 +192,42 @@ void choose(AccuracyTable& table) {
     table.recommendation = recommendation_in_words(table);
 }
 
-/// Softening without a length of its own goes on in one element, however small it is.
-bool softens_in_one_element(const AccuracyPlan& plan, json scene, const Ladder& ladder) {
-    if (plan.quantity.reach != Reach::fem && plan.quantity.reach != Reach::chain) return false;
-    const bool changes_mesh =
-        std::ranges::any_of(ladder.steps.front(),
-                            [](const std::string& each) { return each.starts_with("/section/"); });
-    if (!changes_mesh) return false;
+bool changes(const Ladder& ladder, std::string_view entry) {
+    return std::ranges::any_of(ladder.steps.front(),
+                               [&](const std::string& each) { return each.starts_with(entry); });
+}
+
+/// The materials of the base's section that soften.
+std::vector<json> softening_soils(const AccuracyPlan& plan, json scene) {
     for (const std::string& each : plan.base) scene::apply_override(scene, each);
-    const json& materials = scene.at("materials");
-    return std::ranges::any_of(scene.at("section").at("regions"), [&](const json& region) {
-        const json& law = materials.at(region.at("material").get<std::string>()).at("law");
-        return law.contains("softening") && law["softening"].is_object();
-    });
+    std::vector<json> soils;
+    for (const json& region : scene.at("section").at("regions")) {
+        const json& soil = scene.at("materials").at(region.at("material").get<std::string>());
+        const json& law = soil.at("law");
+        if (law.contains("softening") && law["softening"].is_object()) soils.push_back(soil);
+    }
+    return soils;
+}
+
+/// Softening without a length of its own goes on in one element or cell, however small it is.
+std::string softening_in_words(const AccuracyPlan& plan, const json& scene, const Ladder& ladder,
+                               Course course) {
+    const bool of_fem = plan.quantity.reach == Reach::fem || plan.quantity.reach == Reach::chain;
+    const bool mesh = of_fem && changes(ladder, "/section/") &&
+                      (course == Course::not_falling || course == Course::oscillating);
+    const bool cells = has_lattice(plan.quantity.reach) && changes(ladder, "/mpm/cell_size");
+    if (!mesh && !cells) return "";
+    const std::vector<json> soils = softening_soils(plan, scene);
+    if (soils.empty()) return "";
+    if (mesh)
+        return "; the soil softens, which in the FEM has no length of its own: every mesh slides "
+               "along a band as wide as its elements, and there may be no limit";
+    const bool has_length = std::ranges::any_of(
+        soils, [](const json& soil) { return soil.value("nonlocal_length", json()).is_number(); });
+    return has_length ? ""
+                      : "; the soil softens without a nonlocal_length, in bands as wide as the "
+                        "cells: smaller cells are another soil, too, and rungs that agree may be "
+                        "two errors that cancel";
 }
 
 void judge(AccuracyTable& table, const json& scene) {
@@ -213,12 +241,8 @@ void judge(AccuracyTable& table, const json& scene) {
         ladder.reference_is_questionable =
             table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
         ladder.message = course_in_words(ladder.convergence, table.plan, i);
-        const Course course = ladder.convergence.course;
-        if ((course == Course::not_falling || course == Course::oscillating) &&
-            softens_in_one_element(table.plan, scene, table.plan.ladders[i]))
-            ladder.message +=
-                "; the soil softens, which in the FEM has no length of its own: every mesh slides "
-                "along a band as wide as its elements, and there may be no limit";
+        ladder.message +=
+            softening_in_words(table.plan, scene, table.plan.ladders[i], ladder.convergence.course);
         if (ladder.reference_is_questionable)
             ladder.message += "; its finest rung is questionable, so nothing of it is recommended";
         tell_errors(table.plan, ladder, rows);
@@ -233,6 +257,10 @@ json as_json(const MeanOfDraws& mean) {
     return {{"draws", mean.draws}, {"error", mean.error}, {"cpu_seconds", mean.cpu_seconds}};
 }
 
+std::optional<double> error_of(const std::optional<Share>& share) {
+    return share ? std::optional(share->error) : std::nullopt;
+}
+
 json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
     const Ladder& ladder = plan.ladders[row.setting.ladder];
     json answer{{"ladder", ladder.name},
@@ -244,7 +272,7 @@ json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
                 {"standard_deviation", nullptr},
                 {"draws", 0},
                 {"error", or_null(row.error)},
-                {"error_of_own_ladder", or_null(row.error_of_own_ladder)},
+                {"error_of_own_ladder", or_null(error_of(row.of_own_ladder))},
                 {"error_of_other_ladders", row.error_of_other_ladders},
                 {"error_of_a_run", or_null(row.error_of_a_run)},
                 {"bias", or_null(row.bias)},
@@ -285,7 +313,7 @@ json as_json(const LadderSummary& ladder, const std::string& name) {
             {"noise_floor", or_null(c.noise)},
             {"spread", or_null(c.spread)},
             {"reference", or_null(ladder.reference)},
-            {"error_of_base", or_null(ladder.error_of_base)}};
+            {"error_of_base", or_null(error_of(ladder.of_base))}};
 }
 
 }  // namespace

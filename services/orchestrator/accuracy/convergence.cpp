@@ -88,25 +88,22 @@ struct Ending {
     double change_fine = fine.value.mean - middle.value.mean;
     double ratio_coarse = coarse.size / middle.size;
     double ratio_fine = middle.size / fine.size;
-
-    /// Coarser rungs that agree, because neither sees what the finest does, are no noise.
-    bool is_noise(double noise) const {
-        const double told =
-            smallest_told_difference(noise, std::min(middle.value.count, fine.value.count));
-        return std::abs(change_fine) < told;
-    }
 };
+
+/// Whether the two finest rungs differ by no more than noise makes them. Coarser rungs that agree,
+/// because neither sees what the finest does, are no noise.
+bool is_noise(const Rung& middle, const Rung& fine, std::optional<double> noise) {
+    const std::size_t repeats = std::min(middle.value.count, fine.value.count);
+    return noise && std::abs(fine.value.mean - middle.value.mean) <
+                        smallest_told_difference(*noise, repeats);
+}
 
 double two_grid_error(double change, double ratio) {
     return factor_of_safety_of_two * std::abs(change) / (ratio - 1.0);
 }
 
 /// What the finest rung may be off, in the unit of the value; order and limit where there are any.
-double judge(const Ending& e, std::optional<double> noise, Convergence& found) {
-    if (noise && e.is_noise(*noise)) {
-        found.course = Course::below_noise;
-        return std::abs(e.change_fine);
-    }
+double judge(const Ending& e, Convergence& found) {
     if (e.change_coarse * e.change_fine < 0.0) {
         found.course = Course::oscillating;
         const auto [least, most] =
@@ -133,16 +130,31 @@ Convergence convergence_of(std::span<const Rung> rungs) {
     if (rungs.size() < 2) return found;
     const Rung& fine = rungs[rungs.size() - 1];
     const Rung& middle = rungs[rungs.size() - 2];
-    double error = two_grid_error(fine.value.mean - middle.value.mean, middle.size / fine.size);
-    if (rungs.size() >= 3) {
-        // Coarse rungs scatter more than fine ones: they say nothing about what tells these apart.
-        const auto noise = pooled_noise(rungs.last(3));
-        error = judge({rungs[rungs.size() - 3], middle, fine}, noise, found);
-    }
+    const double change = fine.value.mean - middle.value.mean;
+    double error = std::abs(change);
+    // Coarse rungs scatter more than fine ones: they say nothing about what tells these apart.
+    if (is_noise(middle, fine, pooled_noise(rungs.last(std::min<std::size_t>(rungs.size(), 3)))))
+        found.course = Course::below_noise;
+    else if (rungs.size() >= 3)
+        error = judge({rungs[rungs.size() - 3], middle, fine}, found);
+    else
+        error = two_grid_error(change, middle.size / fine.size);
     if (fine.value.mean == 0.0) return found;
     found.error_of_finest = error / std::abs(fine.value.mean);
     if (found.order) found.gci = found.error_of_finest;
     return found;
+}
+
+double sum_of(std::span<const Share> shares) {
+    double told = 0.0;
+    double squares = 0.0;
+    for (const Share& each : shares) {
+        if (each.told)
+            told += each.error;
+        else
+            squares += each.error * each.error;
+    }
+    return told + std::sqrt(squares);
 }
 
 std::vector<bool> pareto_front(std::span<const Offer> offers) {

@@ -17,13 +17,13 @@ struct Rung {
     Repeats value;
 };
 
-/// How the three finest rungs of a ladder run.
+/// How the three finest rungs of a ladder run; of two, whether they differ.
 enum class Course {
-    too_few,      ///< fewer than three have a value
+    too_few,      ///< fewer than three have a value, and two differ by more than the noise
     monotone,     ///< towards a limit: order, limit and index are told
     oscillating,  ///< up and down: a spread, no order
     not_falling,  ///< the differences do not get smaller with the size: no order
-    below_noise,  ///< a difference is within the noise of the repeats: no order
+    below_noise,  ///< the last difference is within the noise of the repeats: no order
 };
 std::string_view name_of(Course course);
 
@@ -56,6 +56,15 @@ std::optional<double> observed_order(double ratio_coarse, double ratio_fine, dou
 
 /// The difference of two means of so many repeats that noise alone exceeds in one of twenty pairs.
 double smallest_told_difference(double noise, std::size_t repeats);
+
+/// What one ladder says a setting is off, relative, and whether that is told apart from noise.
+struct Share {
+    double error;
+    bool told;
+};
+/// What several ladders say together. What is told adds up; what noise alone could make has either
+/// sign, and such shares add as squares.
+double sum_of(std::span<const Share> shares);
 
 /// What a setting costs and how far one run with it is off.
 struct Offer {

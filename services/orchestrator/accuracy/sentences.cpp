@@ -44,7 +44,7 @@ std::string left_out(const AccuracyTable& table, const AccuracyRow& row) {
     if (table.plan.reference.kind == ReferenceKind::given) return "";
     std::string names;
     for (std::size_t i = 0; i < table.ladders.size(); ++i)
-        if (i != row.setting.ladder && !table.ladders[i].error_of_base)
+        if (i != row.setting.ladder && !table.ladders[i].of_base)
             names += (names.empty() ? "" : ", ") + table.plan.ladders[i].name;
     return names.empty() ? "" : "; without the error of " + names + ", not known at the base";
 }
@@ -67,14 +67,14 @@ std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     if (table.plan.reference.kind == ReferenceKind::given) return "";
     constexpr double told = 0.05;  // of the whole
     std::string words;
-    const auto tell = [&](const std::string& ladder, double error) {
-        if (error < told * *row.error_of_a_run) return;
-        words += (words.empty() ? " It is off by " : ", ") + percent(error) + " by " + ladder;
+    const auto tell = [&](const std::string& ladder, const std::optional<Share>& share) {
+        if (!share || share->error < told * *row.error_of_a_run) return;
+        words += (words.empty() ? " It is off by " : ", ") + percent(share->error) + " by " +
+                 ladder + (share->told ? "" : " (within the noise)");
     };
-    tell(table.plan.ladders[row.setting.ladder].name, row.error_of_own_ladder.value_or(0.0));
+    tell(table.plan.ladders[row.setting.ladder].name, row.of_own_ladder);
     for (std::size_t i = 0; i < table.ladders.size(); ++i)
-        if (i != row.setting.ladder)
-            tell(table.plan.ladders[i].name, table.ladders[i].error_of_base.value_or(0.0));
+        if (i != row.setting.ladder) tell(table.plan.ladders[i].name, table.ladders[i].of_base);
     return words.empty() ? "" : words + ".";
 }
 

@@ -109,6 +109,21 @@ TEST(Accuracy, MeshesWithoutALimitAreExplainedWhereTheSoilSoftens) {
     EXPECT_EQ(plain.find("the soil softens"), std::string::npos) << plain;
 }
 
+TEST(Accuracy, CellsThatSoftenWithoutALengthAreToldToBeAnotherSoil) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const auto words_of_cells = [&](const json& base) {
+        const std::string run = service.submit(accuracy_study({{"base", base}}));
+        service.wait_for_end(run);
+        return accuracy_of(service, run).at("ladders")[0].at("message").get<std::string>();
+    };
+    const std::string local = words_of_cells(json::array());
+    EXPECT_NE(local.find("without a nonlocal_length"), std::string::npos) << local;
+    const std::string nonlocal =
+        words_of_cells({"/mpm/softening_length=1", "/materials/slope_soil/nonlocal_length=2"});
+    EXPECT_EQ(nonlocal.find("without a nonlocal_length"), std::string::npos) << nonlocal;
+}
+
 TEST(Accuracy, DrawsGiveTheNoiseAndRungsOfALaterStudyComeFromTheCache) {
     const Sandbox sandbox;
     Service service(sandbox);

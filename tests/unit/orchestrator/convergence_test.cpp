@@ -92,6 +92,23 @@ TEST(Convergence, ADifferenceBelowTheNoiseIsNotToldAsAnOrder) {
     EXPECT_NEAR(smallest_told_difference(1.0, 4), 1.96 / std::sqrt(2.0), 1e-12);
 }
 
+TEST(Convergence, TwoRungsWithinTheNoiseAreOffByTheirDifference) {
+    const std::array rungs{rung(2, 10.4, 1.0, 4), rung(1, 10.0, 1.0, 4)};
+    EXPECT_EQ(convergence_of(rungs).course, Course::below_noise);
+    EXPECT_NEAR(*convergence_of(rungs).error_of_finest, 0.04, 1e-12);
+    const std::array apart{rung(2, 10.4, 0.1, 4), rung(1, 10.0, 0.1, 4)};
+    EXPECT_EQ(convergence_of(apart).course, Course::too_few);
+    EXPECT_NEAR(*convergence_of(apart).error_of_finest, 0.12, 1e-12) << "Roache's for two";
+}
+
+TEST(Shares, AddUpWhereToldAndAsSquaresWhereNot) {
+    EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.02, true}, Share{0.01, true}}), 0.03);
+    EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.03, false}, Share{0.04, false}}), 0.05);
+    EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.03, false}, Share{0.02, true}, Share{0.04, false}}),
+                     0.07);
+    EXPECT_DOUBLE_EQ(sum_of({}), 0.0);
+}
+
 TEST(Convergence, CoarseRungsThatScatterDoNotHideWhatFineOnesTell) {
     // 10 + h at 8, 4, 2, 1: the coarsest scatters by more than the finest differ
     std::vector<Rung> rungs;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -63,6 +64,57 @@ TEST(MeanOfDraws, KeepsItsPromiseInNineOfTenTimes) {
             if (off <= promised_error(0.0, repeats, repeats.mean, mean_of)) ++kept;
         }
         EXPECT_NEAR(static_cast<double>(kept) / times, confidence, 0.01) << measured;
+    }
+}
+
+/// A setting on three ladders, each halved once above it and once below, whose value runs with the
+/// size by a random amount up to `slope` of itself, up or down. Whether the mean of new draws of it
+/// is as near to the limit of all ladders as is promised.
+bool keeps_promise_over_ladders(double slope, std::size_t draws, std::size_t mean_of,
+                                std::mt19937& random) {
+    constexpr double scatter = 0.04;
+    std::normal_distribution<double> noise(0.0, scatter);
+    std::uniform_real_distribution<double> change(-slope, slope);
+    const auto measured = [&](double truth) {
+        std::vector<double> values(draws);
+        for (double& each : values) each = truth + noise(random);
+        return repeats_of(values);
+    };
+    const std::array<double, 3> changes{change(random), change(random), change(random)};
+    double truth = 1.0;  // at size 2 of each ladder; at size 0 it is 1
+    for (const double each : changes) truth += 2.0 * each;
+    const Repeats base = measured(truth);
+    std::vector<Share> shares;
+    for (const double each : changes) {
+        const Repeats fine = measured(truth - each);
+        const Convergence found = convergence_of(
+            std::array{Rung{4, measured(truth + 2.0 * each)}, Rung{2, base}, Rung{1, fine}});
+        shares.push_back({std::abs(fine.mean - base.mean) + *found.error_of_finest * fine.mean,
+                          found.course != Course::below_noise});
+    }
+    double mean = truth;
+    for (std::size_t i = 0; i < mean_of; ++i) mean += noise(random) / static_cast<double>(mean_of);
+    return std::abs(mean - 1.0) <= promised_error(sum_of(shares), base, 1.0, mean_of);
+}
+
+/// Rungs that differ by less than one run scatters, and by as much: then first order is what three
+/// noisy rungs tell worst.
+TEST(MeanOfDraws, OverSeveralLaddersKeepsItsPromise) {
+    std::mt19937 random(7);
+    const struct {
+        double slope, least;
+    } cases[]{{0.0, 0.98}, {0.01, 0.98}, {0.02, 0.95}, {0.04, 0.87}};
+    for (const auto& [slope, least] : cases) {
+        for (const std::size_t draws : {3u, 8u}) {
+            for (const std::size_t mean_of : {1u, 4u, 20u}) {
+                constexpr int times = 4000;
+                int kept = 0;
+                for (int i = 0; i < times; ++i)
+                    kept += keeps_promise_over_ladders(slope, draws, mean_of, random);
+                EXPECT_GE(static_cast<double>(kept) / times, least)
+                    << slope << " " << draws << " " << mean_of;
+            }
+        }
     }
 }
 
