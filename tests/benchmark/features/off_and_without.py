@@ -1,10 +1,11 @@
 """What being off costs: instructions per step of a scene with every feature off, in the program as it is and in one built without
 the code that asks for them.
 
-    off_and_without.py FOLDER [--program fem_solver|mpm_solver] [--write docs/what_is_left_out.md]
+    off_and_without.py FOLDER [--program fem_solver|mpm_solver] [--write docs/what_is_left_out.md] [--most PER_CENT]
+    off_and_without.py --check      builds nothing: are all the texts that are taken out there?
 
 Copies the sources to FOLDER, builds them, takes out what EDITS says, builds again, and counts both by valgrind as what_is_left_out.py
-does. Both programs must give the same result, to the last digit: what was taken out did nothing. An edit whose text is not in the
+does; fails where off costs more than --most. Both programs must give the same result, to the last digit: what was taken out did nothing. An edit whose text is not in the
 source stops the script: the source has changed, and so must the edit."""
 import argparse
 import copy
@@ -69,9 +70,9 @@ EDITS = {
         ("dashpots", STEP, "    if (model.base.any()) model.base.add_force(time, force);\n", ""),
         ("dashpots", STEP, "void set_external_force(const Model& model, const Beginning& beginning, double time,",
          "void set_external_force(const Model& model, const Beginning& beginning, double,"),
-        ("Rayleigh damping", NEWTON, "    if (elastic_) {\n"
-         "        internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);\n    }\n", ""),
-        ("Rayleigh damping", NEWTON, "rule.c_a + rule.c_v * model_.rayleigh.mass;", "rule.c_a;"),
+        ("Rayleigh damping", NEWTON, "        if (elastic_) {\n"
+         "            internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);\n        }\n", ""),
+        ("Rayleigh damping", NEWTON, "rule.c_a + rule.c_v * model_.rayleigh.mass, model_.mass", "rule.c_a, model_.mass"),
         ("Rayleigh damping", NEWTON, "        if (model_.rayleigh.mass > 0.0) {\n            R_u_.array() -=\n"
          "                model_.mass.array() * (trial.a.array() + model_.rayleigh.mass * trial.v.array());\n"
          "        } else {\n            R_u_.array() -= model_.mass.array() * trial.a.array();\n        }\n"
@@ -84,19 +85,23 @@ EDITS = {
         ("viscosity", NEWTON, "        if (viscous_.size() > 0) {\n            viscous_.setZero();\n"
          "            internal_force_.add_viscous_force(1.0, trial.v, viscous_);\n            R_u_ -= viscous_;\n        }\n", ""),
         ("laws with memory", NEWTON, "    const bool of_ends = !problem.old.memory.empty();\n", "    constexpr bool of_ends = false;\n"),
-        ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n        std::atomic<bool> folded = false;\n"
-         "        for_ranges(elements, threads_, [&](std::size_t begin, std::size_t end) {\n"
-         "            for (std::size_t e = begin; e < end && !folded; ++e)\n"
-         "                if (moving_strains(e, old, trial) == Geometry::degenerate) folded = true;\n        });\n"
-         "        return folded ? Geometry::degenerate : Geometry::sound;\n    }\n", ""),
+        ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n"
+         "        // The first one, whatever threads there are: nothing behind a known one counts.\n"
+         "        std::atomic<std::size_t> first = elements;\n"
+         "        for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {\n"
+         "            for (std::size_t e = begin; e < end && e < first; ++e) {\n"
+         "                if (moving_strains(e, old, trial) == Geometry::sound) continue;\n"
+         "                std::size_t known = first;\n"
+         "                while (e < known && !first.compare_exchange_weak(known, e)) {\n                }\n            }\n        });\n"
+         "        if (first == elements) return Geometry::sound;\n        folded_ = first;\n        return Geometry::degenerate;\n    }\n", ""),
         ("moving mesh", FORCE, "    const auto turning = [&](std::size_t begin, std::size_t end) {\n"
          "        for (std::size_t p = first + begin; p < first + end; ++p) {\n"
          "            State turned = old.points[p];\n            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n"
          "            turned = materials::integrate(law, turned, d_epsilon_[p]).state;\n"
          "            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n            trial.points[p] = turned;\n        }\n    };\n"
-         "    if (half_angle_.empty())\n        for_ranges(zone.count * points_, threads_, still);\n    else\n"
-         "        for_ranges(zone.count * points_, threads_, turning);\n",
-         "    for_ranges(zone.count * points_, threads_, still);\n"),
+         "    if (half_angle_.empty())\n        for_ranges(zone.count * points_, *team_, still);\n    else\n"
+         "        for_ranges(zone.count * points_, *team_, turning);\n",
+         "    for_ranges(zone.count * points_, *team_, still);\n"),
         ("moving mesh", FORCE, "    const bool turns = !half_angle_.empty();\n    for_ranges(", "    for_ranges("),
         ("moving mesh", FORCE, "            if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);\n", ""),
         ("moving mesh", FORCE, "            if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);\n", ""),
@@ -160,13 +165,14 @@ def copy_sources(folder):
             shutil.copy2(root / name, folder / name)
 
 
-def strip(folder, program):
+def stripped_texts(folder, program):
+    texts = {}
     for feature, name, old, new in EDITS[program]:
-        file = folder / name
-        text = file.read_text()
+        text = texts.get(name) or (folder / name).read_text()
         if text.count(old) != 1:
             raise SystemExit(f"{name} has not this text once, which is {feature}'s:\n{old}")
-        file.write_text(text.replace(old, new))
+        texts[name] = text.replace(old, new)
+    return texts
 
 
 def answer(program, programs, scene, folder):
@@ -195,7 +201,8 @@ def row_of(program, folder):
     whole, stripped = folder / "whole", folder / f"without_{program}"
     for each in (whole, stripped):
         copy_sources(each)
-    strip(stripped, program)
+    for name, text in stripped_texts(stripped, program).items():
+        (stripped / name).write_text(text)
     programs = {each: build(each, program) for each in (whole, stripped)}
     with tempfile.TemporaryDirectory() as name:
         scene = SCENES[program](pathlib.Path(name))
@@ -205,22 +212,33 @@ def row_of(program, folder):
         different = [key for key in result if result[key] != same.get(key)]
         raise SystemExit(f"{program}: the results differ ({', '.join(different)}), so what was taken out was at work")
     named = ", ".join(dict.fromkeys(edit[0] for edit in EDITS[program]))
-    return f"| {program} | {off:,.0f} | {without:,.0f} | {100 * (off / without - 1):.2f} % | {named} |"
+    cost = 100 * (off / without - 1)
+    return f"| {program} | {off:,.0f} | {without:,.0f} | {cost:.2f} % | {named} |", cost
 
 
 def main():
     options = argparse.ArgumentParser()
-    options.add_argument("folder", type=pathlib.Path)
+    options.add_argument("folder", type=pathlib.Path, nargs="?")
     options.add_argument("--program", choices=list(EDITS))
     options.add_argument("--write", type=pathlib.Path)
+    options.add_argument("--most", type=float, default=float("inf"), metavar="PER_CENT")
+    options.add_argument("--check", action="store_true")
     asked = options.parse_args()
-    rows = []
-    for program in [asked.program] if asked.program else list(EDITS):
-        rows.append(row_of(program, asked.folder))
-        print(rows[-1], flush=True)
+    chosen = [asked.program] if asked.program else list(EDITS)
+    if asked.check:
+        for program in chosen:
+            stripped_texts(root, program)
+        return
+    with tempfile.TemporaryDirectory() as name:
+        rows = []
+        for program in chosen:
+            rows.append(row_of(program, asked.folder or pathlib.Path(name)))
+            print(rows[-1][0], flush=True)
     if asked.write:
         page = asked.write.read_text().partition(features.WITHOUT)[0].rstrip()
-        asked.write.write_text(page + "\n\n" + PAGE + "\n".join(rows) + "\n")
+        asked.write.write_text(page + "\n\n" + PAGE + "\n".join(row for row, _ in rows) + "\n")
+    if any(cost > asked.most for _, cost in rows):
+        raise SystemExit(f"off costs more than {asked.most} %")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,8 @@
-// mpm_benchmark speed [seconds of the collapse [set]]: particle-steps per CPU second over a whole column collapse, verb by verb, by
+// mpm_benchmark speed [seconds of the collapse [set [threads]]]: particle-steps per CPU second over a whole column collapse, verb by verb, by
 // instruction set, threads and number of points, with the error beside it; with a set, 20,000
 // points by that set alone.
 // mpm_benchmark error: runout error against CPU seconds over cell size, points per cell, Courant
 // number and order.
-#include <malloc.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -14,8 +12,7 @@
 
 #include "core/scene/words.hpp"
 #include "mpm_solver/measure/runout.hpp"
-#include "mpm_solver/simulation.hpp"
-#include "tests/unit/mpm/bodies.hpp"
+#include "tests/unit/mpm/memory.hpp"
 
 namespace breach::mpm {
 namespace {
@@ -27,30 +24,13 @@ double cpu_seconds() {
 }
 
 scene::Scene column(double h, int fill_points, double cfl, scene::UpdateOrder order) {
-    scene::Scene scene = test::one_soil(test::sand(20e6, 0.3, 1e3, 30.0), 1800.0,
-                                        test::rectangle(0.0, 0.0, 10.0, 20.0), h, 60.0, 24.0);
-    scene.gravity = 9.81;
-    scene.mpm->left = scene::Wall::roller;
-    scene.mpm->floor.friction = {{0.0, 60.0, 0.5}};
-    scene.mpm->fill_points = fill_points;
+    scene::Scene scene = test::tall_column(h, fill_points);
     scene.mpm->cfl = cfl;
     scene.mpm->order = order;
     return scene;
 }
 
 constexpr double duration = 4.0;
-
-/// Bytes that the program has asked for and not given back.
-double bytes_in_use() {
-    const auto use = mallinfo2();
-    return static_cast<double>(use.uordblks + use.hblkhd);
-}
-
-double bytes_per_point(const scene::Scene& scene) {
-    const double before = bytes_in_use();
-    const Simulation simulation(scene, test::filled_body(scene), 0.0);
-    return (bytes_in_use() - before) / static_cast<double>(simulation.body().points.size());
-}
 
 constexpr int verbs = 6;
 
@@ -125,7 +105,7 @@ void measure_speed(double h, double end, const Computing& computing) {
     for (const double spent : s.spent) std::printf(" %6.1f", 1e9 * spent / s.work());
     std::printf(" %8.2f %8.2f %7.2f %+7.1f %% %7.0f\n", 1e-6 * s.work() / s.cpu(),
                 1e-6 * s.work() / s.wall, s.x99, 100.0 * s.numerical_share,
-                bytes_per_point(column(h, 2, 0.4, scene::UpdateOrder::usl)));
+                test::bytes_per_point(column(h, 2, 0.4, scene::UpdateOrder::usl)));
     std::fflush(stdout);
 }
 
@@ -205,11 +185,12 @@ int main(int argc, char** argv) {
             return 0;
         }
         using enum InstructionSet;
+        const int threads = argc > 4 ? std::atoi(argv[4]) : 1;
         for (const InstructionSet set : {plain, avx2, avx512}) {
-            if (argc > 4 || std::strcmp(argv[3], name_of(set)) != 0) continue;
+            if (argc > 5 || threads < 1 || std::strcmp(argv[3], name_of(set)) != 0) continue;
             if (set > best_instruction_set()) break;
             print_head(end);
-            measure_speed(0.2, end, {.instructions = set});
+            measure_speed(0.2, end, {.threads = threads, .instructions = set});
             return 0;
         }
     }
@@ -220,6 +201,6 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "usage: mpm_benchmark speed [seconds of the collapse [plain | avx2 | avx512, as far "
-        "as the CPU has it]] | error\n");
+        "as the CPU has it [threads]]] | error\n");
     return 2;
 }
