@@ -336,7 +336,7 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
                 }
                 const std::string why =
                     outcome.end == End::degenerate
-                        ? in_words(newton_->internal_force().memory_pass().refusal())
+                        ? newton_->why_degenerate()
                         : "out of balance " + text_of(outcome.residual) + " of the weight";
                 give_up("no equilibrium in stage '" + stage.name + "' beyond " +
                         text_of(position_.load) + " of its load: " + why);
@@ -566,12 +566,9 @@ void Analysis::cut_step(const Stage& stage, const NewtonOutcome& outcome) {
     position_.dt *= cut;
     newton_->forget_matrix();
     if (position_.dt >= stage.least_time_step) return;
-    // On the undeformed mesh nothing turns inside out: there it is a point that refused.
-    const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
     const std::string why =
         outcome.end == End::degenerate
-            ? (moves ? "an element turned inside out"
-                     : in_words(newton_->internal_force().memory_pass().refusal()))
+            ? newton_->why_degenerate()
             : "out of balance " + text_of(outcome.residual) + " after " +
                   std::to_string(outcome.iterations) + " iterations";
     give_up("no convergence at " + text_of(position_.time) + " s with the least time step " +

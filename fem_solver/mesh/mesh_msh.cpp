@@ -2,6 +2,7 @@
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "fem_solver/mesh/mesh.hpp"
@@ -12,13 +13,19 @@ namespace {
 constexpr int gmsh_triangle = 2;
 constexpr int gmsh_quad = 3;
 constexpr int surface_dimension = 2;
+constexpr std::size_t most_told = 10;  ///< faults of elements
 
 /// What a .msh file says about its surfaces, before it is matched with the section.
 struct RawMesh {
-    std::map<int, std::string> surface_names;                ///< by physical tag
-    std::map<long, Vec2> nodes;                              ///< by node tag
-    std::map<int, int> physical_of_surface;                  ///< 4.1: by entity tag
-    std::vector<std::pair<int, std::array<long, 4>>> quads;  ///< physical tag, node tags
+    std::map<int, std::string> surface_names;  ///< by physical tag
+    std::map<long, Vec2> nodes;                ///< by node tag
+    std::map<int, int> physical_of_surface;    ///< 4.1: by entity tag
+    struct QuadOfFile {
+        int physical;  ///< tag of its surface
+        long tag;
+        std::array<long, 4> nodes;
+    };
+    std::vector<QuadOfFile> quads;
     long triangles = 0;
     long others = 0;
 };
@@ -146,25 +153,24 @@ class MshReader {
         }
     }
 
-    void add_element(int type, int physical) {
+    void add_element(int type, int physical, long tag) {
         if (type != gmsh_quad) {
             mesh_.triangles += type == gmsh_triangle ? 1 : 0;
             return;
         }
-        std::array<long, 4> tags;
-        for (long& tag : tags) tag = next<long>();
-        mesh_.quads.emplace_back(physical, tags);
+        mesh_.quads.push_back({physical, tag, {}});
+        for (long& node : mesh_.quads.back().nodes) node = next<long>();
     }
 
     void read_elements_2() {
         const long count = next<long>();
         for (long i = 0; i < count && in_; ++i) {
-            next<long>();
+            const long tag = next<long>();
             const int type = next<int>();
             const long tags = next<int>();
             const int physical = tags > 0 ? next<int>() : 0;
             skip(tags - 1);
-            add_element(type, physical);
+            add_element(type, physical, tag);
             std::string rest;
             std::getline(in_, rest);
         }
@@ -181,8 +187,8 @@ class MshReader {
             const int physical =
                 dimension == surface_dimension ? mesh_.physical_of_surface[surface] : 0;
             for (long i = 0; i < count && in_; ++i) {
-                next<long>();
-                add_element(type, physical);
+                const long tag = next<long>();
+                add_element(type, physical, tag);
                 std::string rest;
                 std::getline(in_, rest);
             }
@@ -226,6 +232,25 @@ double twice_area(const Corners& x) {
     return d1.x() * d2.y() - d1.y() * d2.x();
 }
 
+/// Why the quad that was read last is none; nothing: it is one.
+std::optional<fault::Fault> fault_of_last_quad(const Mesh& mesh,
+                                               const RawMesh::QuadOfFile& in_file) {
+    const std::string name = "element " + std::to_string(in_file.tag);
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (std::count(in_file.nodes.begin(), in_file.nodes.end(), in_file.nodes[k]) == 1) continue;
+        return fault::Fault{"$Elements",
+                            name + " names node " + std::to_string(in_file.nodes[k]) + " twice",
+                            "give it four nodes of its own: a triangle is no quad"};
+    }
+    const Corners x = corners_of(mesh, mesh.quads.size() - 1);
+    if (geometry::corner_jacobians(x).minCoeff() > 0.0) return std::nullopt;
+    const Vec2 where = x.rowwise().mean();
+    return fault::Fault{"$Elements",
+                        name + " near (" + std::to_string(where.x()) + ", " +
+                            std::to_string(where.y()) + ") is folded: not convex, or crossed",
+                        "name its corners in their order around it, or mesh that place anew"};
+}
+
 }  // namespace
 
 Mesh read_msh(const std::filesystem::path& file, const scene::Section& section) {
@@ -237,8 +262,9 @@ Mesh read_msh(const std::filesystem::path& file, const scene::Section& section) 
                           "recombine the mesh to quads only"});
     }
     const auto region_of_tag = match_regions(raw, section, faults);
-    for (const auto& [tag, nodes] : raw.quads) {
-        const bool known = region_of_tag.contains(tag) || raw.surface_names.contains(tag);
+    for (const auto& each : raw.quads) {
+        const bool known =
+            region_of_tag.contains(each.physical) || raw.surface_names.contains(each.physical);
         if (known) continue;
         faults.push_back({"$Elements", "quads outside every named physical surface",
                           "give each surface one physical name"});
@@ -246,27 +272,31 @@ Mesh read_msh(const std::filesystem::path& file, const scene::Section& section) 
     }
     if (!faults.empty()) throw fault::BadInput(file.string(), std::move(faults));
     std::ranges::stable_sort(raw.quads, {},
-                             [&](const auto& q) { return region_of_tag.at(q.first); });
+                             [&](const auto& q) { return region_of_tag.at(q.physical); });
     Mesh mesh;
     std::map<long, std::int32_t> number;
-    for (const auto& [tag, tags] : raw.quads) {
+    for (const auto& each : raw.quads) {
         Quad quad;
         for (std::size_t k = 0; k < 4; ++k) {
-            const auto node = raw.nodes.find(tags[k]);
+            const long tag = each.nodes[k];
+            const auto node = raw.nodes.find(tag);
             if (node == raw.nodes.end()) {
-                reader.refuse("$Elements", "node " + std::to_string(tags[k]) + " does not exist");
+                reader.refuse("$Elements", "node " + std::to_string(tag) + " does not exist");
             }
             const auto [place, is_new] =
-                number.emplace(tags[k], static_cast<std::int32_t>(mesh.nodes.size()));
+                number.emplace(tag, static_cast<std::int32_t>(mesh.nodes.size()));
             if (is_new) mesh.nodes.push_back(node->second);
             quad[k] = place->second;
         }
         mesh.quads.push_back(quad);
-        mesh.region_of_element.push_back(region_of_tag.at(tag));
+        mesh.region_of_element.push_back(region_of_tag.at(each.physical));
         if (twice_area(corners_of(mesh, mesh.quads.size() - 1)) < 0.0) {
             std::swap(mesh.quads.back()[1], mesh.quads.back()[3]);
         }
+        const auto fault = fault_of_last_quad(mesh, each);
+        if (fault && faults.size() < most_told) faults.push_back(*fault);
     }
+    if (!faults.empty()) throw fault::BadInput(file.string(), std::move(faults));
     return mesh;
 }
 

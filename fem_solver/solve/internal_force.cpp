@@ -55,6 +55,11 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds,
     }
 }
 
+std::string InternalForce::why_degenerate() const {
+    if (folded_) return "element " + std::to_string(*folded_) + " turned inside out";
+    return in_words(memory_.refusal());
+}
+
 const std::vector<Quadrature>& InternalForce::quadratures() const {
     return current_.empty() ? model_.reference : current_;
 }
@@ -65,13 +70,21 @@ const std::vector<SspGeometry>& InternalForce::hourglasses() const {
 
 Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
     const std::size_t elements = model_.mesh.quads.size();
+    folded_.reset();
     if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
-        std::atomic<bool> folded = false;
+        // The first one, whatever threads there are: nothing behind a known one counts.
+        std::atomic<std::size_t> first = elements;
         for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t e = begin; e < end && !folded; ++e)
-                if (moving_strains(e, old, trial) == Geometry::degenerate) folded = true;
+            for (std::size_t e = begin; e < end && e < first; ++e) {
+                if (moving_strains(e, old, trial) == Geometry::sound) continue;
+                std::size_t known = first;
+                while (e < known && !first.compare_exchange_weak(known, e)) {
+                }
+            }
         });
-        return folded ? Geometry::degenerate : Geometry::sound;
+        if (first == elements) return Geometry::sound;
+        folded_ = first;
+        return Geometry::degenerate;
     }
     for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) small_strains(e, old, trial);

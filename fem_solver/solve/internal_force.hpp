@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "fem_solver/solve/linear_system.hpp"
@@ -31,6 +33,9 @@ class InternalForce {
                       LinearSystem& A);
     /// What laws with memory answer for: what their calls cost, why the last step was refused.
     const MemoryPass& memory_pass() const { return memory_; }
+    /// For people, after a degenerate evaluation: the element that turned inside out, or the one
+    /// whose law refused and why.
+    std::string why_degenerate() const;
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
@@ -88,6 +93,7 @@ class InternalForce {
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     MemoryPass memory_;
+    std::optional<std::size_t> folded_;  ///< the first element that the last evaluation found so
     /// Updated Lagrangian: [points] half the rotation of the step [rad]
     std::vector<double> half_angle_;
     std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]

@@ -153,7 +153,13 @@ bool Newton::factorise(const TimeRule& rule) {
     return memory_.has_matrix;
 }
 
+std::string Newton::why_degenerate() const {
+    if (unsolvable_) return "the matrix cannot be factorised, not even that of elastic soil";
+    return internal_force_.why_degenerate();
+}
+
 Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matrix) {
+    unsolvable_ = false;
     if (matrix == Matrix::keep) {
         return internal_force_.evaluate(problem.laws, problem.old, trial);
     }
@@ -167,8 +173,8 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
         const Stopwatch watch(seconds_, &Seconds::assembly);
         add_inertia_and_water(problem.rule);
     }
-    if (!factorise(problem.rule)) return Geometry::degenerate;
-    return geometry;
+    unsolvable_ = !factorise(problem.rule);
+    return unsolvable_ ? Geometry::degenerate : geometry;
 }
 
 /// R_u = f_ext - f_int - M a - C v - f_viscous + Q p;  R_p = flux - Q^T v - S p' - H p.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fem_solver/solve/internal_force.hpp"
@@ -74,6 +75,8 @@ class Newton {
     NewtonMemory memory() const;
     /// False: the matrix in memory is not one of this problem, and nothing was taken.
     bool restore(const NewtonMemory& memory);
+    /// For people, after a solve that ended degenerate: which element, and what was wrong with it.
+    std::string why_degenerate() const;
     InternalForce& internal_force() { return internal_force_; }
     const InternalForce& internal_force() const { return internal_force_; }
 
@@ -126,6 +129,7 @@ class Newton {
     int remembered_ = 0;
     int next_ = 0;
     bool has_last_ = false;
+    bool unsolvable_ = false;  ///< the last matrix, even that of elastic soil, had no factors
 };
 
 }  // namespace breach::fem

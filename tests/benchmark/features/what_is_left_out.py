@@ -23,10 +23,10 @@ def rectangle(x0, y0, x1, y1):
 
 
 def mpm_scene(folder):
-    """Sand 10 m x 10 m on a slope of 1:10 with all that the MPM knows, in cells of 0.5 m: 1,600 points."""
+    """Sand 10 m x 10 m on a slope of 1:10 with all that the MPM knows but shaking, which wants a FEM's files, in cells of 0.5 m: 1,600 points."""
     softening = {"epsilon_q_start": 0.01, "epsilon_q_end": 1.0, "c_residual_kPa": 0.5, "phi_residual_deg": 10}
     law = {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3, "c_kPa": 5, "phi_deg": 30, "softening": softening}
-    return {"format": "breachline-scene/1", "name": "all-on", "materials": {"sand": {"density": 1800, "viscosity": 1000, "law": law}},
+    return {"format": "breachline-scene/1", "name": "all-on", "materials": {"sand": {"density": 1800, "viscosity": 1000, "nonlocal_length": 0.8, "law": law}},
             "section": {"regions": [{"name": "heap", "material": "sand", "polygon": rectangle(5, 6, 15, 16)}]},
             "mpm": {"cell_size": 0.5, "domain_x": [0, 40], "domain_y": [0, 20], "left": "open",
                     "terrain": [[0, 6.4], [40, 2.4]],
@@ -43,7 +43,7 @@ def fem_scene(folder):
     (folder / "motion.csv").write_text("\n".join(lines) + "\n")
     softening = {"epsilon_q_start": 0.01, "epsilon_q_end": 1.0, "c_residual_kPa": 5, "phi_residual_deg": 25}
     law = {"type": "mohr_coulomb", "E_MPa": 50, "nu": 0.3, "c_kPa": 20, "phi_deg": 35, "softening": softening}
-    soil = {"density": 2000, "void_ratio": 0.8, "permeability": [1e-6, 1e-6], "law": law}
+    soil = {"density": 2000, "viscosity": 1000, "void_ratio": 0.8, "permeability": [1e-6, 1e-6], "law": law}
     region = {"name": "bench", "material": "soil", "polygon": rectangle(0, 0, 20, 10), "mesh": {"type": "block", "divisions": [20, 10]}}
     return {"format": "breachline-scene/1", "name": "all-on", "materials": {"soil": soil}, "section": {"regions": [region]},
             "fem": {"element": "ssp", "kinematics": "updated_lagrangian", "crest": [10, 10],
@@ -62,7 +62,7 @@ def without(*keys):
         inner = scene
         for key in keys[:-1]:
             inner = inner[key]
-        del inner[keys[-1]]
+        inner.pop(keys[-1], None)
     return change
 
 
@@ -90,7 +90,8 @@ def on_rollers(scene):
 # Feature, what switches it off, and what its being off leaves behind in a step.
 COMPILED, PER_STEP, PER_NODE = "nothing: another loop is compiled without it", "one test per step", "one test per node in use"
 MPM = {
-    "softening": (without("materials", "sand", "law", "softening"), COMPILED),
+    "nonlocal softening": (without("materials", "sand", "nonlocal_length"), "two tests per step"),
+    "softening": (all_of(without("materials", "sand", "law", "softening"), without("materials", "sand", "nonlocal_length")), COMPILED),
     "viscosity": (without("materials", "sand", "viscosity"), COMPILED),
     "anti-locking": (having("off", "mpm", "anti_locking"), COMPILED),
     "tension (gap closure)": (having(False, "mpm", "gap_closure"), COMPILED),
@@ -104,6 +105,7 @@ MPM = {
 FEM = {
     "water": (all_of(without("fem", "water"), without("fem", "liquefaction")), "no unknowns; one test per element's assembly"),
     "softening": (without("materials", "soil", "law", "softening"), "one test per zone and step"),
+    "viscosity": (without("materials", "soil", "viscosity"), "one test per assembly"),
     "plasticity": (having({"type": "linear_elastic", "E_MPa": 50, "nu": 0.3}, "materials", "soil", "law"), "another law's loop per zone"),
     "moving mesh": (having("small_strain", "fem", "kinematics"), "one test per assembly"),
     "free field": (all_of(without("fem", "free_field"), on_rollers), "no unknowns"),

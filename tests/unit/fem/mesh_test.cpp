@@ -70,6 +70,35 @@ TEST(Block, FewerDivisionsThanSegmentsAreRefused) {
     EXPECT_THROW(map_block({region, 0}), fault::BadInput);
 }
 
+std::vector<fault::Fault> faults_of_mesh(const scene::Region& region) {
+    scene::Scene scene;
+    scene.section.regions = {square("beside", -5, 0, {2, 2}), region};
+    scene.fem.emplace();
+    try {
+        build_mesh(scene, ".");
+    } catch (const fault::BadInput& error) {
+        return error.faults();
+    }
+    return {};
+}
+
+TEST(Block, ThatFoldsOntoItselfIsRefusedWithTheElementThatDoes) {
+    const scene::Polygon dart{{0, 0}, {4, 0}, {0.8, 0.8}, {0, 4}};
+    const auto faults = faults_of_mesh(block("dart", dart, {0, 1, 2, 3}, {4, 4}));
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].pointer, "/section/regions/1/mesh");
+    for (const char* part : {"element 11 of region 'dart' near (2.45", "is not convex"})
+        EXPECT_NE(faults[0].cause.find(part), std::string::npos) << faults[0].cause;
+    EXPECT_FALSE(faults[0].remedy.empty());
+    // Its corners in the order that crosses two sides: a bow tie.
+    const scene::Polygon tie{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+    EXPECT_EQ(faults_of_mesh(block("tie", tie, {0, 1, 2, 3}, {1, 1})).size(), 1u);
+    // One element whose two corners are one place.
+    const scene::Polygon folded{{0, 0}, {1, 0}, {1, 0}, {0, 1}};
+    EXPECT_EQ(faults_of_mesh(block("triangle", folded, {0, 1, 2, 3}, {1, 1})).size(), 1u);
+    EXPECT_TRUE(faults_of_mesh(square("sound", 0, 0, {2, 2})).empty());
+}
+
 TEST(Join, SharesTheNodesOfTheCommonSide) {
     const scene::Section section{{square("a", 0, 0, {3, 2}), square("b", 1, 0, {2, 2})}};
     const Mesh mesh =

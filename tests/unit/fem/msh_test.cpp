@@ -80,6 +80,25 @@ TEST_F(Msh, ATornFileIsRefused) {
 
 TEST_F(Msh, ADeviceIsNotReadWithoutEnd) { EXPECT_THROW(read_msh("/dev/zero", {}), fault::IoError); }
 
+TEST_F(Msh, AQuadThatIsCrossedOrNotConvexIsRefusedByItsTag) {
+    const std::string crossed_2 = replaced(version_2, "1 1 2 3 4\n", "1 1 3 2 4\n");
+    const std::string crossed_4 = replaced(version_4, "2 1 2 3 4\n", "2 1 3 2 4\n");
+    const std::string dart = replaced(version_2, "3 1 1 0", "3 0.2 0.2 0");
+    for (const std::string& text : {crossed_2, crossed_4, dart}) {
+        const std::string words = cause(text);
+        EXPECT_NE(words.find("element 2 near (0."), std::string::npos) << words;
+        EXPECT_NE(words.find("is folded"), std::string::npos) << words;
+    }
+}
+
+TEST_F(Msh, AQuadThatNamesANodeTwiceIsRefusedByItsTag) {
+    for (const std::string& text : {replaced(version_2, "2 3 6 5\n", "2 3 6 6\n"),
+                                    replaced(version_4, "2 3 6 5\n", "2 3 6 6\n")}) {
+        const std::string words = cause(text);
+        EXPECT_NE(words.find("element 3 names node 6 twice"), std::string::npos) << words;
+    }
+}
+
 TEST_F(Msh, AMissingNodeIsRefused) {
     EXPECT_NE(cause(replaced(version_2, "2 3 6 5\n", "2 3 99 5\n")).find("99"), std::string::npos);
 }

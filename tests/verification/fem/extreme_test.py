@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,10 +14,15 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import coarse_slope
-from opensees_models import FOUNDATION, TAILINGS, block, scene, sine, write_motion
+from opensees_models import FOUNDATION, TAILINGS, block, scene, sine, write_motion, write_msh
 from runs import judge
 
 WEIGHT_OF_WATER = 9810.0
+
+
+def solver(folder):
+    return subprocess.run([f"{os.environ['BREACH_BIN']}/fem_solver", str(folder / "scene.json"), "--output", str(folder / "out"),
+                           "--progress", "none"], stderr=subprocess.PIPE, text=True)
 
 
 class Run:
@@ -24,8 +30,7 @@ class Run:
 
     def __init__(self, folder):
         out = folder / "out"
-        done = subprocess.run([f"{os.environ['BREACH_BIN']}/fem_solver", str(folder / "scene.json"), "--output", str(out),
-                               "--progress", "none"], stderr=subprocess.PIPE, text=True)
+        done = solver(folder)
         self.code = done.returncode
         self.out = out
         if self.code not in (0, 70):
@@ -176,6 +181,64 @@ def sand_without_motion_does_not_drift_in_100_s(folder):
 def three_g_on_liquefying_sand_end_clearly(folder):
     coarse_slope.write(folder, duration=2.0, strength=10.0)
     return Run(folder).ended_clearly()
+
+
+SOFTEST = {  # of each law what its schema lets through
+    "mohr_coulomb": {"type": "mohr_coulomb", "E_MPa": 0.001, "nu": 0.3, "c_kPa": 1, "phi_deg": 20},
+    "elastic": {"type": "linear_elastic", "E_MPa": 0.001, "nu": 0.3},
+    "pm4sand": TAILINGS["law"] | {"D_R": 0.01, "G_0": 0.01},
+}
+
+
+def seam_under_a_slope(folder):
+    """The lowest row of the tailings, beneath the pond and against the embankment's foot."""
+    result = json.loads(coarse_slope.write(folder, duration=1.0).read_text())
+    foundation, _, embankment = result["section"]["regions"]
+    embankment["polygon"] = [[24, 0], [48, 0], [28, 8], [24, 8], [24, 2], [24, 0]]
+    embankment["mesh"]["corners"] = [[24, 0], [48, 0], [28, 8], [24, 8]]
+    result["section"]["regions"] = [foundation, block("seam", "seam", [[0, 0], [24, 0], [24, 2], [0, 2]], [8, 1]),
+                                    block("tailings", "tailings", [[0, 2], [24, 2], [24, 8], [0, 8]], [8, 3]), embankment]
+    return result
+
+
+def seam_under_level_ground(folder):
+    result = level_tailings(folder, sine(1.0, 0.5, 5e-3), 1.0, 5e-3, force_tolerance=1e-5)
+    result["section"]["regions"] = [
+        result["section"]["regions"][0], block("seam", "seam", [[0, 0], [12, 0], [12, 1.25], [0, 1.25]], [4, 1]),
+        block("tailings", "tailings", [[0, 1.25], [12, 1.25], [12, 10], [0, 10]], [4, 7])]
+    return result
+
+
+def a_one_element_seam_of_the_softest_soil_ends_clearly(folder):
+    """Finite numbers, or a stop that names the element; under level ground, which needs no stiffness to stand, the former."""
+    passed, finite = True, 0
+    for make in (seam_under_level_ground, seam_under_a_slope):
+        for name, law in SOFTEST.items():
+            result = make(folder)
+            result["materials"]["seam"] = TAILINGS | {"law": law}
+            (folder / "scene.json").write_text(json.dumps(result))
+            shutil.rmtree(folder / "out", ignore_errors=True)
+            print(f"    {make.__name__}, {name}:")
+            run = Run(folder)
+            passed &= run.ended_clearly()
+            if run.code == 0:
+                finite += make is seam_under_level_ground
+                print(f"    ended {run.result['ended']}, largest displacement {numpy.abs(run.point('displacement')).max():.3g} m")
+    return passed and finite == len(SOFTEST)
+
+
+def a_folded_quad_of_a_mesh_file_is_refused_by_its_name(folder):
+    """Two squares side by side; the second one's corners are named so that its sides cross, then with one node twice."""
+    nodes = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 1.0)]
+    box(folder, {"soil": elastic(1e7)}, [block("soil", "soil", [[0, 0], [2, 0], [2, 1], [0, 1]], [2, 1])], 2, 1,
+        [{"type": "static", "name": "gravity"}], msh_file="soil.msh")
+    passed = True
+    for second, said in (((1, 4, 5, 2), None), ((1, 5, 4, 2), "element 2 near (1.5"), ((1, 4, 4, 2), "element 2 names node 5 twice")):
+        write_msh(folder / "soil.msh", nodes, [(0, 1, 2, 3), second], [0, 0], ["soil"])
+        done = solver(folder)
+        passed &= done.returncode == 0 if said is None else done.returncode == 65 and said in done.stderr
+        print(f"    exit {done.returncode}: {done.stderr.strip().splitlines()[-1] if done.returncode else 'sound'}")
+    return passed
 
 
 def steps_a_hundred_times_too_large_are_cut_or_end_clearly(folder):

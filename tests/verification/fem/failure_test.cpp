@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/exchange/mesh_snapshot.hpp"
-#include "tests/verification/fem/bench.hpp"
+#include "tests/verification/fem/begun_element.hpp"
 
 namespace breach::fem {
 namespace {
@@ -158,6 +158,38 @@ TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
     EXPECT_EQ(history.back().kinetic_energy_over_peak, 1.0);
 }
 
+/// An elastic column that begins to carry its weight at once, damped in the ratio of its mass.
+TEST(KineticEnergy, OverItsPeakFallsToNothingWhereTheMotionDies) {
+    constexpr double H = 10.0, damping = 5.0, duration = 4.0;
+    bench::Block block{.height = H, .rows = 20};
+    block.stages = json::array({{{"type", "dynamic"},
+                                 {"name", "swing"},
+                                 {"laws", "elastic"},
+                                 {"duration", duration},
+                                 {"time_step", 0.002}}});
+    json scene = bench::scene_of(block);
+    scene["fem"]["rayleigh_mass"] = damping;
+    scene["fem"]["telemetry_interval"] = 0;
+    bench::Run run(scene);
+    const std::vector<Reading>& history = run.go().history();
+    double peak = 0.0, wrong = 0.0;
+    for (const Reading& each : history) {
+        peak = std::max(peak, each.kinetic_energy);
+        wrong =
+            std::max(wrong, std::abs(each.kinetic_energy - each.kinetic_energy_over_peak * peak));
+    }
+    expect_error("kinetic energy less its share of the peak so far", wrong / peak, 1e-12);
+    // The first mode swings with exp(-damping t / 2), its energy with the square of it.
+    expect_error("energy over its peak at the end", history.back().kinetic_energy_over_peak,
+                 std::exp(-damping * (duration - 0.2)));
+    EXPECT_GT(history.back().kinetic_energy_over_peak, 0.0);
+    const json& told = run.session().result().at("milestones").at("kinetic_energy_peak");
+    const double quarter = H / mechanics::Elasticity{20e6, 0.3}.wave_speed(2000.0);
+    std::printf("    peak at %.3f s, a quarter of the period is %.3f s\n",
+                told.at("time").get<double>(), quarter);
+    EXPECT_LT(told.at("time"), 1.1 * quarter) << "on its way down for the first time";
+}
+
 TEST(Failure, AMovingMeshCannotGoOnWhereItFolds) {
     json scene = unsupported_column();
     scene["fem"]["kinematics"] = "updated_lagrangian";
@@ -289,6 +321,63 @@ TEST(Refusal, SaysWhetherTheStrainLimitOrTheEvaluationsWereHit) {
     ASSERT_EQ(pass.integrate(law, 0, d_epsilon, {}, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u);
     EXPECT_NE(in_words(pass.refusal()).find("evaluations were used up"), std::string::npos);
+}
+
+TEST(Refusal, OnAMovingMeshTellsALawThatRefusedFromAnElementThatTurnedInsideOut) {
+    bench::Block block{.columns = 2, .gravity = 0.0};
+    block.law = {{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
+    json scene = bench::scene_of(block);
+    scene["fem"]["kinematics"] = "updated_lagrangian";
+    bench::BegunElement two(scene, Voigt(-25e3, -50e3, -25e3, 0.0));
+    // The second one's outer edge, half a metre from its inner one.
+    const auto pulled_by = [&](double d) {
+        EXPECT_EQ(two.move([d](const Vec2& x) { return Vec2(x.x() > 0.9 ? d : 0.0, 0.0); }),
+                  Geometry::degenerate);
+        return two.force.why_degenerate();
+    };
+    const auto holds = [](const std::string& words, const char* part) {
+        return words.find(part) != std::string::npos;
+    };
+    const std::string strained = pulled_by(0.04);
+    EXPECT_TRUE(holds(strained, "PM4Sand refused the strain increment of element 1")) << strained;
+    EXPECT_TRUE(holds(strained, "beyond the limit of 0.05")) << strained;
+    EXPECT_EQ(pulled_by(-0.6), "element 1 turned inside out");
+    std::get<materials::PM4Sand>(two.laws[0]).options.most_evaluations = 1;
+    const std::string costly = pulled_by(0.015);
+    EXPECT_TRUE(holds(costly, "PM4Sand refused the strain increment of element 1")) << costly;
+    EXPECT_TRUE(holds(costly, "evaluations were used up")) << costly;
+}
+
+/// What a column on a moving mesh gives up with when a weight is put on it in one step of half a
+/// second that cannot be cut.
+std::string given_up_under(double pressure_kPa) {
+    json scene = unsupported_column();
+    scene["materials"]["soil"]["law"] = {
+        {"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
+    scene["fem"]["kinematics"] = "updated_lagrangian";
+    scene["fem"]["stages"][1].update(
+        {{"time_step", 0.5},
+         {"least_time_step", 0.5},
+         {"surcharge", {{{"from", 0}, {"to", 10}, {"pressure_kPa", pressure_kPa}}}}});
+    bench::Run run(scene);
+    try {
+        run.go();
+    } catch (const fault::Breakdown& breakdown) {
+        std::printf("    %s\n", breakdown.what());
+        return breakdown.what();
+    }
+    return "";
+}
+
+TEST(Refusal, IsWhatARunOnAMovingMeshTellsWhenItGivesUpUnlessAnElementTurnedInsideOut) {
+    const std::string strained = given_up_under(8e3), folded = given_up_under(2e4);
+    for (const std::string& words : {strained, folded})
+        EXPECT_TRUE(words.starts_with("no convergence at 0 s with the least time step 0.5 s: "));
+    EXPECT_NE(strained.find("PM4Sand refused the strain increment of element "), std::string::npos);
+    EXPECT_NE(strained.find("beyond the limit of 0.05"), std::string::npos);
+    EXPECT_EQ(strained.find("inside out"), std::string::npos);
+    EXPECT_NE(folded.find("turned inside out"), std::string::npos);
+    EXPECT_EQ(folded.find("refused"), std::string::npos);
 }
 
 TEST(Crest, FarFromEveryNodeIsSaid) {

@@ -22,8 +22,13 @@ json dynamic_stage(const char* name, double duration, double time_step) {
             {"time_step", time_step}};
 }
 
-/// Largest |p - Terzaghi| / p_0 over the column at T_v, loaded at once, in equal steps.
-double consolidation_error(WetColumn column, double T_v, int steps) {
+struct Consolidated {
+    double error;       ///< largest |p - Terzaghi| / p_0 over the column [-]
+    double settlement;  ///< of the top, over that of the drained column [-]
+};
+
+/// At T_v, loaded at once, in equal steps.
+Consolidated consolidated(WetColumn column, double T_v, int steps) {
     const double end = column.time_of(T_v), q = 1e5;
     column.stages = json::array({dynamic_stage("consolidation", end, end / steps)});
     json scene = column.scene();
@@ -38,7 +43,11 @@ double consolidation_error(WetColumn column, double T_v, int steps) {
         const double p = a.motion().p[static_cast<Eigen::Index>(i)] / (q * column.share());
         largest = std::max(largest, std::abs(p - terzaghi(y, column.H, T_v)));
     }
-    return largest;
+    return {largest, bench::u_at(a, {0.0, column.H}).y() / (-q * column.H / column.modulus())};
+}
+
+double consolidation_error(const WetColumn& column, double T_v, int steps) {
+    return consolidated(column, T_v, steps).error;
 }
 
 TEST(Terzaghi, OfASceneIsMetWithinOnePercentFromTimeFactor005) {
@@ -62,6 +71,41 @@ TEST(Terzaghi, ErrorFallsWithStepAndMesh) {
                 by_step[0], by_step[1], by_step[2], by_mesh[0], by_mesh[1], by_mesh[2]);
     EXPECT_LT(by_step[2], 0.6 * by_step[1]) << "first order in the step";
     EXPECT_LT(by_mesh[2], 0.35 * by_mesh[1]) << "second order in the mesh";
+}
+
+TEST(Terzaghi, HoldsWithWaterAThousandTimesSofterThanTheSkeleton) {
+    for (const char* element : {"ssp", "bbar"}) {
+        WetColumn column{.rows = 40, .element = element};
+        column.K_f = 1e-3 * column.modulus() * column.porosity();
+        for (const double T_v : {0.05, 0.5}) {
+            const Consolidated soft = consolidated(column, T_v, 400);
+            expect_error(std::string(element) + ", K_f/n 1e-3 M: |p - Terzaghi| / p_0 at T_v " +
+                             std::to_string(T_v),
+                         soft.error, 0.01);
+            // Water that takes a thousandth of the load leaves the skeleton its settlement.
+            expect_error("... settlement against the drained one", std::abs(soft.settlement - 1.0),
+                         1e-3);
+        }
+    }
+}
+
+TEST(Permeability, OfZeroIsRefusedWithPlaceAndRemedy) {
+    for (const int way : {0, 1}) {
+        json scene = WetColumn{}.scene();
+        scene["materials"]["soil"]["permeability"][way] = 0.0;
+        try {
+            bench::parse(scene);
+            ADD_FAILURE() << "no water could ever leave";
+        } catch (const fault::BadInput& refused) {
+            ASSERT_EQ(refused.faults().size(), 1u);
+            const fault::Fault& what = refused.faults()[0];
+            EXPECT_EQ(what.pointer, "/materials/soil/permeability/" + std::to_string(way));
+            EXPECT_NE(what.cause.find("0"), std::string::npos) << what.cause;
+            EXPECT_FALSE(what.remedy.empty());
+            std::printf("    %s: %s; %s\n", what.pointer.c_str(), what.cause.c_str(),
+                        what.remedy.c_str());
+        }
+    }
 }
 
 json gravity(const char* element) {
