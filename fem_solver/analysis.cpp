@@ -566,11 +566,10 @@ void Analysis::cut_step(const Stage& stage, const NewtonOutcome& outcome) {
     position_.dt *= cut;
     newton_->forget_matrix();
     if (position_.dt >= stage.least_time_step) return;
-    const std::string why =
-        outcome.end == End::degenerate
-            ? newton_->why_degenerate()
-            : "out of balance " + text_of(outcome.residual) + " after " +
-                  std::to_string(outcome.iterations) + " iterations";
+    const std::string why = outcome.end == End::degenerate
+                                ? newton_->why_degenerate()
+                                : "out of balance " + text_of(outcome.residual) + " after " +
+                                      std::to_string(outcome.iterations) + " iterations";
     give_up("no convergence at " + text_of(position_.time) + " s with the least time step " +
             text_of(stage.least_time_step) + " s: " + why + "; most distorted is element " +
             std::to_string(distortion_.worst_element) + " (least Jacobian ratio " +

@@ -1,6 +1,6 @@
 #include "mpm_solver/last_good.hpp"
 
-#include <algorithm>
+#include <cstddef>
 
 namespace breach::mpm {
 
@@ -21,26 +21,23 @@ void for_each_changing(AnyPoints& points, Visit&& visit) {
 void LastGood::keep(const Points& points, double time, std::int64_t step) {
     time_ = time;
     step_ = step;
-    number_ = points.number;
     std::size_t arrays = 0;
     for_each_changing(points, [&](const std::vector<double>&) { ++arrays; });
     values_.resize(arrays * points.size());
     auto to = values_.begin();
     for_each_changing(points, [&](const std::vector<double>& values) {
-        to = std::transform(values.begin(), values.end(), to,
-                            [](double value) { return static_cast<float>(value); });
+        for (std::size_t p = 0; p < values.size(); ++p)
+            to[points.number[p]] = static_cast<float>(values[p]);
+        to += static_cast<std::ptrdiff_t>(values.size());
     });
 }
 
 Points LastGood::restored(const Points& now) const {
     Points then = now;
-    std::vector<std::int32_t> place_of(number_.size());
-    for (std::size_t p = 0; p < number_.size(); ++p) {
-        place_of[now.number[p]] = static_cast<std::int32_t>(p);
-    }
     auto from = values_.begin();
     for_each_changing(then, [&](std::vector<double>& values) {
-        for (const std::int32_t number : number_) values[place_of[number]] = *from++;
+        for (std::size_t p = 0; p < values.size(); ++p) values[p] = from[now.number[p]];
+        from += static_cast<std::ptrdiff_t>(values.size());
     });
     return then;
 }

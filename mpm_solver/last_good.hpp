@@ -22,8 +22,7 @@ class LastGood {
   private:
     double time_ = 0.0;
     std::int64_t step_ = 0;
-    std::vector<float> values_;  ///< array after array
-    std::vector<std::int32_t> number_;
+    std::vector<float> values_;  ///< array after array, each in the order of the input
 };
 
 }  // namespace breach::mpm

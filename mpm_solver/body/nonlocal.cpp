@@ -16,14 +16,11 @@ constexpr double spent_after = 5.0;  // strains at residual strength
 /// r exp(-(r / l)^2): none at the point itself, most at 0.7 l (Galavi & Schweiger 2010).
 double weight(double r, double length) { return r * std::exp(-(r / length) * (r / length)); }
 
-/// Where a point's weights lie.
-struct Weights {
-    std::int32_t first;
-    double at[3][3];
-};
+}  // namespace
 
 template <class Kernel>
-Weights weights_of(const Kernel& kernel, const Grid& grid, double x, double y) {
+NonlocalSoftening::Weights NonlocalSoftening::weights_of(const Kernel& kernel, const Grid& grid,
+                                                         double x, double y) {
     const Stencil<double> sx = kernel(grid.xi(x), grid.walls_x);
     const Stencil<double> sy = kernel(grid.eta(y), grid.walls_y);
     Weights weights{.first = static_cast<std::int32_t>(sx.first) * grid.rows +
@@ -36,29 +33,33 @@ Weights weights_of(const Kernel& kernel, const Grid& grid, double x, double y) {
 }
 
 template <class Visit>
-void for_nodes(const Grid& grid, const Weights& weights, const Visit& visit) {
+void NonlocalSoftening::for_nodes(const Grid& grid, const Weights& weights, const Visit& visit) {
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) visit(weights.first + i * grid.rows + j, weights.at[i][j]);
     }
 }
 
-}  // namespace
-
 NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zone>& zones,
                                      const Grid& grid, KernelKind kernel, double gimp_half_size,
                                      double widest)
-    : neighbours_(zones.size()), kernel_(kernel), gimp_half_size_(gimp_half_size), widest_(widest) {
+    : neighbourhoods_(zones.size()),
+      kernel_(kernel),
+      gimp_half_size_(gimp_half_size),
+      widest_(widest) {
     for (std::size_t z = 0; z < zones.size(); ++z) {
         const Zone& zone = zones[z];
         if (zone.nonlocal_length == 0.0) continue;
         const auto farthest =
             static_cast<std::int32_t>(std::ceil(reach * zone.nonlocal_length * grid.per_h));
         for (std::int32_t c = -farthest; c <= farthest; ++c) {
+            Column column{.columns = c, .rows = 0, .weights = {}};
             for (std::int32_t r = -farthest; r <= farthest; ++r) {
                 const double distance = grid.h * std::hypot(c, r);
-                if (distance == 0.0 || distance >= reach * zone.nonlocal_length) continue;
-                neighbours_[z].push_back({c, r, weight(distance, zone.nonlocal_length)});
+                if (distance >= reach * zone.nonlocal_length) continue;
+                if (column.weights.empty()) column.rows = r;
+                column.weights.push_back(weight(distance, zone.nonlocal_length));
             }
+            if (!column.weights.empty()) neighbourhoods_[z].push_back(std::move(column));
         }
         const std::set<std::int32_t> regions(points.region.begin() + zone.begin,
                                              points.region.begin() + zone.end);
@@ -71,7 +72,7 @@ NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zon
 
 void NonlocalSoftening::remember(const Points& points, const std::vector<Zone>& zones) {
     for (std::size_t z = 0; z < zones.size(); ++z) {
-        if (neighbours_[z].empty()) continue;
+        if (neighbourhoods_[z].empty()) continue;
         std::copy(points.epsilon_q_plastic.begin() + zones[z].begin,
                   points.epsilon_q_plastic.begin() + zones[z].end,
                   before_.begin() + zones[z].begin);
@@ -106,55 +107,114 @@ void NonlocalSoftening::spread_with(const Kernel& kernel, Points& points,
         const Zone& zone = zones[group.zone];
         const double spent = spent_after * materials::softening(zone.law)->epsilon_q_end;
         if (!grows(points, zone)) continue;
+        weights_.clear();
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
             if (!takes_part(points, p, group, spent)) continue;
             const double V = points.V[p];
             const double V_dk = V * (points.epsilon_q_plastic[p] - before_[p]);
-            for_nodes(grid, weights_of(kernel, grid, points.x[p], points.y[p]),
-                      [&](std::int32_t node, double N) {
-                          volume_[node] += N * V;
-                          growth_[node] += N * V_dk;
-                      });
+            weights_.push_back(weights_of(kernel, grid, points.x[p], points.y[p]));
+            for_nodes(grid, weights_.back(), [&](std::int32_t node, double N) {
+                volume_[node] += N * V;
+                growth_[node] += N * V_dk;
+            });
         }
-        average(grid, neighbours_[group.zone]);
+        average(grid, neighbourhoods_[group.zone]);
+        auto weights = weights_.begin();
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
             if (!takes_part(points, p, group, spent)) continue;
             double dk = 0.0;
-            for_nodes(grid, weights_of(kernel, grid, points.x[p], points.y[p]),
+            for_nodes(grid, *weights++,
                       [&](std::int32_t node, double N) { dk += N * mean_[node]; });
             points.epsilon_q_plastic[p] = before_[p] + std::max(dk, 0.0);
         }
         for (const std::int32_t node : grid.active) {
-            volume_[node] = growth_[node] = given_[node] = mean_[node] = 0.0;
+            volume_[node] = growth_[node] = mean_[node] = 0.0;
         }
+        forget_given(grid, neighbourhoods_[group.zone]);
     }
+}
+
+/// In the columns that the group's points reach; most of a grid is far from them.
+void NonlocalSoftening::forget_given(const Grid& grid, const std::vector<Column>& neighbourhood) {
+    if (weights_.empty()) return;
+    const auto [least, most] = std::ranges::minmax(weights_, {}, &Weights::first);
+    const std::int32_t farthest = neighbourhood.back().columns;
+    const std::int32_t begin = std::max(least.first / grid.rows - farthest, 0);
+    const std::int32_t end = std::min(most.first / grid.rows + 3 + farthest, grid.columns);
+    std::fill(given_.begin() + begin * grid.rows, given_.begin() + end * grid.rows, 0.0);
 }
 
 /// The mean growth of every node's neighbourhood, by volume. Most nodes give nothing in a step, so
 /// those that do reach out; only where something arrives is the neighbourhood's volume counted.
-void NonlocalSoftening::average(const Grid& grid, const std::vector<Neighbour>& neighbours) {
-    const auto for_neighbours = [&](std::int32_t node, const auto& visit) {
-        const std::int32_t column = node / grid.rows;
-        const std::int32_t row = node % grid.rows;
-        for (const Neighbour& each : neighbours) {
-            const std::int32_t c = column + each.columns;
-            const std::int32_t r = row + each.rows;
-            if (c < 0 || c >= grid.columns || r < 0 || r >= grid.rows) continue;
-            visit(c * grid.rows + r, each.weight);
-        }
-    };
+void NonlocalSoftening::average(const Grid& grid, const std::vector<Column>& neighbourhood) {
     for (const std::int32_t node : grid.active) {
-        if (growth_[node] <= 0.0) continue;
-        for_neighbours(node, [&](std::int32_t to, double w) {
-            if (volume_[to] > 0.0) given_[to] += w * growth_[node];
-        });
+        if (growth_[node] > 0.0) give(grid, node, neighbourhood);
     }
+    Run run{0, 0};
     for (const std::int32_t node : grid.active) {
         if (volume_[node] <= 0.0 || (given_[node] <= 0.0 && growth_[node] <= 0.0)) continue;
-        double around = 0.0;
-        for_neighbours(node, [&](std::int32_t from, double w) { around += w * volume_[from]; });
+        if (node != run.end || node % grid.rows == 0) {
+            take(grid, run, neighbourhood);
+            run.begin = node;
+        }
+        run.end = node + 1;
+    }
+    take(grid, run, neighbourhood);
+}
+
+void NonlocalSoftening::give(const Grid& grid, std::int32_t node,
+                             const std::vector<Column>& neighbourhood) {
+    const double growth = growth_[node];
+    for (const Column& each : neighbourhood) {
+        const std::int32_t column = node / grid.rows + each.columns;
+        if (column < 0 || column >= grid.columns) continue;
+        const std::int32_t first = node % grid.rows + each.rows;
+        const std::int32_t begin = std::max(first, 0);
+        const std::int32_t end =
+            std::min(first + static_cast<std::int32_t>(each.weights.size()), grid.rows);
+        double* to = given_.data() + column * grid.rows;
+        for (std::int32_t row = begin; row < end; ++row)
+            to[row] += each.weights[row - first] * growth;
+    }
+}
+
+/// Node by node the same order of sums as if each counted alone.
+void NonlocalSoftening::take(const Grid& grid, Run run, const std::vector<Column>& neighbourhood) {
+    const std::int32_t own = run.begin / grid.rows * grid.rows;  // the column's first node
+    for (const Column& each : neighbourhood) {
+        const std::int32_t other = own + each.columns * grid.rows;
+        if (other < 0 || other >= grid.nodes()) continue;
+        const double* from = volume_.data() + other;
+        double* to = mean_.data() + own;  // until the whole is known
+        for (std::size_t k = 0; k < each.weights.size(); ++k) {
+            const double weight = each.weights[k];
+            const std::int32_t shift = each.rows + static_cast<std::int32_t>(k);
+            const std::int32_t begin = std::max(run.begin - own, -shift);
+            const std::int32_t end = std::min(run.end - own, grid.rows - shift);
+            for (std::int32_t row = begin; row < end; ++row) to[row] += weight * from[row + shift];
+        }
+    }
+    for (std::int32_t node = run.begin; node < run.end; ++node) {
+        const double around = mean_[node];
         mean_[node] = around > 0.0 ? given_[node] / around : growth_[node] / volume_[node];
     }
+}
+
+void refuse_groups_without_soil(const scene::Scene& scene) {
+    const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    std::vector<fault::Fault> faults;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const scene::Material& material = scene.materials[m];
+        const bool has_soil =
+            std::ranges::any_of(soils, [m](const scene::Soil& soil) { return soil.material == m; });
+        if (!material.nonlocal_length || has_soil) continue;
+        faults.push_back({"/materials/" + material.name + "/nonlocal_length",
+                          "averages over a group without points: no region is or becomes \"" +
+                              material.name + "\"",
+                          "give a region this material (/section/regions, /transfer/mapping or "
+                          "/transfer/liquefied/layers), or leave the length out"});
+    }
+    if (!faults.empty()) throw fault::BadInput(scene.name, faults);
 }
 
 }  // namespace breach::mpm

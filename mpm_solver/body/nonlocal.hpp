@@ -31,29 +31,51 @@ class NonlocalSoftening {
         std::size_t zone;
         std::int32_t region;
     };
-    /// Another node of the neighbourhood and its weight.
-    struct Neighbour {
-        std::int32_t columns, rows;
-        double weight;
+    /// The neighbourhood's nodes in one column, which are neighbours in memory, from a row on.
+    struct Column {
+        std::int32_t columns, rows;   ///< from the node in the middle
+        std::vector<double> weights;  ///< 0 of the middle itself
     };
+    /// Nodes [begin, end) of one column.
+    struct Run {
+        std::int32_t begin, end;
+    };
+    /// Of a point, at the 3 x 3 nodes about it.
+    struct Weights {
+        std::int32_t first;
+        double at[3][3];
+    };
+    template <class Kernel>
+    static Weights weights_of(const Kernel& kernel, const Grid& grid, double x, double y);
+    template <class Visit>
+    static void for_nodes(const Grid& grid, const Weights& weights, const Visit& visit);
     bool grows(const Points& points, const Zone& zone) const;
     bool takes_part(const Points& points, std::size_t p, const Group& group, double spent) const;
     template <class Kernel>
     void spread_with(const Kernel& kernel, Points& points, const std::vector<Zone>& zones,
                      const Grid& grid);
-    void average(const Grid& grid, const std::vector<Neighbour>& neighbours);
+    void average(const Grid& grid, const std::vector<Column>& neighbourhood);
+    void give(const Grid& grid, std::int32_t node, const std::vector<Column>& neighbourhood);
+    void take(const Grid& grid, Run run, const std::vector<Column>& neighbourhood);
+    void forget_given(const Grid& grid, const std::vector<Column>& neighbourhood);
 
     std::vector<Group> groups_;
-    std::vector<std::vector<Neighbour>> neighbours_;  ///< per zone; empty: its softening is local
+    std::vector<std::vector<Column>> neighbourhoods_;  ///< per zone; empty: its softening is local
     KernelKind kernel_ = KernelKind::gimp;
     double gimp_half_size_ = 0.0;
     double widest_ = 0.0;
-    std::vector<double> before_;  ///< epsilon_q_plastic of the points of zones with neighbours
+    std::vector<double> before_;    ///< epsilon_q_plastic of the points of zones with neighbours
+    std::vector<Weights> weights_;  ///< of the points of one group that take part, in their order
     // Per node, of one group at a time; all 0 between the groups.
     std::vector<double> volume_;  ///< of the points about it [m3]
     std::vector<double> growth_;  ///< volume x growth [m3]
-    std::vector<double> given_;   ///< growth_ of its neighbours, weighted [m3]
-    std::vector<double> mean_;    ///< the neighbourhood's growth [-]
+    std::vector<double>
+        given_;                 ///< growth_ of its neighbours, weighted [m3]; also where no soil is
+    std::vector<double> mean_;  ///< the neighbourhood's growth [-]
 };
+
+/// Throws BadInput where a material has a length and no region is or becomes it: a group that can have
+/// no points.
+void refuse_groups_without_soil(const scene::Scene& scene);
 
 }  // namespace breach::mpm

@@ -135,6 +135,12 @@ def refuse(folder, scene):
     done = run("mpm_solver", scene, folder / "over", "--input", bare, "--set", "/mpm/duration=0.01")
     check("an earthquake that is over before the transfer is told", done.returncode == 0 and "over 0.25 s before" in done.stderr or
           "over 0.26 s before" in done.stderr, done.stderr)
+    with h5py.File(bare, "a") as file:
+        del file["breachline/base_motion/velocity"]
+        file["breachline/base_motion/velocity"] = 0.05 * numpy.sin(numpy.arange(181) / 20)
+    done = run("mpm_solver", scene, folder / "ends", "--input", bare, "--set", "/mpm/duration=0.2")
+    check("ground that comes to rest before the runout's end is told", done.returncode == 0 and
+          "until 0.15 s, and rests after that" in done.stderr and result(folder / "ends")["end_time"] == 0.2, done.stderr)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
 
 Runs workflows/scenes/mochikoshi.json on 2.4 m elements (synthetic motion) twice into FOLDER, unless the runs are there, and
 draws nodal excess pressure side by side, unsmoothed, with the rms of its alternating part in the wet tailings below the dam.
-Writes FOLDER/alternating_pressure.md: that rms every half second, with the crest.
+Writes a table beside the runs: that rms every half second, with the crest.
 """
 import argparse
 import pathlib

@@ -118,7 +118,7 @@ double band_width(const Layer& layer) {
     std::vector<double> strength(n);
     double tau = 0.0;
     double work = 0.0;
-    for (double slip = 0.0; slip < 4.5; slip += step) {
+    for (double slip = 0.0; slip < 1.5; slip += step) {  // nothing softens any more then
         for (std::size_t i = 0; i < n; ++i) {
             const double softened = std::min(rows.strain(i) / strain_to_residual, 1.0);
             strength[i] = std::max(residual, peak * weak[i] - (peak - residual) * softened);
@@ -141,27 +141,28 @@ struct Widths {
     void add(double width) { least = std::min(least, width), most = std::max(most, width); }
 };
 
-Widths widths_of(double h, bool nonlocal, const std::vector<double>& shifts = {0.0, 0.31, 0.6}) {
+Widths widths_of(double h, bool nonlocal) {
     Widths widths;
-    for (const double shift : shifts) {
-        for (const int points : {2, 3}) {
+    for (const double shift : {0.0, 0.31, 0.6}) {
+        for (const int points : {2, 3, 4}) {
             widths.add(band_width({h, points, shift * h, nonlocal}) / length);
         }
     }
     return widths;
 }
 
-/// The prototype of the design study found 10.3 (10.1 to 11.0), 10.1 (9.9 to 10.4) and 9.95 (9.92 to
-/// 9.98) m for the three sizes of cells with l = 4 m, in steps a fifth of ours.
+/// Over three shifts of the lattice and 4, 9 and 16 points per cell. Asked for are 5 %: met with l =
+/// 3.2 cells. The prototype of the design study found 10.3 (10.1 to 11.0), 10.1 (9.9 to 10.4) and
+/// 9.95 (9.92 to 9.98) m for the three sizes of cells with l = 4 m, in steps a fifth of ours.
 TEST(NonlocalSoftening, BandIsTwoAndAHalfLengthsWideWhateverTheCells) {
     constexpr double wanted = scene::band_in_nonlocal_lengths;
     const auto expect_within = [&](const Widths& widths, double share) {
         EXPECT_GT(widths.least, wanted * (1.0 - share));
         EXPECT_LT(widths.most, wanted * (1.0 + share));
     };
-    expect_within(widths_of(2.5, true), 0.13);           // l = 1.6 cells; 2.59 to 2.81
-    expect_within(widths_of(2.0, true), 0.07);           // 2 cells; 2.53 to 2.65
-    expect_within(widths_of(1.25, true, {0.31}), 0.02);  // 3.2 cells; 2.52
+    expect_within(widths_of(2.5, true), 0.13);   // l = 1.6 cells; 2.59 to 2.80
+    expect_within(widths_of(2.0, true), 0.07);   // 2 cells; 2.53 to 2.65
+    expect_within(widths_of(1.25, true), 0.02);  // 3.2 cells; 2.52
 }
 
 TEST(NonlocalSoftening, WithoutItTheBandIsTheLattices) {
@@ -172,6 +173,132 @@ TEST(NonlocalSoftening, WithoutItTheBandIsTheLattices) {
                                 std::to_string(fine.most));
     EXPECT_GT(coarse.most, 1.5 * fine.least);
     EXPECT_LT(fine.most, 0.5 * scene::band_in_nonlocal_lengths);
+}
+
+/// Brittle soil of two regions side by side, 4 m x 4 m each, in cells of half of l.
+scene::Scene two_regions() {
+    scene::Scene scene =
+        one_soil(sand(1e7, 0.3, 25e3, 0.0), 1800.0, rectangle(0, 0, 4, 4), 0.5, 10.0, 5.0);
+    std::get<materials::MohrCoulomb>(scene.materials[0].law).softening = materials::Softening{
+        .epsilon_q_start = 0.01, .epsilon_q_end = 0.1, .c_residual = 5e3, .tan_phi_residual = 0.0};
+    scene.materials[0].nonlocal_length = 1.0;
+    scene.section.regions.push_back(
+        {.name = "beside", .material = 0, .polygon = rectangle(4, 0, 8, 4)});
+    return scene;
+}
+
+scene::Scene one_region() {
+    scene::Scene scene = two_regions();
+    scene.section.regions.resize(1);
+    scene.section.regions[0].polygon = rectangle(0, 0, 8, 4);
+    return scene;
+}
+
+bool is_left(const Body& body, std::size_t p) { return body.points.x[p] < 4.0; }
+
+/// A step's growth by the points' own strains, averaged: what each has gained, by its place in the input.
+template <class Own>
+std::vector<double> gains(Body& body, const Own& own) {
+    std::vector<double>& k = body.points.epsilon_q_plastic;
+    const std::vector<double> before = k;
+    body.softening.remember(body.points, body.zones);
+    for (std::size_t p = 0; p < k.size(); ++p) k[p] += own(p);
+    body.softening.spread(body.points, body.zones, body.grid);
+    std::vector<double> gained(k.size());
+    for (std::size_t p = 0; p < k.size(); ++p) gained[body.points.number[p]] = k[p] - before[p];
+    return gained;
+}
+
+TEST(NonlocalSoftening, SoilOfAnotherRegionSharesNoStrain) {
+    const auto gains_where_the_left_grows = [](const scene::Scene& scene) {
+        Body body = filled_body(scene);
+        return gains(body, [&](std::size_t p) { return is_left(body, p) ? 0.01 : 0.0; });
+    };
+    const auto most_on_the_right = [](const scene::Scene& scene,
+                                      const std::vector<double>& gained) {
+        const Body body = filled_body(scene);
+        double most = 0.0;
+        for (std::size_t p = 0; p < body.points.size(); ++p) {
+            if (!is_left(body, p)) most = std::max(most, gained[body.points.number[p]]);
+        }
+        return most;
+    };
+    const std::vector<double> shared = gains_where_the_left_grows(one_region());
+    EXPECT_GT(most_on_the_right(one_region(), shared), 1e-3) << "of one region they would";
+    const std::vector<double> apart = gains_where_the_left_grows(two_regions());
+    EXPECT_EQ(most_on_the_right(two_regions(), apart), 0.0);
+    scene::Scene alone = two_regions();
+    alone.section.regions.resize(1);
+    const std::vector<double> left = gains_where_the_left_grows(alone);
+    EXPECT_TRUE(std::equal(left.begin(), left.end(), apart.begin())) << "as if nothing lay beside";
+}
+
+/// The points on the right are out of it in one of two ways, or just not yet.
+TEST(NonlocalSoftening, PointsThatAreSpentOrTornOffNeitherGiveNorTake) {
+    using Change = std::function<void(Body&, std::size_t)>;
+    const auto strained_to = [](double k) -> Change {
+        return [k](Body& body, std::size_t p) { body.points.epsilon_q_plastic[p] = k; };
+    };
+    const auto opened_to = [](double share) -> Change {
+        return [share](Body& body, std::size_t p) { body.points.volume[p] = share * body.widest; };
+    };
+    struct Case {
+        const char* name;
+        Change change;
+        bool takes_part;
+    };
+    for (const Case& each : {Case{"at 4.99 times its residual strain", strained_to(0.499), true},
+                             Case{"at 5.01 times", strained_to(0.501), false},
+                             Case{"nearly as wide as four cells", opened_to(0.999), true},
+                             Case{"as wide as four cells", opened_to(1.0), false}}) {
+        Body body = filled_body(one_region());
+        for (std::size_t p = 0; p < body.points.size(); ++p) {
+            if (!is_left(body, p)) each.change(body, p);
+        }
+        const std::vector<double> own_left =
+            gains(body, [&](std::size_t p) { return is_left(body, p) ? 1e-5 : 0.0; });
+        const std::vector<double> own_right =
+            gains(body, [&](std::size_t p) { return is_left(body, p) ? 0.0 : 1e-5; });
+        double lost = 0.0, taken = 0.0, given = 0.0, kept = 1.0;
+        for (std::size_t p = 0; p < body.points.size(); ++p) {
+            const std::int32_t at = body.points.number[p];
+            if (is_left(body, p)) {
+                lost = std::max(lost, 1e-5 - own_left[at]);
+                given = std::max(given, own_right[at]);
+            } else {
+                taken = std::max(taken, own_left[at]);
+                kept = std::min(kept, own_right[at]);
+            }
+        }
+        if (each.takes_part) {
+            EXPECT_GT(lost, 1e-6) << each.name;
+            EXPECT_GT(taken, 1e-6) << each.name;
+            EXPECT_GT(given, 1e-6) << each.name;
+            EXPECT_LT(kept, 0.9e-5) << each.name;
+        } else {
+            EXPECT_LT(lost, 1e-15) << each.name << ": the mean is of those that are left";
+            EXPECT_EQ(taken, 0.0) << each.name;
+            EXPECT_EQ(given, 0.0) << each.name;
+            EXPECT_NEAR(kept, 1e-5, 1e-15) << each.name;
+        }
+    }
+}
+
+TEST(NonlocalSoftening, AskedForAMaterialThatNoSoilIsOfIsRefused) {
+    scene::Scene scene = two_regions();
+    EXPECT_NO_THROW(refuse_groups_without_soil(scene));
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials.back().name = "elsewhere";
+    try {
+        refuse_groups_without_soil(scene);
+        FAIL() << "a group without points was taken";
+    } catch (const fault::BadInput& bad) {
+        ASSERT_EQ(bad.faults().size(), 1U);
+        EXPECT_EQ(bad.faults()[0].pointer, "/materials/elsewhere/nonlocal_length");
+        EXPECT_NE(bad.faults()[0].remedy.find("/transfer/mapping"), std::string::npos);
+    }
+    scene.materials.back().nonlocal_length.reset();
+    EXPECT_NO_THROW(refuse_groups_without_soil(scene));
 }
 
 }  // namespace

@@ -86,6 +86,48 @@ TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
     EXPECT_THROW(load_checkpoint(file, scene, other), fault::BadInput);
 }
 
+/// Enough points for two threads; they soften from the first hundred steps on.
+scene::Scene brittle_heap() {
+    scene::Scene scene = heap();
+    scene.mpm->cell_size = 0.16;
+    std::get<materials::MohrCoulomb>(scene.materials[0].law).softening =
+        materials::Softening{.epsilon_q_start = 0.0,
+                             .epsilon_q_end = 0.05,
+                             .c_residual = 100.0,
+                             .tan_phi_residual = 0.2};
+    scene.materials[0].nonlocal_length = 0.4;
+    return scene;
+}
+
+Simulation fresh_by(int threads, const scene::Scene& scene) {
+    ZonedPoints points = zoned_points(scene, fill_section(scene).state, "test");
+    return {scene, make_body(scene, std::move(points), "test", {.threads = threads}), 0.0};
+}
+
+TEST(NonlocalRun, HasTheSameBitsForTwoThreadsAndAfterAStop) {
+    scene::Scene scene = brittle_heap();
+    const exchange::Provenance provenance{
+        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+    const breach::test::Folder folder;
+    const auto file = folder / "checkpoint.h5";
+    Simulation whole = fresh_by(1, scene);
+    ASSERT_GT(whole.body().points.size(), 2000U) << "too few for two threads";
+    Simulation stopped = fresh_by(2, scene);
+    advance_looking(whole, 150);
+    advance_looking(stopped, 150);
+    expect_same_bits(whole, stopped);
+    save_checkpoint(file, stopped, 42, provenance);
+    Resumed resumed = load_checkpoint(file, scene, provenance, {.threads = 2});
+    advance_looking(whole, 150);
+    advance_looking(resumed.simulation, 150);
+    expect_same_bits(whole, resumed.simulation);
+
+    scene.materials[0].nonlocal_length.reset();
+    Simulation local = fresh_by(1, scene);
+    advance_looking(local, 300);
+    EXPECT_NE(local.body().points.epsilon_q_plastic, whole.body().points.epsilon_q_plastic);
+}
+
 /// 0.3 g at 2 Hz for 1.2 s from the transfer at 0.4 s on.
 GroundMotion shaking_ground() {
     exchange::BaseMotion base{.time_step = 0.01, .velocity = {}};
@@ -216,6 +258,29 @@ TEST(Simulation, AGridTooSmallIsABreakdownThatSaysWhere) {
     const exchange::ParticleState good = simulation.last_good_state();
     for (const auto& x : good.position) EXPECT_LE(x.x(), 5.0);
     EXPECT_GT(good.time, 0.0);
+}
+
+TEST(LastGoodState, IsThatOfEveryPointWhateverTheirOrderSince) {
+    Body body = filled_body(heap());
+    Points& points = body.points;
+    std::vector<double> x(points.size());
+    std::vector<double> gap(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        points.gap[p] = 0.25 * points.number[p];
+        x[points.number[p]] = points.x[p];
+        gap[points.number[p]] = points.gap[p];
+    }
+    const LastGood good(points, 0.5, 7);
+    const std::vector<std::int32_t> order = points.number;
+    for (double& each : points.x) each = 4.0 - each;
+    for (double& each : points.gap) each = 0.0;
+    body.strips.sort(body.grid, points, body.zones);
+    ASSERT_NE(points.number, order);
+    const Points then = good.restored(points);
+    for (std::size_t p = 0; p < then.size(); ++p) {
+        EXPECT_EQ(then.x[p], static_cast<float>(x[then.number[p]]));
+        EXPECT_EQ(then.gap[p], gap[then.number[p]]);
+    }
 }
 
 /// A checkpoint that another program changed.

@@ -34,6 +34,19 @@ TEST(Zones, SofteningStrainsGrowAsTheCellsShrink) {
     EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end * 0.25, 0.25 * 0.5);
 }
 
+TEST(Zones, SofteningStrainsOfANonlocalSoilAreThoseOfItsBandWhateverTheCells) {
+    scene::Scene scene = softening_soil();
+    scene.mpm->softening_length = 1.25;
+    scene.materials[0].nonlocal_length = 2.0;  // bands of 5 m: a quarter of the strain
+    for (const double h : {0.5, 0.25}) {
+        scene.mpm->cell_size = h;
+        EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_start, 0.005);
+        EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end, 0.025);
+    }
+    scene.mpm->softening_length.reset();
+    EXPECT_EQ(softening_of(scene).epsilon_q_end, 0.1);
+}
+
 TEST(Zones, ViscosityIsTheMaterialsAndShortensTheStep) {
     scene::Scene scene = softening_soil();
     const double dt = courant_step(filled_body(scene), 0.4);

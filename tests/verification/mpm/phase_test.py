@@ -1,5 +1,5 @@
 """mpm_solver as a program: outputs, resume after SIGTERM with the same bits, a grid too small, a duration
-too short, a run until rest."""
+too short, a run until rest, a group without points."""
 import glob, json, os, signal, subprocess, sys, tempfile, time
 
 import h5py
@@ -196,6 +196,23 @@ def test_coarse_cells(scratch):
     print("fewer than two cells across the column: refused, and questionable where the scene allows it")
 
 
+def test_group_without_points(scratch):
+    scene = json.load(open(COLUMN))
+    name, material = next(iter(scene["materials"].items()))
+    brittle = json.loads(json.dumps(material))
+    brittle["law"]["softening"] = {"epsilon_q_start": 0.01, "epsilon_q_end": 0.1, "c_residual_kPa": 0, "phi_residual_deg": 10}
+    brittle["nonlocal_length"] = 4
+    scene["mpm"]["softening_length"] = scene["mpm"]["cell_size"]
+    few = ["--progress", "none", "--set", "/mpm/duration=0.02"]
+    for at, code in ((name, 0), ("spare", 65)):
+        file = os.path.join(scratch, f"{at}.json")
+        json.dump({**scene, "materials": {**scene["materials"], at: brittle}}, open(file, "w"))
+        ended = subprocess.run([SOLVER, file, "--output", os.path.join(scratch, at), *few], capture_output=True, text=True)
+        assert ended.returncode == code, (ended.returncode, ended.stderr)
+    assert "/materials/spare/nonlocal_length" in ended.stderr and "leave the length out" in ended.stderr, ended.stderr
+    print("nonlocal softening of a material that no region has: refused with exit 65")
+
+
 def test_terrain(scratch):
     deeper = ["--set", "/mpm/domain_y=[-10,24]", "--set", "/mpm/floor/level=-10"]
     folder = os.path.join(scratch, "terrain")
@@ -222,4 +239,5 @@ if __name__ == "__main__":
         test_grid_too_small(scratch)
         test_until_rest(scratch)
         test_coarse_cells(scratch)
+        test_group_without_points(scratch)
         test_terrain(scratch)
