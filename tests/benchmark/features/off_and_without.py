@@ -68,8 +68,6 @@ EDITS = {
         ("dashpots", NEWTON, "    if (model_.base.any()) matrix_.add_diagonal(rule.c_v, model_.base.dashpot);\n", ""),
         ("dashpots", NEWTON, "        if (model_.base.any()) R_u_.array() -= model_.base.dashpot.array() * trial.v.array();\n", ""),
         ("dashpots", STEP, "    if (model.base.any()) model.base.add_force(time, force);\n", ""),
-        ("dashpots", STEP, "void set_external_force(const Model& model, const Beginning& beginning, double time,",
-         "void set_external_force(const Model& model, const Beginning& beginning, double,"),
         ("Rayleigh damping", NEWTON, "        if (elastic_) {\n"
          "            internal_force_.add_elastic_stiffness(rule.c_v * model_.rayleigh.stiffness, matrix_);\n        }\n", ""),
         ("Rayleigh damping", NEWTON, "rule.c_a + rule.c_v * model_.rayleigh.mass, model_.mass", "rule.c_a, model_.mass"),

@@ -402,6 +402,29 @@ TEST_F(WetRun, DrawsTheMeanOfItsDrawsWithTheirScatter) {
     EXPECT_EQ(cell(d, "numbers_means", 1, "not as it should be"), "without a result: d2: failed");
 }
 
+TEST_F(WetRun, DrawsHowFarARunoutIsOffWhereItIsKnown) {
+    const auto row = [](double time, const nlohmann::json& error) {
+        return nlohmann::json{{"transfer_time", time},
+                              {"variant", "softened"},
+                              {"runout_error", error},
+                              {"runout_error_from", "scatter of 5 draws"}};
+    };
+    std::ofstream(folder_ / "results.json")
+        << nlohmann::json{{"rows", {row(13, 4.0), row(16, nullptr)}}};
+    const Document d = document();
+    const Figure& against = figure(d, "runout_against_transfer_time");
+    const auto softened = std::ranges::find(against.chart.series, "softened", &Series::name);
+    ASSERT_NE(softened, against.chart.series.end());
+    const auto at = [&](double time) {
+        return softened->error[std::ranges::find(softened->x, time) - softened->x.begin()];
+    };
+    EXPECT_EQ(at(13), 4.0);
+    EXPECT_TRUE(std::isnan(at(16)));
+    const auto other = std::ranges::find_if(
+        against.chart.series, [](const Series& each) { return each.name != "softened"; });
+    EXPECT_TRUE(other->error.empty()) << "nothing tells it";
+}
+
 TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
     flag_all();
     const Document d = document();
