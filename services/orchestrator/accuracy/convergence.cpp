@@ -90,12 +90,11 @@ struct Ending {
     double ratio_fine = middle.size / fine.size;
 };
 
-/// Whether the two finest rungs differ by no more than noise makes them. Coarser rungs that agree,
-/// because neither sees what the finest does, are no noise.
-bool is_noise(const Rung& middle, const Rung& fine, std::optional<double> noise) {
-    const std::size_t repeats = std::min(middle.value.count, fine.value.count);
-    return noise && std::abs(fine.value.mean - middle.value.mean) <
-                        smallest_told_difference(*noise, repeats);
+/// Whether two rungs differ by no more than noise makes them.
+bool is_noise(const Rung& one, const Rung& other, std::optional<double> noise) {
+    const std::size_t repeats = std::min(one.value.count, other.value.count);
+    return noise &&
+           std::abs(other.value.mean - one.value.mean) < smallest_told_difference(*noise, repeats);
 }
 
 double two_grid_error(double change, double ratio) {
@@ -121,6 +120,23 @@ double judge(const Ending& e, Convergence& found) {
     return factor_of_safety * std::abs(left);
 }
 
+/// Of the finest rung where noise does not tell it from the one before: their difference. Rungs that
+/// are near agree whatever they are off, so with less than a factor of 2 between them it is what it
+/// leaves in first order, or, where a third rung is not told apart either, what that one's leaves.
+double hidden_error(std::span<const Rung> ending, double noise) {
+    const Rung& fine = ending.back();
+    const auto off = [&](const Rung& other) {
+        return std::abs(fine.value.mean - other.value.mean);
+    };
+    const auto left = [&](const Rung& other) {
+        return off(other) / std::min(other.size / fine.size - 1.0, 1.0);
+    };
+    const Rung& middle = ending[ending.size() - 2];
+    if (ending.size() == 3 && is_noise(ending.front(), fine, noise))
+        return std::max(off(middle), left(ending.front()));
+    return left(middle);
+}
+
 }  // namespace
 
 Convergence convergence_of(std::span<const Rung> rungs) {
@@ -130,15 +146,16 @@ Convergence convergence_of(std::span<const Rung> rungs) {
     if (rungs.size() < 2) return found;
     const Rung& fine = rungs[rungs.size() - 1];
     const Rung& middle = rungs[rungs.size() - 2];
-    const double change = fine.value.mean - middle.value.mean;
-    double error = std::abs(change);
+    double error = two_grid_error(fine.value.mean - middle.value.mean, middle.size / fine.size);
     // Coarse rungs scatter more than fine ones: they say nothing about what tells these apart.
-    if (is_noise(middle, fine, pooled_noise(rungs.last(std::min<std::size_t>(rungs.size(), 3)))))
+    const auto ending = rungs.last(std::min<std::size_t>(rungs.size(), 3));
+    const auto noise = pooled_noise(ending);
+    if (is_noise(middle, fine, noise)) {
         found.course = Course::below_noise;
-    else if (rungs.size() >= 3)
-        error = judge({rungs[rungs.size() - 3], middle, fine}, found);
-    else
-        error = two_grid_error(change, middle.size / fine.size);
+        error = hidden_error(ending, *noise);
+    } else if (rungs.size() >= 3) {
+        error = judge({ending.front(), middle, fine}, found);
+    }
     if (fine.value.mean == 0.0) return found;
     found.error_of_finest = error / std::abs(fine.value.mean);
     if (found.order) found.gci = found.error_of_finest;

@@ -35,7 +35,8 @@ struct Convergence {
     /// grids; relative to its value
     std::optional<double> gci;
     /// What the finest rung may be off, relative to its value. monotone: the index; oscillating: half
-    /// of the range of the three finest (Stern et al. 2001); below_noise: the last difference;
+    /// of the range of the three finest (Stern et al. 2001); below_noise: the last difference, and
+    /// more where the rungs are near each other;
     /// otherwise Roache's index for two grids, 3 |difference| / (ratio - 1), of first order
     std::optional<double> error_of_finest;
     std::optional<double> spread;  ///< largest minus smallest value of the rungs

@@ -101,6 +101,20 @@ TEST(Convergence, TwoRungsWithinTheNoiseAreOffByTheirDifference) {
     EXPECT_NEAR(*convergence_of(apart).error_of_finest, 0.12, 1e-12) << "Roache's for two";
 }
 
+TEST(Convergence, RungsThatAreNearAgreeWhateverTheyAreOff) {
+    // 10 + 4 h: rungs at 1.25 and 1 differ by 1 and are off by 4, which a noise of 1 hides.
+    const std::array near{rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
+    EXPECT_EQ(convergence_of(near).course, Course::below_noise);
+    EXPECT_NEAR(*convergence_of(near).error_of_finest, 4.0 / 14.0, 1e-12);
+    const std::array far{rung(4, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
+    EXPECT_NEAR(*convergence_of(far).error_of_finest, 1.0 / 14.0, 1e-12) << "not less for that";
+    // A third rung, twice as coarse and as near: what noise makes of near rungs is not blown up.
+    const std::array wide{rung(2, 13.9, 1.0, 3), rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
+    EXPECT_NEAR(*convergence_of(wide).error_of_finest, 1.0 / 14.0, 1e-12);
+    const std::array apart{rung(2, 24.0, 1.0, 3), rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
+    EXPECT_NEAR(*convergence_of(apart).error_of_finest, 4.0 / 14.0, 1e-12);
+}
+
 TEST(Shares, AddUpWhereToldAndAsSquaresWhereNot) {
     EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.02, true}, Share{0.01, true}}), 0.03);
     EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.03, false}, Share{0.04, false}}), 0.05);
