@@ -78,7 +78,6 @@ Computing computing_of(const process::Session& session) {
 
 Begun begin(const process::Session& session) {
     const scene::Scene& scene = session.scene();
-    refuse_groups_without_soil(scene);
     if (session.settings().inputs.empty()) {
         if (scene::mpm_of(scene).shaking == scene::Shaking::goes_on) {
             throw fault::BadInput(scene.name,

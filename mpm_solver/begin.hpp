@@ -15,8 +15,7 @@ struct Begun {
 
 /// Logs how faithfully each region is sampled. Where the ground shakes on, the points' places and
 /// velocities are those on it: what the transfer wrote less the ground's at that moment. Throws BadInput when
-/// points lie outside the grid or below the terrain, when nothing says how the ground moves, or when
-/// softening is averaged over a group without points.
+/// points lie outside the grid or below the terrain, or when nothing says how the ground moves.
 Begun begin(const process::Session& session);
 
 /// Places and velocities of the points against far rock become those on the ground, to which the section

@@ -311,10 +311,19 @@ void judge_band(const Material& soil, const Region& region, Resolved& resolved) 
 }
 
 void judge_bands(const Scene& scene, Resolved& resolved) {
-    for (const Material& soil : scene.materials) {
-        if (soil.nonlocal_length) judge_length(soil, *scene.mpm, resolved);
+    const std::vector<Soil> soils = soils_of(scene);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const Material& soil = scene.materials[m];
+        if (!soil.nonlocal_length) continue;
+        judge_length(soil, *scene.mpm, resolved);
+        if (std::ranges::find(soils, m, &Soil::material) != soils.end()) continue;
+        resolved.faults.push_back(
+            {"/materials/" + soil.name + "/nonlocal_length",
+             "averages over a group without points: no region is or becomes \"" + soil.name + "\"",
+             "give a region this material (/section/regions, /transfer/mapping or "
+             "/transfer/liquefied/layers), or leave the length out"});
     }
-    for (const Soil& each : soils_of(scene)) {
+    for (const Soil& each : soils) {
         const Material& soil = scene.materials[each.material];
         const Region& region = scene.section.regions[each.region];
         if (soil.nonlocal_length && !region.polygon.empty()) judge_band(soil, region, resolved);

@@ -200,21 +200,4 @@ void NonlocalSoftening::take(const Grid& grid, Run run, const std::vector<Column
     }
 }
 
-void refuse_groups_without_soil(const scene::Scene& scene) {
-    const std::vector<scene::Soil> soils = scene::soils_of(scene);
-    std::vector<fault::Fault> faults;
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        const scene::Material& material = scene.materials[m];
-        const bool has_soil =
-            std::ranges::any_of(soils, [m](const scene::Soil& soil) { return soil.material == m; });
-        if (!material.nonlocal_length || has_soil) continue;
-        faults.push_back({"/materials/" + material.name + "/nonlocal_length",
-                          "averages over a group without points: no region is or becomes \"" +
-                              material.name + "\"",
-                          "give a region this material (/section/regions, /transfer/mapping or "
-                          "/transfer/liquefied/layers), or leave the length out"});
-    }
-    if (!faults.empty()) throw fault::BadInput(scene.name, faults);
-}
-
 }  // namespace breach::mpm

@@ -74,8 +74,4 @@ class NonlocalSoftening {
     std::vector<double> mean_;  ///< the neighbourhood's growth [-]
 };
 
-/// Throws BadInput where a material has a length and no region is or becomes it: a group that can have
-/// no points.
-void refuse_groups_without_soil(const scene::Scene& scene);
-
 }  // namespace breach::mpm

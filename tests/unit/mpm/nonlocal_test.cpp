@@ -284,22 +284,5 @@ TEST(NonlocalSoftening, PointsThatAreSpentOrTornOffNeitherGiveNorTake) {
     }
 }
 
-TEST(NonlocalSoftening, AskedForAMaterialThatNoSoilIsOfIsRefused) {
-    scene::Scene scene = two_regions();
-    EXPECT_NO_THROW(refuse_groups_without_soil(scene));
-    scene.materials.push_back(scene.materials[0]);
-    scene.materials.back().name = "elsewhere";
-    try {
-        refuse_groups_without_soil(scene);
-        FAIL() << "a group without points was taken";
-    } catch (const fault::BadInput& bad) {
-        ASSERT_EQ(bad.faults().size(), 1U);
-        EXPECT_EQ(bad.faults()[0].pointer, "/materials/elsewhere/nonlocal_length");
-        EXPECT_NE(bad.faults()[0].remedy.find("/transfer/mapping"), std::string::npos);
-    }
-    scene.materials.back().nonlocal_length.reset();
-    EXPECT_NO_THROW(refuse_groups_without_soil(scene));
-}
-
 }  // namespace
 }  // namespace breach::mpm::test

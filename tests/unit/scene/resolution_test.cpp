@@ -165,6 +165,12 @@ TEST(NonlocalLength, HasToFitTheCellsAndTheRegion) {
     EXPECT_NE(refused(document)[0].find("1.25 cells"), std::string::npos) << refused(document)[0];
     clay["nonlocal_length"] = 1.0;
     EXPECT_EQ(codes(document), Codes{"wide_band warning /materials/clay/nonlocal_length"});
+    document["materials"]["spare"] = clay;
+    ASSERT_EQ(refused(document).size(), 1U);
+    EXPECT_EQ(
+        refused(document)[0],
+        "/materials/spare/nonlocal_length: averages over a group without points: no region is "
+        "or becomes \"spare\"");
 }
 
 TEST(Cells, AreCountedAcrossRegionsOfOneStrengthThatTouch) {
