@@ -33,6 +33,9 @@ std::string escaped(const std::string& token) {
     return out;
 }
 
+/// Pointers to entries, as faults and overrides have them, are put together from names as they are.
+bool can_be_pointed_at(const std::string& key) { return key.find_first_of("/~") == key.npos; }
+
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -307,11 +310,15 @@ json parse_json(std::string_view text, const std::string& file) {
         }
         if (event == json::parse_event_t::object_start) keys.emplace_back();
         if (event == json::parse_event_t::object_end) keys.pop_back();
-        if (event == json::parse_event_t::key &&
-            !keys.back().insert(parsed.get<std::string>()).second) {
+        if (event != json::parse_event_t::key) return true;
+        const auto& key = parsed.get_ref<const std::string&>();
+        if (!keys.back().insert(key).second) {
             faults.push_back(
-                {"", "has the key \"" + parsed.get<std::string>() + "\" twice in one object",
-                 "keep one of them"});
+                {"", "has the key \"" + key + "\" twice in one object", "keep one of them"});
+        }
+        if (!can_be_pointed_at(key)) {
+            faults.push_back({"", "has the key \"" + key + "\" with / or ~ in it",
+                              "name it without: entries are told by their path, /materials/sand"});
         }
         return true;
     };
@@ -333,6 +340,8 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
     if (equals == std::string::npos || assignment.empty() || assignment[0] != '/')
         return {malformed};
     const std::string pointer = assignment.substr(0, equals);
+    if (pointer.find('~') != std::string::npos)
+        return {{pointer, "has a ~, which no entry's name has", "name an entry that exists"}};
     const std::string text = assignment.substr(equals + 1);
     json value = json::parse(text, nullptr, false);
     if (value.is_discarded()) value = text;

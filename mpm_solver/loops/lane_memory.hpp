@@ -45,12 +45,13 @@ using Quad = typename QuadFor<N>::Type;
 template <int N>
 using Integers [[gnu::vector_size(N * sizeof(std::int32_t))]] = std::int32_t;
 
-/// Numbers where they lie. Through such a reference and not by copying bytes: GCC 12 takes what is
-/// copied through memory, even when it stands in a register.
+/// Numbers where they lie, at the alignment of one. Through such a reference and not by copying bytes: GCC
+/// 12 takes what is copied through memory, even when it stands in a register. Packed, because clang
+/// drops a lesser alignment of the vector itself.
 template <int N>
-using InMemory
-    [[gnu::vector_size(N * sizeof(double)), gnu::aligned(alignof(double)), gnu::may_alias]] =
-        double;
+struct [[gnu::packed, gnu::may_alias]] InMemory {
+    typename Lanes<N>::Vector v;
+};
 
 template <class Real>
 [[gnu::always_inline]] inline Real load(const double* from) {
@@ -58,12 +59,12 @@ template <class Real>
         return {load<Lanes<2>>(from), load<Lanes<2>>(from + 2)};
     } else {
         constexpr int N = materials::LaneTraits<Real>::count;
-        return Real(typename Real::Vector(*reinterpret_cast<const InMemory<N>*>(from)));
+        return Real(reinterpret_cast<const InMemory<N>*>(from)->v);
     }
 }
 template <int N>
 [[gnu::always_inline]] inline void store(double* to, const Lanes<N>& a) {
-    *reinterpret_cast<InMemory<N>*>(to) = a.v;
+    reinterpret_cast<InMemory<N>*>(to)->v = a.v;
 }
 [[gnu::always_inline]] inline void store(double* to, const Pairs& a) {
     store(to, a.low);

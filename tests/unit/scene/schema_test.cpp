@@ -81,6 +81,8 @@ TEST(StrictJson, RefusesWhatOrdinaryParsersLetPass) {
     EXPECT_THROW(parse_json("", "x"), BadInput);
     EXPECT_THROW(parse_json(std::string(100, '[') + std::string(100, ']'), "x"), BadInput);
     EXPECT_NO_THROW(parse_json(R"({"a": {"b": 1}, "c": {"b": 2}})", "x"));
+    EXPECT_THROW(parse_json(R"({"a": {"b/c": 1}})", "x"), BadInput);
+    EXPECT_THROW(parse_json(R"({"b~c": 1})", "x"), BadInput);
 }
 
 TEST(Override, SetsNumbersWordsAndNewKeys) {
