@@ -69,9 +69,8 @@ class NonlocalSoftening {
     // Per node, of one group at a time; all 0 between the groups.
     std::vector<double> volume_;  ///< of the points about it [m3]
     std::vector<double> growth_;  ///< volume x growth [m3]
-    std::vector<double>
-        given_;                 ///< growth_ of its neighbours, weighted [m3]; also where no soil is
-    std::vector<double> mean_;  ///< the neighbourhood's growth [-]
+    std::vector<double> given_;   ///< growth_ of its neighbours, weighted, soil or none [m3]
+    std::vector<double> mean_;    ///< the neighbourhood's growth [-]
 };
 
 }  // namespace breach::mpm

@@ -23,11 +23,9 @@ def viscous(soils, eta):
     return {f"materials__{soil}__viscosity": eta for soil in soils}
 
 
-def energy_at(folder, times):
-    """Kinetic energy and the crest's displacement, if it has one."""
+def listed(folder, name, times, scale=1.0, between=" | "):
     telemetry = dam_runs.telemetry_of(folder)
-    rows = [abs(telemetry["time"] - each).argmin() for each in times]
-    return [f"{telemetry['kinetic_energy'][row] / 1e6:.2f}" for row in rows], rows, telemetry
+    return between.join(f"{dam_runs.at(telemetry, name, each) / scale:.2f}" for each in times)
 
 
 def phase(program, output, settings, given):
@@ -50,9 +48,9 @@ def main():
         fem = chosen.output / f"fem_{eta}"
         dam_runs.run_dam(chosen.bin / "fem_solver", fem, mesh | viscous(IN_FEM, eta))
         for t_T in TIMES:
-            energy, rows, telemetry = energy_at(fem, [t_T + each for each in LATER])
-            crest = ", ".join(f"{telemetry['crest_displacement'][row]:.2f}" for row in rows)
-            print(f"| {t_T:g} | FEM (crest {crest} m) | {eta} | {eta} | " + " | ".join(energy) + " |", flush=True)
+            times = [t_T + each for each in LATER]
+            crest = listed(fem, "crest_displacement", times, between=", ")
+            print(f"| {t_T:g} | FEM (crest {crest} m) | {eta} | {eta} | {listed(fem, 'kinetic_energy', times, 1e6)} |", flush=True)
             if eta == ETAS[-1]:
                 continue
             points = phase(chosen.bin / "transfer_tool", chosen.output / f"transfer_{eta}_{t_T:g}", mesh, fem / f"snapshot_{t_T:.6f}.vtkhdf")
@@ -61,7 +59,8 @@ def main():
                     settings = mesh | viscous(IN_MPM, after) | {"mpm__duration": 0.75, "mpm__telemetry_interval": 0.05, "mpm__shaking": shaking}
                     runout = phase(chosen.bin / "mpm_solver", chosen.output / f"mpm_{eta}_{t_T:g}_{after}_{shaking}", settings,
                                    points / "particles.vtkhdf")
-                    print(f"| {t_T:g} | MPM, shaking {shaking} | {eta} | {after} | " + " | ".join(energy_at(runout, LATER)[0]) + " |", flush=True)
+                    print(f"| {t_T:g} | MPM, shaking {shaking} | {eta} | {after} | {listed(runout, 'kinetic_energy', LATER, 1e6)} |",
+                          flush=True)
 
 
 if __name__ == "__main__":
