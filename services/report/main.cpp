@@ -66,8 +66,9 @@ int main(int argc, char** argv) {
     app.add_option("--motion", choice.motion, "the scene's motion, when the run does not hold it");
     app.add_option("--element-tests", choice.element_tests,
                    "folder of fem_solver element-test: strength of the scene's soils");
-    app.add_option("--companions", choice.companions,
-                   "other runs, whose variants are shown behind those of this one")
+    app.add_option(
+           "--companions", choice.companions,
+           "other runs: their runouts in the figure, their variants behind those of this one")
         ->delimiter(',');
     app.footer("One phase alone: figures and data only.");
     app.require_subcommand(0, 1);

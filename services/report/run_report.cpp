@@ -1,5 +1,7 @@
 #include "services/report/run_report.hpp"
 
+#include <algorithm>
+
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
@@ -11,13 +13,26 @@ namespace breach::report {
 
 namespace {
 
-/// Grounds and variants of another run, told apart by its name.
+/// Lays another run's runouts over this one's; without a figure of them nothing.
+void lay_over(const Run& other, Document& document) {
+    for (Chapter& chapter : document.chapters) {
+        const auto figure = std::ranges::find(chapter.figures, runout_figure, &Figure::name);
+        if (figure == chapter.figures.end()) continue;
+        for (Series& each : runout_curves(other)) {
+            each.name = other.name + ", " + each.name;
+            figure->chart.series.push_back(std::move(each));
+        }
+    }
+}
+
+/// Runouts, grounds and variants of another run, told apart by its name.
 void add_companion(const std::filesystem::path& folder, const std::optional<Paper>& paper,
                    Document& document) {
     const Run run = read_run(folder);
     const Measures measures = measures_of(run, paper);
     const Choice choice;
     const Material material{run, paper, measures, choice};
+    lay_over(run, document);
     Document other{run.title, {}, {}, {}};
     add_ground(material, other);
     add_variants(material, other);

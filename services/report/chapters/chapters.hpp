@@ -2,6 +2,8 @@
 // fill is left out, and why is noted; so is each figure.
 #pragma once
 
+#include <string_view>
+
 #include "services/report/chart/document.hpp"
 #include "services/report/read/measures.hpp"
 #include "services/report/read/paper.hpp"
@@ -38,6 +40,11 @@ std::string fact(const nlohmann::json& result, const std::string& pointer, doubl
 
 /// How a runout is named in files: "13s", "filled_soft".
 std::string file_word(const PhaseFolder& mpm);
+
+/// The figure of runouts against transfer times.
+inline constexpr std::string_view runout_figure = "runout_against_transfer_time";
+/// Its curves, one per variant: of means where the runouts were drawn on several lattices.
+std::vector<Series> runout_curves(const Run& run);
 
 /// The section before anything moved.
 Series section_at_rest(const nlohmann::json& scene);

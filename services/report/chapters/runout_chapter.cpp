@@ -64,31 +64,12 @@ std::vector<Series> curves_of_means(const json& means) {
     return curves;
 }
 
-Figure means_against_time(const Material& from) {
-    return {"runout_against_transfer_time",
-            {"Runout against transfer time",
-             {"transfer time t_T [s]"},
-             {"runout [m]"},
-             curves_of_means(from.run.means)},
-            "99th percentile of the mobile soil's distance beyond the toe, by mass: mean over the "
-            "draws, each on a lattice of points of its own; the band is the standard deviation of "
-            "one draw. Hollow and dashed: a draw has no result, or one that is questionable (table "
-            "of means)."};
-}
-
-Figure runout_against_time(const Material& from) {
-    if (!from.run.means.empty()) return means_against_time(from);
-    Figure figure{
-        "runout_against_transfer_time",
-        {"Runout against transfer time", {"transfer time t_T [s]"}, {"runout [m]"}, {}},
-        "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
-        "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
-        "is a lower bound; hollow and dashed: questionable (table of flags); pale: its "
-        "result carries no flags. Where an accuracy study, draws or the neighbours in "
-        "transfer time tell the error of one run, it is drawn as a band."};
-    for (const std::string& variant : variants_of(from.run)) {
+/// One curve per variant, with what each of its runouts is worth.
+std::vector<Series> curves_of_runs(const Run& run) {
+    std::vector<Series> curves;
+    for (const std::string& variant : variants_of(run)) {
         Series s{variant.empty() ? "runout" : variant, {}, {}, Style::line_and_points};
-        for (const PhaseFolder* each : runouts_of(from.run, variant)) {
+        for (const PhaseFolder* each : runouts_of(run, variant)) {
             if (!each->transfer_time) continue;
             s.x.push_back(*each->transfer_time);
             s.y.push_back(runout_of(each));
@@ -99,8 +80,29 @@ Figure runout_against_time(const Material& from) {
         if (std::ranges::all_of(s.error, [](double e) { return std::isnan(e); })) s.error.clear();
         const auto certain = [](Certainty each) { return each == Certainty::certain; };
         if (std::ranges::all_of(s.certainty, certain)) s.certainty.clear();
-        if (!s.x.empty()) figure.chart.series.push_back(std::move(s));
+        if (!s.x.empty()) curves.push_back(std::move(s));
     }
+    return curves;
+}
+
+Figure runout_against_time(const Material& from) {
+    const char* of_means =
+        "99th percentile of the mobile soil's distance beyond the toe, by mass: mean over the "
+        "draws, each on a lattice of points of its own; the band is the standard deviation of "
+        "one draw. Hollow and dashed: a draw has no result, or one that is questionable (table "
+        "of means).";
+    const char* of_runs =
+        "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
+        "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
+        "is a lower bound; hollow and dashed: questionable (table of flags); pale: its "
+        "result carries no flags. Where an accuracy study, draws or the neighbours in "
+        "transfer time tell the error of one run, it is drawn as a band.";
+    Figure figure{std::string(runout_figure),
+                  {"Runout against transfer time",
+                   {"transfer time t_T [s]"},
+                   {"runout [m]"},
+                   runout_curves(from.run)},
+                  from.run.means.empty() ? of_runs : of_means};
     for (const auto& [key, label] :
          {std::pair{"window_lower", "window opens"}, std::pair{"window_upper", "window closes"}}) {
         if (const auto it = from.measures.find(key); it != from.measures.end()) {
@@ -158,6 +160,10 @@ std::string window_text(const Measures& measures) {
 }
 
 }  // namespace
+
+std::vector<Series> runout_curves(const Run& run) {
+    return run.means.empty() ? curves_of_runs(run) : curves_of_means(run.means);
+}
 
 std::string file_word(const PhaseFolder& mpm) {
     if (mpm.transfer_time) return short_number(*mpm.transfer_time) + "s";

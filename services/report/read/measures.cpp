@@ -117,10 +117,14 @@ void measure_runout(const Run& run, const std::string& variant, const std::optio
         if (values.empty()) return;
         const auto [least, most] = std::ranges::minmax(values);
         found[key + suffix] = {
-            median(values), "median of " + std::to_string(values.size()) + " runouts", cpu,
+            median(values),
+            "median of " + std::to_string(values.size()) + " runouts",
+            cpu,
             "they lie between " + short_number(least) + " and " + short_number(most) +
                 (moving > 0 ? "; " + std::to_string(moving) + " still moving" : ""),
-            moving > 0};
+            moving > 0,
+            least,
+            most};
     };
     keep_median("plateau_runout", runouts);
     keep_median("released_area", released);
@@ -143,6 +147,16 @@ Plateau edges_in(const std::vector<const PhaseFolder*>& runouts) {
     while (first != runouts.begin() && runout_of(*(first - 1)) >= level) --first;
     while (last + 1 != runouts.end() && runout_of(*(last + 1)) >= level) ++last;
     return Plateau{(*first)->transfer_time.value_or(0.0), (*last)->transfer_time.value_or(0.0)};
+}
+
+/// What is known of the error of one runout over another, each with its spread.
+std::string error_of_ratio(const Measure& over, const Measure& under) {
+    if (over.lower_bound || under.lower_bound) return "soil still moved: neither bound nor value";
+    if (under.least <= runs_out) {
+        return "says nothing: the smaller runouts go down to " + short_number(under.least) + " m";
+    }
+    return "between " + rounded(over.least / under.most, 3) + " and " +
+           rounded(over.most / under.least, 3) + " by the runouts of either";
 }
 
 }  // namespace
@@ -304,10 +318,9 @@ Measures measures_of(const Run& run, const std::optional<Paper>& paper) {
     const auto softened = found.find("plateau_runout:softened");
     const auto strong = found.find("plateau_runout:not_softened");
     if (softened != found.end() && strong != found.end() && strong->second.value > runs_out) {
-        const bool bounds = softened->second.lower_bound || strong->second.lower_bound;
         found["plateau_ratio"] = {softened->second.value / strong->second.value, "both variants",
                                   softened->second.cpu_seconds + strong->second.cpu_seconds,
-                                  bounds ? "soil still moved: neither bound nor value" : ""};
+                                  error_of_ratio(softened->second, strong->second)};
     }
     return found;
 }

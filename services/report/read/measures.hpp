@@ -17,6 +17,7 @@ struct Measure {
     double cpu_seconds;        ///< of that phase; of a number from several runs, their sum
     std::string error = {};    ///< what is known about its error
     bool lower_bound = false;  ///< soil still moved in a run behind it
+    double least = value, most = value;  ///< of the runs behind it
 };
 using Measures = std::map<std::string, Measure>;
 

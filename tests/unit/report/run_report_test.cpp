@@ -143,6 +143,22 @@ TEST_F(WetRun, IsMeasuredWhereItsTelemetryCrosses) {
     EXPECT_EQ(m.at("plateau_runout:softened").value, 210) << "13 s has less than 75 % of it";
     EXPECT_EQ(m.at("plateau_begin:softened").value, 16);
     EXPECT_EQ(m.at("plateau_ratio").value, 7);
+    EXPECT_EQ(m.at("plateau_ratio").error, "between 7 and 7 by the runouts of either");
+}
+
+TEST_F(WetRun, SaysWhenARatioOfRunoutsSaysNothing) {
+    for (const std::string variant : {"softened", "not_softened"}) {
+        const fs::path at_17 = folder_ / "tasks" / ("mpm_17.000000_" + variant);
+        fs::copy(folder_ / "tasks" / ("mpm_16.000000_" + variant), at_17,
+                 fs::copy_options::recursive);
+        std::ofstream(at_17 / "task.json")
+            << nlohmann::json{{"phase", "mpm_solver"}, {"transfer_time", 17}, {"variant", variant}};
+    }
+    edit_result("mpm_17.000000_not_softened", {{"runout", 0.5}});
+    const auto run = read_run(folder_);
+    const Measures m = measures_of(run, paper_for("mochikoshi"));
+    EXPECT_EQ(m.at("plateau_runout:not_softened").value, 15.25);
+    EXPECT_EQ(m.at("plateau_ratio").error, "says nothing: the smaller runouts go down to 0.5 m");
 }
 
 TEST_F(WetRun, ShowsThePapersNumbersBesideItsOwn) {
@@ -225,6 +241,14 @@ TEST_F(WetRun, CarriesTheVariantsOfACompanion) {
     EXPECT_EQ(last.title, "Variants: wet");
     EXPECT_EQ(last.tables.front().name, "variants_wet");
     EXPECT_EQ((d.chapters.end() - 2)->figures.front().name, "ground_softened_wet");
+
+    const Document alone = document();
+    const auto& own = figure(alone, "runout_against_transfer_time").chart.series;
+    const auto& both = figure(d, "runout_against_transfer_time").chart.series;
+    ASSERT_GT(both.size(), own.size());
+    EXPECT_EQ(both[own.size()].name, "wet, " + own.front().name);
+    EXPECT_EQ(both[own.size()].x, own.front().x);
+    EXPECT_EQ(both[own.size()].y, own.front().y);
 }
 
 TEST_F(WetRun, NamesTheMaterialThatAVariantChanges) {
