@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/words/number.hpp"
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/accuracy/neighbours.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
@@ -266,10 +267,19 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             known = by_variant.emplace(variant, std::move(found)).first;
         }
         std::optional<Estimate> estimate = known->second;
-        if (!estimate || !estimate->error)
-            if (auto noise = scatter.estimate(row)) estimate = std::move(noise);
-        if (!estimate || !estimate->error)
-            if (auto noise = over_time.estimate(row)) estimate = std::move(noise);
+        const auto beside = over_time.estimate(row);
+        if (!estimate || !estimate->error) {
+            if (auto noise = scatter.estimate(row)) {
+                estimate = std::move(noise);
+                if (beside) {
+                    estimate->from += "; neighbouring transfer times scatter by " +
+                                      words::text_of(*beside->error, 2) +
+                                      " m, the curve's own bends among it";
+                }
+            } else if (beside) {
+                estimate = beside;
+            }
+        }
         if (!estimate)
             estimate = Estimate{std::nullopt,
                                 "no accuracy study has this scene at this setting, and the sweep "

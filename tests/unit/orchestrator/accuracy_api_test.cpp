@@ -313,6 +313,24 @@ TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
     }
 }
 
+TEST(RunoutError, OfDrawsSaysWhatTransferTimesScatterBy) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json sweep = accuracy_study();
+    sweep.erase("accuracy");
+    sweep["transfer_times"] = {0.25, 0.5, 0.75, 1.0, 1.25};
+    sweep["draws"] = 2;
+    const std::string run = service.submit(sweep);
+    service.wait_for_end(run);
+    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
+    ASSERT_EQ(rows.size(), 10u);
+    for (const json& row : rows) {
+        const std::string from = row.at("runout_error_from");
+        EXPECT_TRUE(from.starts_with("scatter of 2 draws")) << from;
+        EXPECT_NE(from.find("neighbouring transfer times scatter by "), std::string::npos) << from;
+    }
+}
+
 // The shifts of the first three lattices are 0, 0.4588 and 0.0176, and each moves the runout by 2 cm.
 json drawn_study(const std::string& title = "") {
     json sweep = study("by_cell=1 fem_steps=1 mpm_steps=1 " + title, {0.5, 0.75});
