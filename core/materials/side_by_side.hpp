@@ -92,7 +92,11 @@ template <int N, class Calls>
                 if (!lanes::lane(unloads, i)) continue;
                 const Next next = after_unloading(job.law, i, walk, seats[i].errand);
                 moving[i] = next == Next::walk;
-                if (next == Next::leave) refill(i);
+                // One that turns again and again without a way forward ends by its evaluations.
+                const bool spent =
+                    next == Next::again && ends(i, walk, false, job.options, seats[i].errand);
+                if (spent) store(job.law, i, walk, seats[i].errand);
+                if (spent || next == Next::leave) refill(i);
             }
         }
         const auto lost = walk.advance(mask_of<N>(moving));
