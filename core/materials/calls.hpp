@@ -25,9 +25,11 @@ typename Calls::Update call_alone(const typename Calls::Ready& law,
         for (;;) {
             if (walk.begin(true)) {
                 const Next next = after_unloading(law, 0, walk, errand);
-                if (next == Next::again && !ends(0, walk, false, options, errand)) continue;
-                if (next == Next::again) return store(law, 0, walk, errand);
                 if (next == Next::leave) return;
+                if (next == Next::again) {
+                    if (ends(0, walk, false, options, errand)) return store(law, 0, walk, errand);
+                    continue;
+                }
             }
             const bool lost = walk.advance(true);
             if (ends(0, walk, lost, options, errand)) return store(law, 0, walk, errand);

@@ -128,7 +128,7 @@ template <class R>
     return Next::again;
 }
 
-/// Whether lane i has come to its end after `advance`, and how.
+/// Whether lane i has come to its end, after `advance` or to begin again, and how.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
                                         const Options& options, Errand& errand) {

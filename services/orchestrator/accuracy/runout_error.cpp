@@ -267,18 +267,15 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             known = by_variant.emplace(variant, std::move(found)).first;
         }
         std::optional<Estimate> estimate = known->second;
-        const auto beside = over_time.estimate(row);
         if (!estimate || !estimate->error) {
-            if (auto noise = scatter.estimate(row)) {
-                estimate = std::move(noise);
-                if (beside) {
-                    estimate->from += "; neighbouring transfer times scatter by " +
-                                      words::text_of(*beside->error, 2) +
-                                      " m, the curve's own bends among it";
-                }
-            } else if (beside) {
-                estimate = beside;
+            auto noise = scatter.estimate(row);
+            const auto beside = over_time.estimate(row);
+            if (noise && beside) {
+                noise->from += "; neighbouring transfer times scatter by " +
+                               words::text_of(*beside->error, 2) +
+                               " m, the curve's own bends among it";
             }
+            if (noise || beside) estimate = noise ? noise : beside;
         }
         if (!estimate)
             estimate = Estimate{std::nullopt,

@@ -272,15 +272,20 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     EXPECT_TRUE(rows(other)[0].at("runout_error").is_null()) << "another soil";
 }
 
-TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
+/// Results of a sweep that is the accuracy study's scene with other entries and without its ladders.
+json rows_of_sweep(const json& entries) {
     const Sandbox sandbox;
     Service service(sandbox);
     json sweep = accuracy_study();
     sweep.erase("accuracy");
-    sweep["draws"] = 3;
+    sweep.update(entries);
     const std::string run = service.submit(sweep);
     service.wait_for_end(run);
-    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
+    return service.get("/v1/runs/" + run + "/results").body.at("rows");
+}
+
+TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
+    const json rows = rows_of_sweep({{"draws", 3}});
     ASSERT_EQ(rows.size(), 3u);
     double mean = 0.0;
     for (const json& row : rows) mean += row.at("runout").get<double>() / 3;
@@ -292,14 +297,7 @@ TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
 }
 
 TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
-    const Sandbox sandbox;
-    Service service(sandbox);
-    json sweep = accuracy_study();
-    sweep.erase("accuracy");
-    sweep["transfer_times"] = {0.25, 0.5, 0.75, 1.0, 1.25};
-    const std::string run = service.submit(sweep);
-    service.wait_for_end(run);
-    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
+    const json rows = rows_of_sweep({{"transfer_times", {0.25, 0.5, 0.75, 1.0, 1.25}}});
     ASSERT_EQ(rows.size(), 5u);
     const auto runout = [&](std::size_t i) { return rows[i].at("runout").get<double>(); };
     double squares = 0.0;
@@ -314,15 +312,8 @@ TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
 }
 
 TEST(RunoutError, OfDrawsSaysWhatTransferTimesScatterBy) {
-    const Sandbox sandbox;
-    Service service(sandbox);
-    json sweep = accuracy_study();
-    sweep.erase("accuracy");
-    sweep["transfer_times"] = {0.25, 0.5, 0.75, 1.0, 1.25};
-    sweep["draws"] = 2;
-    const std::string run = service.submit(sweep);
-    service.wait_for_end(run);
-    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
+    const json rows =
+        rows_of_sweep({{"transfer_times", {0.25, 0.5, 0.75, 1.0, 1.25}}, {"draws", 2}});
     ASSERT_EQ(rows.size(), 10u);
     for (const json& row : rows) {
         const std::string from = row.at("runout_error_from");
