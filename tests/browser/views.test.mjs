@@ -154,6 +154,29 @@ test("gauges stand beside the runout, with a mark that moves along; a mesh has n
     await until("no gauges", () => page.isHidden("#gauges"));
 });
 
+test("the time is that of the picture that is seen while another one is on its way", async () => {
+    let let_go;
+    const gate = new Promise((resume) => { let_go = resume; });
+    await page.route(/snapshot_00012/, async (route) => {
+        await gate;
+        await route.continue();
+    });
+    await open_run();
+    await until("the last", async () => (await text_of("#view-now")) === "t = 12 s  (25 of 25)");
+    const [seen, mark] = [(await canvas_facts(page)).sum, await page.getAttribute("#gauge-depth .now", "d")];
+    await page.focus("#view-time");
+    for (let i = 0; i < 12; i += 1) await page.keyboard.press("ArrowLeft");
+    await until("what is wanted", async () => (await text_of("#view-now")).endsWith(", number 13 is on its way"));
+    const now = Number(/^t = ([\d.]+) s/.exec(await text_of("#view-now"))[1]);
+    assert.ok(now > 6, `${now} s`);
+    if (now === 12) assert.deepEqual([(await canvas_facts(page)).sum, await page.getAttribute("#gauge-depth .now", "d")], [seen, mark]);
+    let_go();
+    await until("it has come", async () => (await text_of("#view-now")) === "t = 6 s  (13 of 25)");
+    assert.notEqual(await page.getAttribute("#gauge-depth .now", "d"), mark);
+    await until("another picture", async () => (await canvas_facts(page)).sum !== seen);
+    await page.unroute(/snapshot_00012/);
+});
+
 test("points are coloured by velocity, material, r_u and plastic strain, each with its legend", async () => {
     await open_run();
     for (const [field, legend] of [["speed", /velocity \(magnitude\) \[m\/s\], 0 to/], ["r_u", /r_u \[–\], 0 to/], ["epsilon_q_plastic", /plastic strain ε_q \[–\], 0 to/]]) {

@@ -98,8 +98,9 @@ export class Particles {
         this.files.stop();
         this.source?.close();
         this.source = null;
-        this.at = -1;
+        this.at = -1; // the wanted picture; the snapshot is of the shown one
         this.snapshot = null;
+        this.shown = -1;
         this.box_frames = "";
         this.view.snapshot = null;
         this.view.box = null;
@@ -178,11 +179,14 @@ export class Particles {
             this.tell(`Snapshot ${frame.name}: ${fault.message}`);
             return;
         }
-        if (!snapshot || source !== this.source || this.at !== index) return;
+        const overtaken = () => source !== this.source || this.at !== index;
+        if (!snapshot || overtaken()) return;
+        if (!this.view.box) await this.find_box();
+        if (overtaken()) return;
         by_id("view-stride").value = source.stride;
         this.snapshot = snapshot;
+        this.shown = index;
         this.update_controls();
-        if (!this.view.box) await this.find_box();
         this.paint();
     }
 
@@ -280,10 +284,19 @@ export class Particles {
         slider.value = Math.max(this.at, 0);
         slider.disabled = last === 0;
         slider.setAttribute("aria-valuetext", frame ? seconds(frame.time) : "no snapshot");
-        set_text(by_id("view-now"), frame ? `t = ${seconds(frame.time)}  (${this.at + 1} of ${this.frames.length})` : "–");
+        set_text(by_id("view-now"), this.now_text());
         const play = by_id("view-play");
         play.disabled = last === 0;
         set_text(play, this.playing ? "❚❚ Pause" : "▶ Play");
+    }
+
+    /// The time of the picture that is seen; the wanted one may still be on its way.
+    now_text() {
+        if (!this.frames[this.at]) return "–";
+        const coming = `number ${this.at + 1} is on its way`;
+        if (!this.snapshot) return coming;
+        const seen = `t = ${seconds(this.snapshot.time)}  (${this.shown + 1} of ${this.frames.length})`;
+        return this.shown === this.at || this.playing ? seen : `${seen}, ${coming}`;
     }
 }
 
