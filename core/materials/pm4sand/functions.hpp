@@ -81,7 +81,10 @@ template <class R>
     const R depth = larger(R(par.Q) - logarithm(p_hat * R(100.0 / par.p_atm)), R(0.01));
     const R xi = R(par.R) / depth - D;
     const auto dense = xi <= R(0.0);
-    const R M_b = R(law.M_c) * exponential(xi * select(dense, R(-par.n_b), R(-0.25 * par.n_b)));
+    // Of soil that has opened to nothing (an inverted element) it would lie within the cone, onto
+    // whose other side every projection would then throw alpha.
+    const R M_b = larger(
+        R(law.M_c) * exponential(xi * select(dense, R(-par.n_b), R(-0.25 * par.n_b))), R(par.m));
     const R M_d = R(law.M_c) * exponential(xi * select(dense, R(par.n_d), R(4.0 * par.n_d)));
     return {xi, M_b, M_d};
 }

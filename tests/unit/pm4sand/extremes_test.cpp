@@ -115,6 +115,26 @@ TEST(Pm4SandExtremes, PressureMayVanishAndComeBack) {
     }
 }
 
+/// Where a mesh has folded an element may tell that its soil has opened by eight times its volume: M_b
+/// of the formula is then below m, and a projection onto it used to turn alpha round for ever.
+TEST(Pm4SandExtremes, SoilThatHasOpenedToNothingGoesOn) {
+    const Ready law = ready(soil("embankment"));
+    std::mt19937 random(1033);
+    std::normal_distribution<double> normal;
+    for (const Options& options : schemes) {
+        Tally tally;
+        State state = initialise(law, Voigt(-120.0, -120.0, 0.0, 0.5), -8.3);
+        for (int i = 0; i < 2000; ++i) {
+            const double size = std::pow(10.0, -6.0 + i % 3);
+            call(law, options, size * Voigt(normal(random), normal(random), 0.0, normal(random)),
+                 state, tally);
+            ASSERT_GE(state.M_b, law.parameters.m);
+        }
+        report("opened by 8.3 times its volume", options, tally);
+        EXPECT_EQ(tally.unresolved, 0);
+    }
+}
+
 TEST(Pm4SandExtremes, ReversalEveryCall) {
     for (const char* name : {"tailings_def", "tailings_cal", "foundation"}) {
         const Ready law = ready(soil(name));
