@@ -1,6 +1,8 @@
 #include "core/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -25,6 +27,19 @@ const Part& part_of(const std::optional<Part>& part, const Scene& scene, const c
     throw fault::BadInput(scene.name,
                           {{pointer, "is missing, and this phase needs it",
                             "add it to the scene (see workflows/schema/scene.schema.json)"}});
+}
+
+/// 2.0 is 2: scenes that are equal have equal texts, whoever wrote them (a browser leaves the point
+/// out), so they share their results and their checkpoints.
+void write_whole_numbers_without_point(json& value) {
+    constexpr double every_one_below = 9007199254740992.0;  // 2^53
+    if (value.is_structured()) {
+        for (json& each : value) write_whole_numbers_without_point(each);
+    } else if (value.is_number_float()) {
+        const auto number = value.get<double>();
+        if (std::abs(number) < every_one_below && number == std::trunc(number))
+            value = static_cast<std::int64_t>(number);
+    }
 }
 
 }  // namespace
@@ -80,6 +95,7 @@ Reading read_document(json document, const std::string& name, const std::filesys
     scene.title = document.at("title");
     scene.gravity = document.at("gravity");
     scene.thickness = document.at("thickness");
+    write_whole_numbers_without_point(document);
     scene.completed = document.dump();
     return {std::move(scene), {}, std::move(document)};
 }

@@ -59,6 +59,20 @@ TEST(Scene, CompletedSceneReadsBackToItself) {
     EXPECT_TRUE(json::parse(completed).at("mpm").contains("cfl"));
 }
 
+TEST(Scene, EqualNumbersMakeEqualScenes) {
+    json with_points = column(), without = column();
+    with_points["gravity"] = 10.0;
+    with_points["materials"]["sand"]["density"] = 1.8e3;
+    without["gravity"] = 10;
+    without["materials"]["sand"]["density"] = 1800;
+    ASSERT_NE(with_points.dump(), without.dump());
+    const scene::Scene one = scene::parse_scene(with_points.dump(), "test", {}, {"/mpm/cfl=0.50"});
+    const scene::Scene other = scene::parse_scene(without.dump(), "test", {}, {"/mpm/cfl=0.5"});
+    EXPECT_EQ(one.completed, other.completed);
+    EXPECT_EQ(one.gravity, 10.0);
+    EXPECT_EQ(json::parse(one.completed).at("mpm").at("cfl"), 0.5);
+}
+
 TEST(Scene, ShippedScenesAreSound) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
