@@ -64,6 +64,19 @@ std::optional<double> Row::optional_real(int column) const {
     return real(column);
 }
 
+namespace {
+
+/// What a savepoint could have to put back stays in memory up to this size, and goes to a temporary
+/// file beyond it. With `temp_store=MEMORY` it would be a list of 1 kB pieces that every statement
+/// walks along: a retry of 10,000 tasks held all writers up for 20 s. SQLite writes at most 128 kB
+/// at once and takes more for a full disk.
+void set_memory_of_savepoints() {
+    static const int once = sqlite3_config(SQLITE_CONFIG_STMTJRNL_SPILL, 126 * 1024);
+    static_cast<void>(once);
+}
+
+}  // namespace
+
 void Connection::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 void Connection::Finalize::operator()(sqlite3_stmt* statement) const {
     sqlite3_finalize(statement);
@@ -73,6 +86,7 @@ Connection::Connection(const std::filesystem::path& file, Access access) {
     const int flags = SQLITE_OPEN_NOMUTEX |
                       (access == Access::read_only ? SQLITE_OPEN_READONLY
                                                    : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    set_memory_of_savepoints();
     sqlite3* database = nullptr;
     const int code = sqlite3_open_v2(file.c_str(), &database, flags, nullptr);
     database_.reset(database);
@@ -83,12 +97,11 @@ Connection::Connection(const std::filesystem::path& file, Access access) {
     // What a large removal wrote does not stay in the log's file. auto_vacuum first: it is only
     // taken by a database without tables (store/migrations.cpp turns an older one round).
     // What is written hits the same pages of a dozen indexes: they stay in memory (64 MB), and are
-    // copied from the log to the database once for many commits (every 16 MB). What a savepoint
-    // could have to put back stays in memory, too: a temporary file was written for every commit.
+    // copied from the log to the database once for many commits (every 16 MB).
     script(
         "PRAGMA auto_vacuum=INCREMENTAL; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; "
         "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-65536; PRAGMA "
-        "wal_autocheckpoint=4000; PRAGMA temp_store=MEMORY");
+        "wal_autocheckpoint=4000");
 }
 
 Connection::~Connection() = default;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """When the dam's events come, by element size, hourglass stiffness and stiffness damping a_K: docs/mochikoshi_fem.md (f).
 
-    hourglass_and_damping.py BIN_FOLDER --output FOLDER [--sizes 2.4 1.2] [--limit CPU_SECONDS] [--kinematics updated_lagrangian]
+    hourglass_and_damping.py BIN_FOLDER --output FOLDER [--sizes 2.4 1.2] [--damping 0 2e-3] [--limit CPU_SECONDS] [--kinematics updated_lagrangian]
 
 The shipped scene, 25 s asked for, going on past entanglement (not on a moving mesh, which ends there). Runs are kept in FOLDER: asked again, it computes
 only what is missing, and prints the table of all that is there.
@@ -50,6 +50,7 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, required=True)
     parser.add_argument("--sizes", type=float, nargs="+", default=[2.4])
     parser.add_argument("--hourglass", nargs="+", default=["current", "elastic"])
+    parser.add_argument("--damping", type=float, nargs="+", default=A_K, help="a_K, s")
     parser.add_argument("--limit", type=float, default=1200.0, help="CPU seconds of one run")
     parser.add_argument("--kinematics", default="small_strain")
     chosen = parser.parse_args()
@@ -58,7 +59,7 @@ def main():
     print("|" + "---|" * 10)
     for size in chosen.sizes:
         for hourglass in chosen.hourglass:
-            for a_k in A_K:
+            for a_k in chosen.damping:
                 folder = chosen.output / f"{size:g}_{hourglass}_{a_k:g}_{chosen.kinematics}"
                 done = dam_runs.run_dam(chosen.bin / "fem_solver", folder, settings_of(size, hourglass, a_k, chosen.kinematics), chosen.limit)
                 print("| " + " | ".join(row_of(folder, size, hourglass, a_k, done)) + " |", flush=True)

@@ -437,6 +437,28 @@ TEST_F(StoreTest, OneBadJobInAGroupDoesNotHarmTheOthers) {
     EXPECT_EQ(store.runs(1000).size(), 35u);
 }
 
+/// Far more pages than are kept in memory to put back.
+TEST_F(StoreTest, AJobOfThousandsOfTasksIsDoneWholeOrPutBackWhole) {
+    Store store(file());
+    NewRun run = small_run();
+    for (int i = 0; i < 3000; ++i) {
+        run.tasks.push_back(run.tasks[2]);
+        run.tasks.back().label += "_" + std::to_string(i);
+    }
+    const auto all = static_cast<std::int64_t>(run.tasks.size());
+    store.write([&](Transaction& t) { t.add_run(run); });
+    store.write([&](Transaction& t) { t.cancel_run(run.id, "cancel"); });
+    EXPECT_EQ(store.tasks_by_state().at("cancelled"), all);
+    EXPECT_THROW(store.write([&](Transaction& t) {
+        EXPECT_EQ(t.retry_run(run.id), all);
+        throw std::runtime_error("changed my mind");
+    }),
+                 std::runtime_error);
+    EXPECT_EQ(store.tasks_by_state().at("cancelled"), all);
+    store.write([&](Transaction& t) { t.retry_run(run.id); });
+    EXPECT_EQ(store.tasks_by_state().count("cancelled"), 0u);
+}
+
 TEST_F(StoreTest, TwoLiveAttemptsOfOneTaskAreRefusedByTheDatabaseItself) {
     Store store(file());
     const NewRun run = small_run();
