@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -144,6 +145,50 @@ json as_json(const std::vector<fault::Flag>& flags) {
     return list;
 }
 
+/// A number, a word, yes or no; what is longer is not repeated.
+std::optional<std::string> short_text(const json& value) {
+    constexpr std::size_t longest = 60;
+    if (value.is_structured()) return std::nullopt;
+    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    if (text.size() > longest) return std::nullopt;
+    return text;
+}
+
+fault::Fault changed_entry(const json& change, const json& before) {
+    const std::string pointer = change.at("path");
+    const std::string afresh = ", or start afresh without --resume";
+    if (change.at("op") != "replace")
+        return {
+            pointer,
+            change.at("op") == "add" ? "was not there when this run began" : "is no longer there",
+            "resume with the scene that the run began with" + afresh};
+    const auto was = short_text(before.at(json::json_pointer(pointer)));
+    const auto is = short_text(change.at("value"));
+    if (!was || !is)
+        return {pointer, "is another than when this run began",
+                "resume with the scene that the run began with" + afresh};
+    return {pointer, "was " + *was + " when this run began and is " + *is + " now",
+            "resume with --set " + pointer + "=" + *was + afresh};
+}
+
+/// A run goes on with the scene that it began with. Said entry by entry, before anything in its
+/// folder is touched.
+void refuse_another_scene(const SessionSettings& settings, const scene::Scene& scene) {
+    constexpr std::size_t most_told = 20;
+    const auto checkpoint = settings.output / phases::files::checkpoint;
+    const auto kept = settings.output / phases::files::scene;
+    if (settings.start == Start::fresh || !std::filesystem::exists(checkpoint)) return;
+    std::ifstream stream(kept);
+    const json before = json::parse(stream, nullptr, false);
+    if (before.is_discarded()) return;  // the checkpoint itself knows whose it is
+    std::vector<fault::Fault> faults;
+    for (const json& change : json::diff(before, json::parse(scene.completed))) {
+        faults.push_back(changed_entry(change, before));
+        if (faults.size() == most_told) break;
+    }
+    if (!faults.empty()) throw fault::BadInput(kept.string(), std::move(faults));
+}
+
 void make_output_folder(const std::filesystem::path& folder, Start start) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -175,6 +220,7 @@ json known_of(Session& session, const Plan& plan) {
 ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, json& known) {
     const Plan plan = phase.plan(scene);
     spdlog::info("plan\n{}", as_text(plan));
+    refuse_another_scene(arguments.settings, scene);
     make_output_folder(arguments.settings.output, arguments.settings.start);
     Session session(arguments.settings, std::move(scene));
     exchange::publish_text(session.output(phases::files::scene),

@@ -142,7 +142,12 @@ fs::path checkpoint_of(const Order& order) { return order.output / "checkpoint.h
 
 int steps_done_before(const Order& order) {
     const fs::path checkpoint = checkpoint_of(order);
-    return order.resume && fs::exists(checkpoint) ? std::stoi(text_of(checkpoint)) : 0;
+    if (!order.resume || !fs::exists(checkpoint)) return 0;
+    try {
+        return std::stoi(text_of(checkpoint));
+    } catch (const std::invalid_argument&) {
+        end_with_fault(order, 65, "the checkpoint is of another version");
+    }
 }
 
 /// Steps of 20 ms with a checkpoint after each; a resumed phase goes on where the last one was.

@@ -142,6 +142,27 @@ TEST(Faults, StoppedServiceGoesOnFromCheckpointsWithoutCountingATry) {
     EXPECT_EQ(task_labelled(end, "fem").at("attempts").size(), 2u);
 }
 
+/// An upgrade, or a disk.
+TEST(Faults, CheckpointThatIsRefusedIsNotTriedTwice) {
+    const Sandbox sandbox;
+    std::string run;
+    {
+        Service first(sandbox);
+        run = first.submit(study("fem_steps=40", {0.5, 2.5}));
+        ASSERT_TRUE(eventually([&] { return !phases_alive(sandbox, "fem_solver").empty(); }));
+        first.terminate();
+        EXPECT_EQ(first.exit_code(), 0);
+    }
+    std::ofstream(sandbox.data() / "runs" / run / "fem/output/checkpoint.h5") << "of old";
+    Service second(sandbox);
+    const json end = second.wait_for_end(run);
+    EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
+    const json& attempts = task_labelled(end, "fem").at("attempts");
+    ASSERT_EQ(attempts.size(), 3u) << attempts;
+    EXPECT_EQ(attempts[1].at("exit_code"), 65);
+    EXPECT_EQ(attempts[2].at("exit_code"), 0);
+}
+
 TEST(Faults, CancelReachesAPhaseThatIgnoresTermAndItsDaemon) {
     const Sandbox sandbox;
     Service service(sandbox);

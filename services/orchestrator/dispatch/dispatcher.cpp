@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/exchange/publish.hpp"
+#include "core/fault/fault.hpp"
 #include "core/scene/file_paths.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -378,6 +379,15 @@ void Dispatcher::note_latency(const Task& task) {
     note(snapshot_to_start_, std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
 }
 
+/// A checkpoint that was refused (damaged, or an earlier version's) is not tried twice.
+bool Dispatcher::may_resume(const std::string& task, std::int64_t number) const {
+    if (number == 1) return false;
+    for (const Attempt& each : store_.attempts_of(task))
+        if (each.number == number - 1)
+            return each.exit_code != static_cast<std::int64_t>(fault::ExitCode::bad_input);
+    return true;
+}
+
 Order Dispatcher::order_for(const Live& live) const {
     const Task& task = live.task;
     std::vector<std::string> arguments{data_.scene(task.run)};
@@ -389,7 +399,7 @@ Order Dispatcher::order_for(const Live& live) const {
         arguments.insert(arguments.end(), {"--set", each});
     arguments.insert(arguments.end(),
                      {"--progress", "json", "--threads", std::to_string(task.resources.cores)});
-    if (live.number > 1) arguments.emplace_back("--resume");
+    if (live.resumes) arguments.emplace_back("--resume");
     return {.attempt = attempt_id(task.id, live.number),
             .program = settings_.bin / task.phase,
             .arguments = std::move(arguments),
@@ -407,6 +417,7 @@ Dispatcher::Live& Dispatcher::attach(const Task& task, std::int64_t number) {
     live_.push_back({.task = task,
                      .number = number,
                      .folder = folder,
+                     .resumes = may_resume(task.id, number),
                      .attempt_watch = watch_.add(folder.root, Notice::every_change),
                      .output_watch = watch_.add(data_.output(task), Notice::published_files)});
     return live_.back();

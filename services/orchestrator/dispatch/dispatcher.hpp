@@ -78,6 +78,7 @@ class Dispatcher {
         Task task;
         std::int64_t number;
         AttemptFolder folder;
+        bool resumes;  ///< goes on from the checkpoint of an earlier attempt, if there is one
         int attempt_watch;
         int output_watch;
         std::streamoff lines_read = 0;
@@ -104,6 +105,7 @@ class Dispatcher {
     bool hand_over(Live& live);
     void note_starts(const std::vector<Live*>& started);
     void note_latency(const Task& task);
+    bool may_resume(const std::string& task, std::int64_t number) const;
     Order order_for(const Live& live) const;
     Live& attach(const Task& task, std::int64_t number);
 

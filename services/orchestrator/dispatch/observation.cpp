@@ -109,7 +109,7 @@ void Dispatcher::note_begin(Live& live) {
 void Dispatcher::note_exit(Live& live) {
     const std::string& task = live.task.id;
     const ExitRecord record = *read_exit_record(live.folder);
-    const Verdict verdict = judge(record);
+    const Verdict verdict = judge(record, live.resumes);
     const AttemptEnd end{.exit_code = record.exit_code,
                          .signal = record.signal,
                          .wall_seconds = record.wall_seconds,

@@ -8,7 +8,7 @@ namespace breach::orchestrator {
 
 using fault::ExitCode;
 
-Verdict judge(const ExitRecord& record) {
+Verdict judge(const ExitRecord& record, bool resumed) {
     const bool ours = record.stopped == StopReason::shutdown;
     if (!record.exit_code) return ours ? Verdict::interrupted : Verdict::retryable;
     switch (static_cast<ExitCode>(*record.exit_code)) {
@@ -19,8 +19,9 @@ Verdict judge(const ExitRecord& record) {
         case ExitCode::interrupted:
         case ExitCode::terminated:  // a checkpoint was saved, so that going on costs little
             return ours ? Verdict::interrupted : Verdict::retryable;
-        case ExitCode::usage:
         case ExitCode::bad_input:
+            return resumed ? Verdict::retryable : Verdict::badly;
+        case ExitCode::usage:
         case ExitCode::breakdown:
         case ExitCode::io:
             break;

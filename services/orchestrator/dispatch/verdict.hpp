@@ -1,4 +1,5 @@
-// What the end of an attempt means for its task. Reads nothing but the exit record.
+// What the end of an attempt means for its task. Reads nothing but the exit record and whether the
+// attempt went on from a checkpoint.
 #pragma once
 
 #include <string>
@@ -10,11 +11,12 @@ namespace breach::orchestrator {
 enum class Verdict {
     well,         ///< outputs are there
     badly,        ///< the same would happen again
-    retryable,    ///< a machine's or a moment's fault: killed, out of memory, "try again"
+    retryable,    ///< a machine's or a moment's fault: killed, out of memory, "try again", or a
+                  ///< checkpoint that cannot be gone on from
     interrupted,  ///< the service stopped it because the service stops
 };
 
-Verdict judge(const ExitRecord& record);
+Verdict judge(const ExitRecord& record, bool resumed);
 
 /// "exit code 70", "killed by signal 9 (Killed)"
 std::string in_words(const ExitRecord& record);

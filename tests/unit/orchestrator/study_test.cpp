@@ -410,11 +410,14 @@ TEST(Command, ThatClosesItsOutputAndGoesOnIsEnded) {
 TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
     const auto verdict = [](std::optional<int> code, std::optional<int> signal,
                             std::optional<StopReason> stopped = {}) {
-        return judge({.attempt = "a", .exit_code = code, .signal = signal, .stopped = stopped});
+        return judge({.attempt = "a", .exit_code = code, .signal = signal, .stopped = stopped},
+                     false);
     };
     EXPECT_EQ(verdict(0, {}), Verdict::well);
     for (const int code : {1, 2, 65, 70, 74, 127})
         EXPECT_EQ(verdict(code, {}), Verdict::badly) << code;
+    EXPECT_EQ(judge({.attempt = "a", .exit_code = 65, .signal = {}, .stopped = {}}, true),
+              Verdict::retryable);  // afresh: its checkpoint was refused
     EXPECT_EQ(verdict(75, {}), Verdict::retryable);
     EXPECT_EQ(verdict({}, 9), Verdict::retryable);
     EXPECT_EQ(verdict(143, {}),

@@ -74,6 +74,16 @@ def main(folder):
         counted = [json.loads(line)["n"] for line in (out / "telemetry.jsonl").read_text().splitlines()]
         check("resume goes on without a gap or a repeat", done.returncode == 0 and counted == list(range(20)), counted)
 
+    (out / "checkpoint.h5").touch()
+    before = {name: (out / name).read_bytes() for name in ("result.json", "scene.completed.json", "telemetry.jsonl", "checkpoint.h5")}
+    done = run(scene, "--output", out, "--resume", "--set", "/gravity=9", "--set", "/mpm/cfl=0.3")
+    check("another scene is not resumed with", done.returncode == 65, done)
+    for told in ("/gravity: was 9.81 when this run began and is 9 now", "resume with --set /mpm/cfl=0.4, or start afresh"):
+        check(f"what is another is told: {told}", told in done.stderr, done.stderr)
+    check("and nothing is touched", before == {name: (out / name).read_bytes() for name in before})
+    check("the same scene, written otherwise, is", run(scene, "--output", out, "--resume", "--set", "/gravity=981e-2").returncode == 0)
+    (out / "checkpoint.h5").unlink()
+
     leftovers = [p.name for p in out.iterdir() if "tmp" in p.name or p.name.startswith(".")]
     check("nothing half-written is left", not leftovers, leftovers)
 
