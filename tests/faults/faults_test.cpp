@@ -125,17 +125,20 @@ TEST(Faults, KillingServiceAndPhasesTogetherLosesNothing) {
     expect_no_task_succeeded_twice(sandbox, end);
 }
 
+/// A service that was stopped while the FEM of `run` was going on.
+void stop_in_the_middle(const Sandbox& sandbox, std::string& run) {
+    Service first(sandbox);
+    run = first.submit(study("fem_steps=40", {0.5, 2.5}));
+    ASSERT_TRUE(eventually([&] { return !phases_alive(sandbox, "fem_solver").empty(); }));
+    first.terminate();
+    EXPECT_EQ(first.exit_code(), 0);
+    EXPECT_TRUE(phases_alive(sandbox, "fem_solver").empty());
+}
+
 TEST(Faults, StoppedServiceGoesOnFromCheckpointsWithoutCountingATry) {
     const Sandbox sandbox;
     std::string run;
-    {
-        Service first(sandbox);
-        run = first.submit(study("fem_steps=40", {0.5, 2.5}));
-        ASSERT_TRUE(eventually([&] { return !phases_alive(sandbox, "fem_solver").empty(); }));
-        first.terminate();
-        EXPECT_EQ(first.exit_code(), 0);
-        EXPECT_TRUE(phases_alive(sandbox, "fem_solver").empty());
-    }
+    ASSERT_NO_FATAL_FAILURE(stop_in_the_middle(sandbox, run));
     Service second(sandbox, {"--tries", "1"});
     const json end = second.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
@@ -146,13 +149,7 @@ TEST(Faults, StoppedServiceGoesOnFromCheckpointsWithoutCountingATry) {
 TEST(Faults, CheckpointThatIsRefusedIsNotTriedTwice) {
     const Sandbox sandbox;
     std::string run;
-    {
-        Service first(sandbox);
-        run = first.submit(study("fem_steps=40", {0.5, 2.5}));
-        ASSERT_TRUE(eventually([&] { return !phases_alive(sandbox, "fem_solver").empty(); }));
-        first.terminate();
-        EXPECT_EQ(first.exit_code(), 0);
-    }
+    ASSERT_NO_FATAL_FAILURE(stop_in_the_middle(sandbox, run));
     std::ofstream(sandbox.data() / "runs" / run / "fem/output/checkpoint.h5") << "of old";
     Service second(sandbox);
     const json end = second.wait_for_end(run);
