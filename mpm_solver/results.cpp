@@ -132,6 +132,7 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             .moving = simulation.moving(),
             .kinetic_share = share(row.kinetic_mobile),
             .numerical_share = share(row.energy_numerical),
+            .correction_share = share(row.overlap_energy),
             .volume_ratio = row.volume_ratio,
             .overlap = row.overlap,
             .deposit_depth =

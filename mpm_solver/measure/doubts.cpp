@@ -36,6 +36,17 @@ Flag thin_deposit(const Ending& ending) {
         "/mpm/cell_size"};
 }
 
+Flag overlap_work(const Ending& ending) {
+    return {"overlap_work", Severity::warning,
+            "the overlap correction put in " + text_of(100.0 * ending.correction_share) +
+                " % of the released energy (5 % can be trusted), and the rest of the scheme took " +
+                text_of(100.0 * (ending.numerical_share + ending.correction_share)) +
+                " %: the two cancel in the energy, not in the runout, which may be a tenth too "
+                "long and hangs on where the points lie; compare with 16 points per cell (4 per "
+                "direction)",
+            "/mpm/overlap_correction/rate"};
+}
+
 }  // namespace
 
 std::vector<Flag> doubts_of(const Ending& ending) {
@@ -67,6 +78,8 @@ std::vector<Flag> doubts_of(const Ending& ending) {
                               "nine points per cell",
                           "/mpm/overlap_correction/rate"});
     }
+    if (!(ending.correction_share <= largest_correction_share))
+        doubts.push_back(overlap_work(ending));
     if (ending.deposit_depth > 0.0 &&
         ending.deposit_depth < deposit_cells_wanted * ending.cell_size)
         doubts.push_back(thin_deposit(ending));

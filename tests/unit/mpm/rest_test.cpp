@@ -160,6 +160,7 @@ Ending sound() {
             .moving = {},
             .kinetic_share = 0.001,
             .numerical_share = 0.02,
+            .correction_share = 0.04,
             .volume_ratio = 1.02,
             .overlap = 0.01,
             .deposit_depth = 6.0,
@@ -170,8 +171,8 @@ Ending sound() {
 std::vector<std::string> codes(const Ending& ending) {
     std::vector<std::string> found;
     for (const fault::Flag& each : doubts_of(ending)) {
-        EXPECT_EQ(each.severity, each.code == "thin_deposit" ? fault::Severity::warning
-                                                             : fault::Severity::questionable);
+        const bool warns = each.code == "thin_deposit" || each.code == "overlap_work";
+        EXPECT_EQ(each.severity, warns ? fault::Severity::warning : fault::Severity::questionable);
         found.push_back(each.code);
     }
     return found;
@@ -199,6 +200,13 @@ TEST(Doubts, AreNoneOfASoundRunAndOneForEachLimitPassed) {
         ending.volume_ratio = ratio;
         EXPECT_EQ(codes(ending), Codes{"volume_ratio"}) << ratio;
     }
+    ending = sound();
+    ending.numerical_share = -0.02;
+    ending.correction_share = 0.09;
+    EXPECT_EQ(codes(ending), Codes{"overlap_work"});
+    EXPECT_THAT(doubts_of(ending)[0].message,
+                HasSubstr("put in 9 % of the released energy (5 % can be trusted), and the rest of "
+                          "the scheme took 7 %"));
     ending = sound();
     ending.cell_size = 1.21;
     EXPECT_EQ(codes(ending), Codes{"thin_deposit"});
