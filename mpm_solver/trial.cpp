@@ -106,7 +106,7 @@ process::Cost measure(process::Session& session) {
     looking.time("telemetry", [&] { simulation.look(); });
     const double looks_per_step =
         mpm.telemetry_interval > 0.0 ? std::min(dt / mpm.telemetry_interval, 1.0) : 1.0;
-    const double steps = static_cast<double>(steps_of_trial);
+    const auto steps = static_cast<double>(steps_of_trial);
     cost.seconds.emplace_back("telemetry and gauges",
                               looking.spent()[0].second * looks_per_step * steps);
     return cost;

@@ -80,8 +80,7 @@ class GridOnce {
     /// 1 in the directions in which nothing holds the node. Floor and terrain hold in both: what
     /// friction can take is the MPM's to find.
     Vec2 freedom(long key) const {
-        const auto column = static_cast<long>(
-            std::floor(static_cast<double>(key + stride / 2) / static_cast<double>(stride)));
+        const long column = std::lround(static_cast<double>(key) / static_cast<double>(stride));
         const long row = key - column * stride;
         if (row <= 0) return Vec2::Zero();
         const double h = mpm_.cell_size;

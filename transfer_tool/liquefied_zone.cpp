@@ -49,7 +49,7 @@ struct Edge {
 }  // namespace
 
 LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& regions,
-                             double threshold, scene::LiquefiedWhen when)
+                             double threshold, scene::LiquefiedWhen when, double narrowest_wall)
     : highest_(-nowhere), lowest_(nowhere), deepest_(nowhere) {
     std::vector<Edge> edges;
     const std::vector<Reach> reach = reaches(mesh, regions);
@@ -77,6 +77,27 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
         if (i + 1 < edges.size() && edges[i + 1].x == edges[i].x) continue;
         level_from_[edges[i].x] = open.empty() ? nowhere : *open.begin();
     }
+    close_walls(narrowest_wall);
+}
+
+/// From each column to those that begin less than `narrowest` behind its end: what lies between them.
+void LiquefiedZone::close_walls(double narrowest) {
+    const std::map<double, double> own = level_from_;
+    for (auto left = own.begin(); left != own.end(); ++left) {
+        const auto first = std::next(left);
+        if (first == own.end()) break;
+        for (auto right = std::next(first);
+             right != own.end() && right->first - first->first < narrowest; ++right) {
+            const double shallower = std::max(left->second, right->second);
+            for (auto wall = first; wall != right; ++wall) {
+                double& level = level_from_.at(wall->first);
+                level = std::min(level, shallower);
+            }
+        }
+    }
+    for (auto column = own.begin(); column != own.end(); ++column)
+        if (level_from_.at(column->first) < column->second)
+            closed_width_ += std::next(column)->first - column->first;
 }
 
 std::vector<LiquefiedGap> LiquefiedZone::gaps() const {

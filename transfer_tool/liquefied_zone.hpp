@@ -21,16 +21,20 @@ struct LiquefiedGap {
 
 /// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold, or was once. It stands for the
 /// column between the middles of its elements to the left and to the right; everything above the
-/// deepest liquefied node of a column is liquefied. All on the undeformed mesh.
+/// deepest liquefied node of a column is liquefied. Columns narrower than `narrowest_wall` between two
+/// that have liquefied deeper are liquefied as deep as the shallower of the two. All on the undeformed
+/// mesh.
 class LiquefiedZone {
   public:
     /// regions: [n_regions of the mesh] whether the region can liquefy. The mesh has sigma_v0.
     LiquefiedZone(const exchange::MeshSnapshot& mesh, const std::vector<char>& regions,
-                  double threshold, scene::LiquefiedWhen when);
+                  double threshold, scene::LiquefiedWhen when, double narrowest_wall = 0.0);
 
     /// Whether the place [m] lies in the zone.
     bool holds(const Vec2& place) const;
     std::size_t liquefied_nodes() const { return nodes_; }
+    /// Width of the columns that are liquefied deeper than their own nodes say, for being narrow [m].
+    double closed_width() const { return closed_width_; }
     /// Lowest level reached anywhere [m]; nothing liquefied: +infinity.
     double deepest_level() const { return deepest_; }
     /// Gaps at least as high as a fifth of the soil that can liquefy, no wider than that and no mere
@@ -39,9 +43,12 @@ class LiquefiedZone {
     std::vector<LiquefiedGap> gaps() const;
 
   private:
+    void close_walls(double narrowest);
+
     std::map<double, double> level_from_;  ///< x where it begins -> level; +infinity: none
     double highest_, lowest_;              ///< of the soil that can liquefy [m]
     std::size_t nodes_ = 0;
+    double closed_width_ = 0.0;
     double deepest_;
 };
 

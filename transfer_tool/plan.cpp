@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cstdio>
 
+#include "core/words/number.hpp"
 #include "transfer_tool/run.hpp"
 #include "transfer_tool/soils.hpp"
 
@@ -82,11 +82,13 @@ PlanLine liquefied_line(const scene::Scene& scene, const scene::Transfer& settin
         return {"liquefied layers", Use::on,
                 "each point above the deepest liquefied node at its own residual strength",
                 "/transfer/liquefied"};
-    char reason[128];
-    std::snprintf(
-        reason, sizeof reason, "%zu layers above the deepest node with r_u > %g, %s",
-        settings.liquefied->layers.size(), settings.liquefied->r_u,
-        settings.liquefied->when == scene::LiquefiedWhen::ever ? "at t_T or before" : "at t_T");
+    const scene::LiquefiedZone& zone = *settings.liquefied;
+    std::string reason =
+        std::to_string(zone.layers.size()) + " layers above the deepest node with r_u > " +
+        words::text_of(zone.r_u) +
+        (zone.when == scene::LiquefiedWhen::ever ? ", at t_T or before" : ", at t_T");
+    if (zone.narrowest_wall > 0.0)
+        reason += "; walls narrower than " + words::text_of(zone.narrowest_wall) + " m count too";
     return {"liquefied layers", Use::on, reason, "/transfer/liquefied"};
 }
 

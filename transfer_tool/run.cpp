@@ -96,6 +96,7 @@ void report_options(const Transferred& t, nlohmann::json& result) {
     if (t.liquefaction) {
         result["liquefied_when"] = words::name_of(t.liquefaction->when);
         result["liquefied_nodes"] = t.liquefaction->nodes;
+        result["closed_width"] = t.liquefaction->closed_width;
         if (t.liquefaction->nodes > 0)
             result["deepest_liquefied_level"] = t.liquefaction->deepest_level;
     }
@@ -148,22 +149,32 @@ void log(const Transferred& t) {
                  t.gauss_fields.raised_strains, t.gauss_fields.merged_centres);
 }
 
-/// One flag, of the widest gap.
+/// Sound soil that is narrower is no wall in the runout, whose soils are told apart by cells.
+constexpr double cells_of_a_wall = 2.0;
+
+/// One flag, of the widest gap; one that cells cannot carry is no result of the FEM.
 void flag_gaps(process::Session& session, const std::vector<LiquefiedGap>& gaps) {
     if (gaps.empty()) return;
+    const auto& mpm = session.scene().mpm;
+    const double narrow = mpm ? cells_of_a_wall * mpm->cell_size : 0.0;
+    const bool doubtful = std::ranges::any_of(
+        gaps, [&](const LiquefiedGap& each) { return each.to - each.from < narrow; });
     const LiquefiedGap& gap = *std::ranges::max_element(
         gaps, {}, [](const LiquefiedGap& each) { return each.to - each.from; });
     const auto text = [](double value) {
         return words::text_of(std::round(100.0 * value) / 100.0);
     };
-    session.flag({"liquefied_gap", fault::Severity::warning,
+    session.flag({"liquefied_gap",
+                  doubtful ? fault::Severity::questionable : fault::Severity::warning,
                   "from x = " + text(gap.from) + " to " + text(gap.to) +
                       " m the soil has liquefied down to y = " + text(gap.level) +
                       " m at most, and on both sides to " + text(gap.beside) + " m at least (" +
                       std::to_string(gaps.size()) +
                       " such gaps): single nodes near the threshold of r_u decide, and a wall of "
-                      "sound soil can hold the runout back; compare neighbouring transfer times",
-                  "/transfer/liquefied/r_u"});
+                      "sound soil can hold the runout back; set "
+                      "/transfer/liquefied/narrowest_wall to two cells of the MPM or more, or "
+                      "compare neighbouring transfer times",
+                  "/transfer/liquefied/narrowest_wall"});
 }
 
 void report(process::Session& session, const Transferred& t) {

@@ -113,7 +113,8 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     std::vector<char> can_liquefy;
     for (const RegionRule& rule : rules_) can_liquefy.push_back(rule.liquefies ? 1 : 0);
     if (std::ranges::count(can_liquefy, 1) > 0)
-        liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u, settings.liquefied->when);
+        liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u, settings.liquefied->when,
+                           settings.liquefied->narrowest_wall);
 }
 
 void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,

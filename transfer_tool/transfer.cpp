@@ -23,7 +23,8 @@ std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
     const LiquefiedZone& zone = *map.liquefied();
     const scene::LiquefiedWhen when =
         mesh.excess_pressure_max.empty() ? scene::LiquefiedWhen::at_transfer : asked;
-    return LiquefactionReport{when, zone.liquefied_nodes(), zone.deepest_level(), zone.gaps()};
+    return LiquefactionReport{when, zone.liquefied_nodes(), zone.deepest_level(),
+                              zone.closed_width(), zone.gaps()};
 }
 
 }  // namespace

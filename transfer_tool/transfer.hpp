@@ -16,6 +16,7 @@ struct LiquefactionReport {
     scene::LiquefiedWhen when;  ///< at_transfer too where the snapshot knows no earlier instant
     std::size_t nodes;          ///< liquefied
     double deepest_level;       ///< of them, undeformed [m]; +infinity: none
+    double closed_width;        ///< of walls too narrow to stay [m]
     std::vector<LiquefiedGap> gaps;
 };
 

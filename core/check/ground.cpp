@@ -13,8 +13,7 @@ void check_terrain(const scene::Scene& scene, Findings& findings) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.terrain.empty()) return;
     const double allowed = 0.05 * mpm.cell_size;  // a drawing's inaccuracy: no point lies so deep
-    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
-        const scene::Region& region = scene.section.regions[r];
+    for (const scene::Region& region : scene.section.regions) {
         if (region.polygon.empty()) continue;
         const Depth deepest = deepest_below(region.polygon, mpm.terrain, straight_level_at);
         if (deepest.below <= allowed) continue;

@@ -161,7 +161,8 @@ void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer
     LiquefiedZone zone{.regions = {},
                        .r_u = liquefied.at("r_u"),
                        .when = word_at<LiquefiedWhen>(liquefied, "when"),
-                       .layers = {}};
+                       .layers = {},
+                       .narrowest_wall = liquefied.at("narrowest_wall")};
     for (std::size_t i = 0; i < liquefied.at("regions").size(); ++i) {
         const auto region =
             named(reader, scene.section.regions, liquefied.at("regions")[i],

@@ -496,6 +496,7 @@ struct LiquefiedZone {
     /// From 0, without gaps; the last also holds what is beyond. Empty: soil keeps its material,
     /// with the residual strength of that material's profile
     std::vector<LiquefiedLayer> layers;
+    double narrowest_wall = 0.0;  ///< sound soil between liquefied soil, narrower: liquefied [m]
 };
 
 /// Which transfer times the advice is about; expressions of core/criteria over FEM telemetry.

@@ -41,7 +41,7 @@ struct Patch {
 
 Patch patch_of(const Polygon& polygon) {
     if (polygon.size() < 3) return {0.0, Vec2::Zero()};
-    const Vec2 base = polygon[0];
+    const Vec2& base = polygon[0];
     double area = 0.0;
     Vec2 moment = Vec2::Zero();
     for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {

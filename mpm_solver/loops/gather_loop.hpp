@@ -113,7 +113,7 @@ template <int N>
 template <int N>
 [[gnu::always_inline]] inline void add_to_cells(CellSum* cells, const PointArrays& a, std::size_t p,
                                                 const Gathered<N>& at, double per_h, int count) {
-    const Lanes<N> V = load<Lanes<N>>(a.V + p);
+    const auto V = load<Lanes<N>>(a.V + p);
     const Lanes<N> rate = V * ((at.Lxx + at.Lyy) * Lanes<N>(per_h));
     for (int k = 0; k < count; ++k) {
         CellSum& sum = cells[a.cell[p + k]];
@@ -154,7 +154,7 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
     using namespace materials::lanes;
     constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
-    const Kernel kernel = kernel_of<Kernel>(work);
+    const auto kernel = kernel_of<Kernel>(work);
     const GridArrays grid = work.grid;
     const Real blend(work.blend);
     const Real keep(1.0 - work.blend);
@@ -214,7 +214,7 @@ template <class Isa, class Kernel, UpdateOrder order, Averages averages>
 void gradient(const ZoneWork& work, Span span, Totals& sums) {
     constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
-    const Kernel kernel = kernel_of<Kernel>(work);
+    const auto kernel = kernel_of<Kernel>(work);
     const GridArrays grid = work.grid;
     Real farthest(0.0);
     for_each_block<Isa>(

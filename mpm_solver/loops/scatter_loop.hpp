@@ -197,7 +197,7 @@ void scatter(const ZoneWork& work, Span span, Totals&) {
     constexpr int N = Isa::lanes;
     constexpr bool masses = what == Scattered::momentum_and_force || what == Scattered::momentum;
     using Real = Lanes<N>;
-    const Kernel kernel = kernel_of<Kernel>(work);
+    const auto kernel = kernel_of<Kernel>(work);
     const GridArrays grid = work.grid;
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {

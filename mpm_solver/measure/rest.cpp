@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <sstream>
 #include <unordered_map>
 
@@ -80,12 +81,12 @@ struct Window {
 Window window_of(const History& history, double from) {
     const Row& now = history.back();
     Window window;
-    for (auto row = history.rbegin(); row != history.rend(); ++row) {
-        double& half = row->time > 0.5 * (from + now.time) ? window.late : window.early;
-        half = std::max(half, row->kinetic_mobile);
-        window.change = std::max({window.change, std::abs(row->runout - now.runout),
-                                  std::abs(row->runout_beyond_toe - now.runout_beyond_toe)});
-        if (row->time <= from) break;
+    for (const Row& row : std::views::reverse(history)) {
+        double& half = row.time > 0.5 * (from + now.time) ? window.late : window.early;
+        half = std::max(half, row.kinetic_mobile);
+        window.change = std::max({window.change, std::abs(row.runout - now.runout),
+                                  std::abs(row.runout_beyond_toe - now.runout_beyond_toe)});
+        if (row.time <= from) break;
     }
     return window;
 }

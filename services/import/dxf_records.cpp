@@ -33,7 +33,7 @@ std::vector<Fault> form_faults(std::string_view bytes) {
         return {{at_line(1), "is a DWG drawing", "save it as DXF in text (ASCII) form"}};
     if (const std::size_t at = bytes.find('\0'); at != std::string_view::npos)
         return {{"byte " + std::to_string(at), "holds a NUL byte: it is no text", again}};
-    if (trimmed(bytes.substr(0, 4096)).find_first_not_of("\n") == std::string_view::npos)
+    if (trimmed(bytes.substr(0, 4096)).find_first_not_of('\n') == std::string_view::npos)
         return {{at_line(1), "is empty", again}};
     return {};
 }

@@ -406,6 +406,7 @@ Json transfer_of(const Context& all) {
     transfer["liquefied"] = {
         {"regions", names},
         {"layers", layers},
+        {"narrowest_wall", 2.0 * all.values["cell_size"]},
         {"residual_strength",
          {{"like", "liquefied"},
           {"coefficient_kPa", rounded(all.values["residual_ratio"] * atmosphere)},

@@ -3,7 +3,7 @@
 namespace breach::orchestrator {
 
 TaskQueue::TaskQueue(std::function<Handled(const Task&)> handle) : handle_(std::move(handle)) {
-    thread_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
+    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
 void TaskQueue::add(Task task) {
@@ -14,7 +14,7 @@ void TaskQueue::add(Task task) {
     arrived_.notify_one();
 }
 
-void TaskQueue::serve(std::stop_token stop) {
+void TaskQueue::serve(const std::stop_token& stop) {
     while (true) {
         std::unique_lock lock(mutex_);
         if (!arrived_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;

@@ -26,7 +26,7 @@ class TaskQueue {
     void add(Task task);
 
   private:
-    void serve(std::stop_token stop);
+    void serve(const std::stop_token& stop);
 
     std::function<Handled(const Task&)> handle_;
     std::mutex mutex_;

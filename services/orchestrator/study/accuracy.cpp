@@ -261,7 +261,8 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
         faults.push_back({"/accuracy/draws",
                           std::string("repeats move the lattice of material points, and ") +
                               phases_of(plan.quantity.reach).front().program + " has none",
-                          "leave \"draws\" out: this quantity has no such noise"});
+                          "leave \"draws\" out; what a run scatters by is seen in rungs that go up "
+                          "and down"});
     std::size_t rungs = 0;
     for (const Ladder& each : plan.ladders) rungs += each.steps.size();
     if (rungs * plan.draws > most_variants)

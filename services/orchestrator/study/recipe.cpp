@@ -43,7 +43,7 @@ json materials_part(const json& scene, Materials wanted) {
     if (wanted == Materials::all) return scene.at("materials");
     json used = json::object();
     for (const json& each : scene.at("section").at("regions")) {
-        const std::string& name = each.at("material").get_ref<const std::string&>();
+        const auto& name = each.at("material").get_ref<const std::string&>();
         used[name] = scene.at("materials").at(name);
     }
     return used;

@@ -12,7 +12,7 @@ namespace breach::report {
 
 /// One number with where it comes from.
 struct Measure {
-    double value;
+    double value = 0.0;
     std::string source;        ///< label of the phase
     double cpu_seconds;        ///< of that phase; of a number from several runs, their sum
     std::string error = {};    ///< what is known about its error

@@ -63,13 +63,17 @@ TEST(LiquefiedZone, OnlySoilThatCanLiquefyCounts) {
 }
 
 /// Liquefied down to y = 2 m of 10, but in a strip, where it is to `level`.
-std::vector<LiquefiedGap> gaps_with(double from, double to, double level) {
+LiquefiedZone zone_with(double from, double to, double level, double narrowest_wall = 0.0) {
     auto mesh = meshes::grid({.nx = 60, .ny = 20, .width = 30.0});
     meshes::soak(mesh, 10.0, [&](const Vec2& x) {
         const bool in_strip = x.x() > from && x.x() < to;
         return x.y() > (in_strip ? level : 2.0) ? 1.0 : 0.0;
     });
-    return LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::ever).gaps();
+    return LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::ever, narrowest_wall);
+}
+
+std::vector<LiquefiedGap> gaps_with(double from, double to, double level) {
+    return zone_with(from, to, level).gaps();
 }
 
 TEST(LiquefiedZone, AWallOfSoundSoilWithinItIsAGap) {
@@ -91,6 +95,31 @@ TEST(LiquefiedZone, WhatIsWideOrShallowOrHasOneSideIsNone) {
     EXPECT_TRUE(gaps_with(14.0, 15.0, 3.0).empty()) << "shallow";
     EXPECT_TRUE(gaps_with(29.0, 30.5, 20.0).empty()) << "the zone's end";
     EXPECT_TRUE(gaps_with(-1.0, -0.5, 20.0).empty()) << "no strip";
+}
+
+TEST(LiquefiedZone, AWallNarrowerThanAskedIsLiquefiedToTheShallowerSide) {
+    const LiquefiedZone open = zone_with(14.0, 15.0, 20.0),
+                        closed = zone_with(14.0, 15.0, 20.0, 0.6);
+    EXPECT_FALSE(open.holds({14.5, 9.9}));
+    EXPECT_EQ(open.closed_width(), 0.0);
+    EXPECT_TRUE(closed.gaps().empty());
+    EXPECT_TRUE(closed.holds({14.5, 3.1}));
+    EXPECT_FALSE(closed.holds({14.5, 2.9})) << "no deeper than its sides";
+    EXPECT_NEAR(closed.closed_width(), 0.5, 1e-9);
+    EXPECT_EQ(closed.deepest_level(), open.deepest_level());
+    EXPECT_EQ(zone_with(14.0, 15.0, 20.0, 0.5).gaps().size(), 1u) << "as wide as asked: it stays";
+    EXPECT_TRUE(zone_with(14.0, 15.0, 7.0, 0.6).holds({14.5, 3.1})) << "a wall that begins lower";
+}
+
+TEST(LiquefiedZone, AWideWallAndTheZonesEndsStay) {
+    const LiquefiedZone wide = zone_with(12.0, 18.0, 20.0, 3.0);
+    EXPECT_FALSE(wide.holds({15.0, 9.0}));
+    const LiquefiedZone end = zone_with(28.0, 30.5, 20.0, 10.0);
+    EXPECT_FALSE(end.holds({29.5, 9.0}));
+    // Within 10 m a wall of 6 m is closed, and what lies beside it is as it was.
+    const LiquefiedZone closed = zone_with(12.0, 18.0, 20.0, 10.0);
+    EXPECT_TRUE(closed.holds({15.0, 9.0}));
+    EXPECT_EQ(closed.holds({11.0, 2.1}), wide.holds({11.0, 2.1}));
 }
 
 // At t_T the pore pressure has dipped everywhere; before, it had reached down to y = 4.
