@@ -1,10 +1,12 @@
 #include "transfer_tool/liquefied_zone.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "core/exchange/excess_pressure.hpp"
+#include "core/words/number.hpp"
 #include "transfer_tool/points.hpp"
 
 namespace breach::transfer {
@@ -124,6 +126,27 @@ std::vector<LiquefiedGap> LiquefiedZone::gaps() const {
 bool LiquefiedZone::holds(const Vec2& place) const {
     const auto after = level_from_.upper_bound(place.x());
     return after != level_from_.begin() && place.y() >= std::prev(after)->second;
+}
+
+std::optional<fault::Flag> doubt_of(const std::vector<LiquefiedGap>& gaps, double cell_size) {
+    if (gaps.empty()) return std::nullopt;
+    const auto width = [](const LiquefiedGap& each) { return each.to - each.from; };
+    const auto [narrowest, widest] = std::ranges::minmax_element(gaps, {}, width);
+    const bool no_wall = width(*narrowest) < cells_of_a_wall * cell_size;
+    const LiquefiedGap& gap = no_wall ? *narrowest : *widest;
+    const auto text = [](double value) {
+        return words::text_of(std::round(100.0 * value) / 100.0);
+    };
+    return fault::Flag{
+        "liquefied_gap", no_wall ? fault::Severity::questionable : fault::Severity::warning,
+        "from x = " + text(gap.from) + " to " + text(gap.to) +
+            " m the soil has liquefied down to y = " + text(gap.level) +
+            " m at most, and on both sides to " + text(gap.beside) + " m at least (" +
+            std::to_string(gaps.size()) +
+            " such gaps): single nodes near the threshold of r_u decide, and a wall of sound soil "
+            "can hold the runout back; set /transfer/liquefied/narrowest_wall to two cells of the "
+            "MPM or more, or compare neighbouring transfer times",
+        "/transfer/liquefied/narrowest_wall"};
 }
 
 }  // namespace breach::transfer

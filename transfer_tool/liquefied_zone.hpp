@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/exchange/mesh_snapshot.hpp"
+#include "core/fault/flag.hpp"
 #include "core/mechanics/tensor.hpp"
 #include "core/scene/scene.hpp"
 
@@ -18,6 +20,13 @@ struct LiquefiedGap {
     double level;     ///< down to which they have liquefied; the highest soil if not at all [m]
     double beside;    ///< the same of the shallower side [m]
 };
+
+/// Sound soil that is narrower is no wall in the runout, whose cells do not tell it from its sides.
+constexpr double cells_of_a_wall = 2.0;
+
+/// What gaps say against a runout on cells of this size [m]; 0: on none that are known. Of several the narrowest
+/// where it is narrower than a wall can be, else the widest.
+std::optional<fault::Flag> doubt_of(const std::vector<LiquefiedGap>& gaps, double cell_size);
 
 /// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold, or was once. It stands for the
 /// column between the middles of its elements to the left and to the right; everything above the

@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
@@ -149,34 +149,6 @@ void log(const Transferred& t) {
                  t.gauss_fields.raised_strains, t.gauss_fields.merged_centres);
 }
 
-/// Sound soil that is narrower is no wall in the runout, whose soils are told apart by cells.
-constexpr double cells_of_a_wall = 2.0;
-
-/// One flag, of the widest gap; one that cells cannot carry is no result of the FEM.
-void flag_gaps(process::Session& session, const std::vector<LiquefiedGap>& gaps) {
-    if (gaps.empty()) return;
-    const auto& mpm = session.scene().mpm;
-    const double narrow = mpm ? cells_of_a_wall * mpm->cell_size : 0.0;
-    const bool doubtful = std::ranges::any_of(
-        gaps, [&](const LiquefiedGap& each) { return each.to - each.from < narrow; });
-    const LiquefiedGap& gap = *std::ranges::max_element(
-        gaps, {}, [](const LiquefiedGap& each) { return each.to - each.from; });
-    const auto text = [](double value) {
-        return words::text_of(std::round(100.0 * value) / 100.0);
-    };
-    session.flag({"liquefied_gap",
-                  doubtful ? fault::Severity::questionable : fault::Severity::warning,
-                  "from x = " + text(gap.from) + " to " + text(gap.to) +
-                      " m the soil has liquefied down to y = " + text(gap.level) +
-                      " m at most, and on both sides to " + text(gap.beside) + " m at least (" +
-                      std::to_string(gaps.size()) +
-                      " such gaps): single nodes near the threshold of r_u decide, and a wall of "
-                      "sound soil can hold the runout back; set "
-                      "/transfer/liquefied/narrowest_wall to two cells of the MPM or more, or "
-                      "compare neighbouring transfer times",
-                  "/transfer/liquefied/narrowest_wall"});
-}
-
 void report(process::Session& session, const Transferred& t) {
     const scene::Transfer& settings = scene::transfer_of(session.scene());
     log(t);
@@ -197,7 +169,11 @@ void report(process::Session& session, const Transferred& t) {
     result["coincident_gauss_points"] = t.gauss_fields.merged_centres;
     result["ledger"] = as_json(t.ledger);
     report_options(t, result);
-    if (t.liquefaction) flag_gaps(session, t.liquefaction->gaps);
+    if (t.liquefaction) {
+        const auto& mpm = session.scene().mpm;
+        if (auto doubt = doubt_of(t.liquefaction->gaps, mpm ? mpm->cell_size : 0.0))
+            session.flag(std::move(*doubt));
+    }
 }
 
 }  // namespace

@@ -10,11 +10,12 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 7> doubts{{
+constexpr std::array<std::pair<const char*, const char*>, 8> doubts{{
     {"still_moving", "still moving: lower bounds"},
     {"numerical_share", "with much energy made or lost by the numerics"},
     {"volume_ratio", "that did not keep the volume"},
     {"overlap", "with soil lying in soil"},
+    {"liquefied_gap", "with walls of sound soil too thin for the cells"},
     {"coarse_cells", "on cells too coarse"},
     {"coarse_elements", "on elements too coarse"},
     {"entangled_corner", "ended by one bad corner of the mesh"},
