@@ -90,7 +90,7 @@ EndReading read_end(const TriaxialTest& test, const TriaxialCurve& curve,
     double scatter = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i)
         scatter += std::pow(ratio[i] - r.value - r.slope * (x[i] - middle), 2);
-    const double rows = static_cast<double>(x.size());
+    const auto rows = static_cast<double>(x.size());
     const bool drained = is_drained(test.boundary);
     const double D = drained ? dilatancy(volume.slope) : 0.0;
     const bool critical =

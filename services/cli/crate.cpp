@@ -105,7 +105,7 @@ json Crate::inputs_of(const json& provenance) const {
 }
 
 std::string Crate::program_of(const std::string& phase, const std::string& version) {
-    std::string id = anchor(version.empty() ? phase : phase + "-" + version);
+    const std::string id = anchor(version.empty() ? phase : phase + "-" + version);
     const bool known =
         std::ranges::any_of(programs_, [&](const json& each) { return each["@id"] == id; });
     if (!known) {

@@ -12,7 +12,6 @@ struct Lines {
     std::vector<Vec2> phreatic, terrain, ground;
 };
 
-// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON asserts, it does not throw
 struct Document {
     nlohmann::json scene;
     nlohmann::json guessed;  ///< [{pointer, value, from}]

@@ -51,7 +51,6 @@ void write_figures_of(const std::filesystem::path& folder, const std::filesystem
 
 }  // namespace
 
-// NOLINTNEXTLINE(bugprone-exception-escape): CLI11 throws here at mistakes in the options below alone
 int main(int argc, char** argv) {
     using namespace breach;
     CLI::App app("A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",

@@ -9,7 +9,6 @@
 
 namespace breach::templates {
 
-// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON asserts, it does not throw
 struct Made {
     nlohmann::ordered_json options;  ///< all of them, with their values
     nlohmann::ordered_json scene;    ///< commented; names its motion "motion.csv"

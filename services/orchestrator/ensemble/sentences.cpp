@@ -94,7 +94,7 @@ std::string inverse_in_words(const json& inverse) {
     const std::string vary = inverse.at("vary");
     const std::string target = inverse.at("quantity").get<std::string>() + " of " +
                                with_unit(inverse.at("target"), inverse);
-    const std::string& reason = inverse.at("reason").get_ref<const std::string&>();
+    const auto& reason = inverse.at("reason").get_ref<const std::string&>();
     if (inverse.at("state") == "running")
         return "The " + vary + " for a " + target + " is searched.";
     if (inverse.at("state") == "refused") return "No " + vary + " is found: " + reason + ".";

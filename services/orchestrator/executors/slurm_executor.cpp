@@ -53,7 +53,7 @@ std::optional<JobName> read_job_name(const AttemptFolder& folder) {
 
 }  // namespace
 
-SlurmExecutor::SlurmExecutor(SlurmSettings settings, std::filesystem::path self)
+SlurmExecutor::SlurmExecutor(SlurmSettings settings, const std::filesystem::path& self)
     : settings_(std::move(settings)),
       slurm_(settings_.options, self.string(), in_milliseconds(settings_.command_seconds)) {
     clerk_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });

@@ -28,7 +28,7 @@ struct SlurmSettings {
 class SlurmExecutor final : public Executor {
   public:
     /// `self`: the breachline executable; the nodes must see it under this path.
-    SlurmExecutor(SlurmSettings settings, std::filesystem::path self);
+    SlurmExecutor(SlurmSettings settings, const std::filesystem::path& self);
     ~SlurmExecutor() override;
 
     void submit(const AttemptFolder& folder, const Order& order) override;

@@ -21,7 +21,7 @@ struct flock whole_file() {
     return range;
 }
 
-auto trouble(const std::filesystem::path& file, const std::string& what = "") {
+fault::IoError trouble(const std::filesystem::path& file, const std::string& what = "") {
     return fault::IoError(file.string() + ": " + what + std::strerror(errno));
 }
 

@@ -222,7 +222,7 @@ class HttpServer::Implementation {
                 refuse(response, problem_of(response.status));
         });
         server_.set_exception_handler([](const httplib::Request&, httplib::Response& response,
-                                         std::exception_ptr) {
+                                         const std::exception_ptr&) {
             refuse(response,
                    {500, "/problems/internal", "Internal fault", "the service's log says more"});
         });

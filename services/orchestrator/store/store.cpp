@@ -27,7 +27,7 @@ Store::Store(const std::filesystem::path& file)
     : file_(migrated(file)), writing_(file, Access::read_write) {
     writing_.query("SELECT coalesce(max(seq), 0) FROM events", {},
                    [&](const Row& row) { last_event_ = row.integer(0); });
-    writer_ = std::jthread([this](std::stop_token stop) { serve(std::move(stop)); });
+    writer_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
 Store::~Store() = default;
@@ -43,7 +43,7 @@ void Store::write(std::function<void(Transaction&)> change, std::string by) {
     done.get();
 }
 
-void Store::serve(std::stop_token stop) {
+void Store::serve(const std::stop_token& stop) {
     while (true) {
         std::deque<Job> group;
         {

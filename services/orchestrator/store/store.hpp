@@ -151,7 +151,7 @@ class Store {
         std::promise<void> done;
         std::exception_ptr refused;
     };
-    void serve(std::stop_token stop);
+    void serve(const std::stop_token& stop);
     void commit(std::deque<Job>& jobs);
     /// A reading connection for the duration of `read`.
     void read(const std::function<void(Connection&)>& read) const;

@@ -359,7 +359,7 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, Draws d
 }
 
 std::string repeated_variant(const json& variant) {
-    const std::string& name = variant.at("name").get_ref<const std::string&>();
+    const auto& name = variant.at("name").get_ref<const std::string&>();
     if (variant.value("made_by", "") != "draws") return name;
     const std::size_t suffix = name.rfind("_d");
     return suffix == std::string::npos ? "" : name.substr(0, suffix);

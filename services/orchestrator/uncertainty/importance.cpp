@@ -71,7 +71,7 @@ std::optional<Interval> partial_rank_correlation(std::span<const Drawn> paramete
                                                  std::span<const double> results) {
     const auto n = static_cast<Index>(results.size());
     const MatrixXd others = all_but(parameters, at, n);
-    const double degrees = static_cast<double>(n - 3 - (others.cols() - 1));
+    const auto degrees = static_cast<double>(n - 3 - (others.cols() - 1));
     if (degrees < 1.0) return std::nullopt;
     const Eigen::ColPivHouseholderQR<MatrixXd> solved(others);
     const VectorXd of_ranks = ranked(parameters[at].values);

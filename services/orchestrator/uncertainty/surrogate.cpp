@@ -162,6 +162,7 @@ TornadoBar bar_of_number(const Fit& fit, Coordinates place, const Block& block) 
     return {.name = "", .p10 = at(0.1), .p90 = at(0.9)};
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): called as bar_of_number is, which changes its copy
 TornadoBar bar_of_choice(const Fit& fit, Coordinates place, const Block& block) {
     TornadoBar bar{.name = "", .p10 = fit.at(with_option(place, block, -1)), .p90 = 0.0};
     bar.p90 = bar.p10;

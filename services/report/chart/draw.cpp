@@ -282,7 +282,8 @@ Legend legend_of(const Chart& chart, const Frame& f, const std::vector<Entry>& e
 void draw_legend(std::ostream& svg, const Legend& legend, const std::vector<Entry>& entries) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const double x = legend.x + legend.column_width * static_cast<double>(i % legend.columns);
-        const double y = legend.y + row * static_cast<double>(i / legend.columns);
+        const std::size_t line = i / legend.columns;
+        const double y = legend.y + row * static_cast<double>(line);
         if (entries[i].certainty != Certainty::certain) {
             draw_point(svg, x + 10, y + 4, entries[i].colour, entries[i].certainty);
         } else {
