@@ -108,8 +108,9 @@ bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& 
 }
 
 void server_sent(const Service& service, Call& call, const std::atomic<bool>& stopping) {
-    // NOLINTNEXTLINE(modernize-make-shared): an aggregate, and its seat cannot be moved
+    // An aggregate, whose seat cannot be moved.
     auto stream =
+        // NOLINTNEXTLINE(modernize-make-shared)
         std::shared_ptr<Stream>(new Stream{Seat(streams, most_streams, call.response),
                                            stream_start(service, call), call.parameter("run")});
     call.response.set_header("Cache-Control", "no-store");
