@@ -159,7 +159,7 @@ Table sample_table(const Run& run, const std::string& name) {
             results.is_object() ? or_dash(results.value(name, json()), 4) : "-";
         const bool bound = phases::grows(name) && value != "-" &&
                            std::ranges::any_of(moving, [&](const PhaseFolder* each) {
-                               return each->variant == row.at("sample");
+                               return json(each->variant) == row.at("sample");
                            });
         cells.push_back((bound ? at_least : "") + value);
         table.rows.push_back(std::move(cells));

@@ -103,7 +103,7 @@ Table means_of(const Run& run) {
             if (const std::string draws = mean.at(key); !draws.empty())
                 doubt += (doubt.empty() ? "" : "; ") + (words + draws);
         const std::string variant = mean.at("variant");
-        const json time = mean.at("transfer_time");
+        const json& time = mean.at("transfer_time");
         table.rows.push_back({time.is_number() ? rounded(time.get<double>(), 6) : "-",
                               variant.empty() ? "all" : variant,
                               rounded(mean.at("draws_done").get<double>(), 4) + " of " +

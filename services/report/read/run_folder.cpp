@@ -135,8 +135,7 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     for (const json& row : table.at("rows")) {
         const json error = row.value("runout_error", json());
         for (PhaseFolder& each : phases) {
-            if (each.phase != phases::mpm.program ||
-                each.variant != row.at("variant").get_ref<const std::string&>())
+            if (each.phase != phases::mpm.program || json(each.variant) != row.at("variant"))
                 continue;
             const json& at = row.at("transfer_time");  // null: the points fill the section
             if (at.is_null() != !each.transfer_time) continue;

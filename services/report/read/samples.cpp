@@ -39,7 +39,7 @@ std::vector<const PhaseFolder*> sampled_runouts(const Run& run) {
     const auto all = phases_named(run, phases::mpm.program);
     for (const json& row : run.uncertainty.at("rows")) {
         const auto own = std::ranges::find_if(all, [&](const PhaseFolder* each) {
-            return each->variant == row.at("sample") && each->result.is_object();
+            return json(each->variant) == row.at("sample") && each->result.is_object();
         });
         if (own != all.end()) found.push_back(*own);
     }
