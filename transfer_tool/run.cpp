@@ -96,7 +96,7 @@ void report_options(const Transferred& t, nlohmann::json& result) {
     if (t.liquefaction) {
         result["liquefied_when"] = words::name_of(t.liquefaction->when);
         result["liquefied_nodes"] = t.liquefaction->nodes;
-        result["closed_width"] = t.liquefaction->closed_width;
+        result["liquefied_closed_width"] = t.liquefaction->closed_width;
         if (t.liquefaction->nodes > 0)
             result["deepest_liquefied_level"] = t.liquefaction->deepest_level;
     }

@@ -75,7 +75,7 @@ std::vector<Flag> doubts_of(const Ending& ending) {
                           text_of(100.0 * ending.overlap) +
                               " % of the soil lies on other soil (at most 5 % can be trusted): the "
                               "deposit lacks as much; set /mpm/overlap_correction/rate to 5 with "
-                              "nine points per cell",
+                              "at least nine points per cell",
                           "/mpm/overlap_correction/rate"});
     }
     if (!(ending.correction_share <= largest_correction_share))

@@ -177,7 +177,8 @@ class Scatter {
         if (found == runouts_.end() || found->second.size() < 2) return std::nullopt;
         return Estimate{repeats_of(found->second).deviation,
                         "scatter of " + std::to_string(found->second.size()) +
-                            " draws: noise, not the error of the setting"};
+                            " draws: noise of the points, not the error of the setting or of a "
+                            "FEM before it"};
     }
 
     /// What the scatter leaves of the mean of a place's draws.
@@ -187,7 +188,8 @@ class Scatter {
             return {std::nullopt, "fewer than two draws have a runout"};
         return {half_width_of_mean(repeats_of(found->second)),
                 "scatter of the mean of " + std::to_string(found->second.size()) +
-                    " draws, Student's 90 %: noise, not the error of the setting"};
+                    " draws, Student's 90 %: noise of the points, not the error of the setting or "
+                    "of a FEM before it"};
     }
 
     /// The MPM's task of a draw that has a runout; nothing: none has.
@@ -234,7 +236,7 @@ class OverTransferTime {
         if (found == scatter_.end()) return std::nullopt;
         return Estimate{found->second,
                         "scatter among neighbouring transfer times: noise and the curve's own "
-                        "bends, not the error of the setting"};
+                        "bends, not the error of the setting or of the FEM that they share"};
     }
 
   private:
