@@ -17,6 +17,8 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_studies = 20;  // the newest are asked
+constexpr const char* noise_of_points =
+    "noise of the points, not the error of the setting or of a FEM before it";
 
 struct Estimate {
     std::optional<double> error;      ///< [m]
@@ -175,10 +177,9 @@ class Scatter {
     std::optional<Estimate> estimate(const ResultRow& row) const {
         const auto found = runouts_.find(place_of(row));
         if (found == runouts_.end() || found->second.size() < 2) return std::nullopt;
-        return Estimate{repeats_of(found->second).deviation,
-                        "scatter of " + std::to_string(found->second.size()) +
-                            " draws: noise of the points, not the error of the setting or of a "
-                            "FEM before it"};
+        return Estimate{
+            repeats_of(found->second).deviation,
+            "scatter of " + std::to_string(found->second.size()) + " draws: " + noise_of_points};
     }
 
     /// What the scatter leaves of the mean of a place's draws.
@@ -188,8 +189,7 @@ class Scatter {
             return {std::nullopt, "fewer than two draws have a runout"};
         return {half_width_of_mean(repeats_of(found->second)),
                 "scatter of the mean of " + std::to_string(found->second.size()) +
-                    " draws, Student's 90 %: noise of the points, not the error of the setting or "
-                    "of a FEM before it"};
+                    " draws, Student's 90 %: " + noise_of_points};
     }
 
     /// The MPM's task of a draw that has a runout; nothing: none has.
