@@ -229,6 +229,31 @@ def test_terrain(scratch):
     print(f"terrain: deepest point {np.min(place[:, 1] - ground):+.3f} m from the ground; a section in the ground is refused with exit 65")
 
 
+def slide(folder, scene, *more):
+    """Runout beyond the toe of a scene of its own [m]."""
+    os.makedirs(folder)
+    file = os.path.join(folder, "scene.json")
+    json.dump(scene, open(file, "w"))
+    ended = subprocess.run([SOLVER, file, "--output", folder, "--progress", "none", *more], capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stderr
+    return json.load(open(os.path.join(folder, "result.json")))["runout_beyond_toe"]
+
+
+def test_firm_ground(scratch):
+    """Soil slides on firm ground as on a floor that holds, where the ground's points do not reach into the cells above."""
+    on_ground = json.load(open(os.path.join(ROOT, "workflows/scenes/flow_slope.json")))
+    on_floor = json.loads(json.dumps(on_ground))
+    on_floor["section"]["regions"] = [each for each in on_ground["section"]["regions"] if each["name"] == "slope"]
+    del on_floor["materials"]["firm_ground"], on_floor["lem"]
+    on_floor["mpm"].update(domain_y=[0, 12], floor={"level": 0})
+    ground, floor = (slide(os.path.join(scratch, name), scene) for name, scene in (("ground", on_ground), ("floor", on_floor)))
+    moved = slide(os.path.join(scratch, "moved"), on_ground, "--set", "/mpm/fill_shift=[0.3,0.3]")
+    held = slide(os.path.join(scratch, "held"), on_ground, "--set", "/mpm/gimp_half_size=0.25")
+    print(f"runout on firm ground {ground:.1f} m, lattice moved {moved:.1f} m, on a floor that holds {floor:.1f} m; "
+          f"with gimp_half_size 0.25 on the ground {held:.1f} m")
+    assert abs(ground / floor - 1) < 0.05 and abs(moved / floor - 1) < 0.05, (ground, moved, floor)
+
+
 if __name__ == "__main__":
     if not os.path.exists(SOLVER):
         print("mpm_solver is not built")
@@ -241,3 +266,4 @@ if __name__ == "__main__":
         test_coarse_cells(scratch)
         test_group_without_points(scratch)
         test_terrain(scratch)
+        test_firm_ground(scratch)
