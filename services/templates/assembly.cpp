@@ -441,7 +441,7 @@ Json runout_of(const Context& all) {
                           {end + 0.4 * h, 0.0},
                           {right, 0.0}};
     mpm["fill_points"] = 3;
-    mpm["gimp_half_size"] = 0.08;  // else the points of firm ground hold what slides on it
+    mpm["gimp_half_size"] = 0.08;  // 1 / (4 fill_points): else firm ground holds what slides on it
     if (!all.with_fem) mpm["fill_stress"] = "overburden";
     mpm["overlap_correction"] = {{"rate", 5}};
     mpm["softening_length"] = rounded(H / 15.0);
