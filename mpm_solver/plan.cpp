@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/scene/beds.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/measure/overlap.hpp"
@@ -87,6 +88,23 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
                     mpm.time_step ? "/mpm/time_step" : "/mpm/cfl"});
 }
 
+void plan_beds(const scene::Scene& scene, Plan& plan) {
+    std::string tops;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const auto rows = scene::rows_below_bed(scene, m);
+        if (!rows) continue;
+        const scene::Mpm& mpm = *scene.mpm;
+        tops += (tops.empty() ? "" : ", ") + scene.materials[m].name + " at " +
+                text_of(mpm.floor.level + *rows * mpm.cell_size) + " m";
+    }
+    plan.push_back({"domains that end at the top of firm soil",
+                    tops.empty() ? Use::left_out : Use::on,
+                    tops.empty() ? "no firm soil lies under weaker soil with a level top on a line "
+                                   "of the grid"
+                                 : tops + ": it does not hold what slides on it",
+                    "/section/regions"});
+}
+
 /// One line for all soils: that of the first one that opens, if any does.
 void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
     std::optional<process::PlanLine> line;
@@ -155,6 +173,7 @@ Plan plan(const scene::Scene& scene) {
     Plan plan;
     plan_laws(scene, plan);
     plan_scheme(mpm, plan);
+    plan_beds(scene, plan);
     plan_gap_closure(scene, plan);
     plan_boundaries(mpm, plan);
     plan_end(mpm, plan);

@@ -37,7 +37,7 @@ PointArrays arrays_of(Body& body) {
             .cell = p.cell.data()};
 }
 
-GridArrays arrays_of(Grid& grid) {
+GridArrays arrays_of(Grid& grid, const WallRows& walls_y) {
     return {.mass = grid.mass.data(),
             .motion = grid.motion.data()->data(),
             .rows = grid.rows,
@@ -50,13 +50,13 @@ GridArrays arrays_of(Grid& grid) {
             .low_y = grid.low.y(),
             .high_y = grid.high.y(),
             .walls_x = grid.walls_x,
-            .walls_y = grid.walls_y};
+            .walls_y = walls_y};
 }
 
 ZoneWork work_of(Body& body, std::size_t z, double dt) {
     const Zone& zone = body.zones[z];
     return {.points = arrays_of(body),
-            .grid = arrays_of(body.grid),
+            .grid = arrays_of(body.grid, zone.walls_y),
             .cells = body.averages[z].empty() ? nullptr : body.averages[z].data(),
             .law = std::visit([](const auto& law) -> const void* { return &law; }, zone.lanes),
             .moduli = materials::make_moduli(zone.elasticity),

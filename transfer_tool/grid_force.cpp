@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/grid/kernel.hpp"
+#include "core/scene/beds.hpp"
 #include "transfer_tool/soils.hpp"
 
 namespace breach::transfer {
@@ -24,6 +25,11 @@ class GridOnce {
           gravity_(scene.gravity),
           soils_(scene::soils_of(scene).size()) {
         columns_ = std::lround((mpm_.domain_x[1] - mpm_.domain_x[0]) / mpm_.cell_size);
+        for (const scene::Soil& soil : scene::soils_of(scene)) {
+            walls_of_soil_.push_back({.low = 0});
+            if (const auto rows = scene::rows_below_bed(scene, soil.material))
+                walls_of_soil_.back().high = *rows;
+        }
     }
 
     void add(const Points& points) {
@@ -56,7 +62,8 @@ class GridOnce {
         const double h = mpm_.cell_size;
         const auto x = kernel((s.position[p].x() - mpm_.domain_x[0]) / h,
                               {.low = 0, .high = static_cast<std::int32_t>(columns_)});
-        const auto y = kernel((s.position[p].y() - mpm_.floor.level) / h, {.low = 0});
+        const auto y =
+            kernel((s.position[p].y() - mpm_.floor.level) / h, walls_of_soil_[s.region[p]]);
         const mechanics::Voigt& sigma = s.stress[p];
         const bool effective =
             !s.stress_of_regions.empty() &&
@@ -97,6 +104,7 @@ class GridOnce {
     const scene::Mpm& mpm_;
     double gravity_;
     std::size_t soils_;
+    std::vector<grid::WallRows> walls_of_soil_;  ///< upright, from the floor's row
     long columns_ = 0;
     std::map<long, Node> nodes_;
 };

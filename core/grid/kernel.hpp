@@ -23,6 +23,7 @@ struct Stencil {
 };
 
 /// Node rows that carry a wall; a domain does not reach through them. Open ends lie out of reach.
+/// For one soil, a row can be the end of its bed: points that have come beyond it are free of it.
 struct WallRows {
     std::int32_t low = std::numeric_limits<std::int32_t>::min();
     std::int32_t high = std::numeric_limits<std::int32_t>::max();
@@ -45,8 +46,10 @@ struct NearestRow {
     [[gnu::always_inline]] NearestRow(const Real& xi, const WallRows& walls)
         : row(nearest_whole(xi)),
           d(xi - row),
-          low_wall(row <= Real(walls.low)),
-          high_wall(row >= Real(walls.high)) {}
+          low_wall((row >= Real(walls.low)) & (row <= Real(walls.low)) & (d >= Real(-beside))),
+          high_wall((row >= Real(walls.high)) & (row <= Real(walls.high)) & (d <= Real(beside))) {}
+
+    static constexpr double beside = 1e-6;  ///< a point on a wall, up to round-off
 };
 
 /// The hat functions about the nearest row, exact for a domain that ends there: what all kernels

@@ -277,6 +277,25 @@ void doubt_toe(Doubter& d) {
     }
 }
 
+/// Where there are zones of friction, what lies between them and beside them is smooth: hardly meant.
+void doubt_floor(Doubter& d) {
+    const Mpm& mpm = *d.scene.mpm;
+    const char* pointer = "/mpm/floor/friction";
+    if (mpm.floor.friction.empty() || !d.reader.sound(pointer)) return;
+    double covered = mpm.domain_x[0];
+    const auto leave_out = [&](double until) {
+        if (until - covered <= mpm.cell_size) return;
+        d.doubt(pointer, "no zone covers x = " + plain_number(covered) + " to " + metres(until) +
+                             ": the floor and the terrain are smooth there; give a zone, of "
+                             "coefficient 0 if that is meant");
+    };
+    for (const FrictionZone& zone : mpm.floor.friction) {
+        leave_out(zone.from);
+        covered = std::max(covered, zone.to);
+    }
+    leave_out(mpm.domain_x[1]);
+}
+
 }  // namespace
 
 void doubt_together(Reader& reader, Scene& scene) {
@@ -299,6 +318,7 @@ void doubt_together(Reader& reader, Scene& scene) {
         doubt_tables(d);
         doubt_sizes(d);
         if (scene.mpm) doubt_toe(d);
+        if (scene.mpm) doubt_floor(d);
     }
     for (const fault::Flag& doubt : scene.warnings) reader.explain(doubt);
 }

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <variant>
 
+#include "core/scene/beds.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::scene {
@@ -330,6 +331,58 @@ void judge_bands(const Scene& scene, Resolved& resolved) {
     }
 }
 
+/// Cells that divide the height up to a bed: just below the scene's own size, and just above it.
+std::string cells_dividing(const Mpm& mpm, double height) {
+    const double rows = height / mpm.cell_size;
+    std::string sizes = words::text_of(height / std::ceil(rows)) + " m";
+    if (rows > 1.0) sizes += " or " + words::text_of(height / std::floor(rows)) + " m";
+    return sizes;
+}
+
+struct CutBed {
+    std::string how;
+    std::string remedy;
+};
+
+/// How a bed shares cells with what lies on it; nothing where its points' domains end at its top.
+std::optional<CutBed> cut_of(const Scene& scene, const Bed& bed) {
+    const Mpm& mpm = *scene.mpm;
+    if (!bed.level)
+        return CutBed{
+            "slopes through the cells",
+            "where it is to stay as it is, leave it out and give its top as /mpm/terrain"};
+    if (rows_below_bed(scene, bed.material)) return std::nullopt;
+    const double rows = cells_up_to(mpm, *bed.level);
+    const std::string at = "lies at " + text_of(*bed.level) + " m, ";
+    if (std::abs(rows - std::nearbyint(rows)) <= line_tolerance)
+        return CutBed{at + "but soil of the same material lies above it",
+                      "give it a material of its own"};
+    return CutBed{at + text_of(rows - std::floor(rows)) + " of a cell above a line of the grid",
+                  "take cells that divide the " + text_of(*bed.level - mpm.floor.level) +
+                      " m from the floor up to it (" +
+                      cells_dividing(mpm, *bed.level - mpm.floor.level) +
+                      "; the domain's lengths are to be whole numbers of them), or move the floor "
+                      "and the domain"};
+}
+
+/// Soil that is to move on firm soil that is not.
+void judge_beds(const Scene& scene, Resolved& resolved) {
+    for (const Bed& bed : beds_of(scene)) {
+        const Region& below = scene.section.regions[bed.region];
+        const Region& above = scene.section.regions[bed.above];
+        if (is_mobile(below, *scene.mpm) || !is_mobile(above, *scene.mpm)) continue;
+        const auto cut = cut_of(scene, bed);
+        if (!cut) continue;
+        resolved.flags.push_back({"shared_cells", fault::Severity::warning,
+                                  "the top of firm region \"" + below.name + "\" " + cut->how +
+                                      ": in the cells that it shares with \"" + above.name +
+                                      "\" it holds what slides on it, and the runout is too short "
+                                      "(10 to 30 % were seen); " +
+                                      cut->remedy,
+                                  "/mpm/cell_size"});
+    }
+}
+
 double measured_thickness(const Polygon& polygon, const std::vector<Polygon>& parts) {
     const Shape shape = shape_of(parts);
     const std::vector<Vec2> places = places_inside(polygon);
@@ -441,6 +494,7 @@ Resolved resolution_of(const Scene& scene) {
     if (!std::ranges::all_of(scene.section.regions, known)) return resolved;
     if (scene.mpm) judge_cells(scene, resolved);
     if (scene.mpm) judge_bands(scene, resolved);
+    if (scene.mpm) judge_beds(scene, resolved);
     for (const Across& each : elements_across(scene)) {
         if (each.number >= elements_wanted) continue;
         resolved.flags.push_back(

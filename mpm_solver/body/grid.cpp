@@ -67,7 +67,7 @@ Grid make_grid(const scene::Mpm& mpm) {
     grid.high = {mpm.domain_x[1] + round_off, mpm.domain_y[1] + round_off};
     if (mpm.left != scene::Wall::open) grid.walls_x.low = 1;
     if (mpm.right != scene::Wall::open) grid.walls_x.high = cells_x + 1;
-    grid.walls_y.low = 1;
+    grid.walls_y.low = floor_row;
 
     const auto n = static_cast<std::size_t>(grid.nodes());
     grid.conditions.assign(n, 0);
@@ -76,7 +76,7 @@ Grid make_grid(const scene::Mpm& mpm) {
     const std::uint8_t on_floor =
         slips ? condition::floor : std::uint8_t{condition::hold_x | condition::hold_y};
     for (std::int32_t i = 0; i < grid.columns; ++i) {
-        grid.conditions[i * grid.rows + 1] |= on_floor;
+        grid.conditions[i * grid.rows + floor_row] |= on_floor;
         grid.friction[i] = friction_at(mpm.floor.friction, grid.origin.x() + i * h, 1e-6 * h);
     }
     for (std::int32_t j = 0; j < grid.rows; ++j) {

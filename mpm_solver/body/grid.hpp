@@ -24,6 +24,9 @@ constexpr std::uint8_t floor = 4;    ///< unilateral in y, Coulomb friction in x
 constexpr std::uint8_t terrain = 8;  ///< a Contact
 }  // namespace condition
 
+/// Row of the floor's nodes: one ghost row lies below it.
+constexpr std::int32_t floor_row = 1;
+
 /// Nodes are stored column by column (y fastest), with one ghost row around the domain.
 struct Grid {
     double h;      ///< edge of a cell [m]

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/scene/beds.hpp"
 #include "mpm_solver/body/choose.hpp"
+#include "mpm_solver/body/grid.hpp"
 
 namespace breach::mpm {
 
@@ -38,6 +40,12 @@ double largest_specific_volume(const Points& points, const Zone& zone) {
     return largest;
 }
 
+WallRows walls_of(const scene::Scene& scene, std::size_t material) {
+    WallRows walls{.low = floor_row};
+    if (const auto rows = scene::rows_below_bed(scene, material)) walls.high = floor_row + *rows;
+    return walls;
+}
+
 Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t material,
              std::size_t begin, std::size_t end) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
@@ -51,6 +59,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
               .volume_rule = decide(mpm, {soil.name, law, soil.viscosity}).volume_rule.value,
               .viscosity = soil.viscosity,
               .nonlocal_length = soil.nonlocal_length.value_or(0.0),
+              .walls_y = walls_of(scene, material),
               .begin = begin,
               .end = end};
     zone.largest_specific_volume = largest_specific_volume(points, zone);

@@ -83,6 +83,7 @@ struct Zone {
     VolumeRule volume_rule;
     double viscosity;        ///< eta [Pa s]
     double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
+    WallRows walls_y;        ///< the floor's, and the top of a bed (core/scene/beds.hpp)
     std::size_t begin;
     std::size_t end;
     double largest_specific_volume = 0.0;  ///< max V / m, for the wave speed [m3/kg]

@@ -434,14 +434,13 @@ Json runout_of(const Context& all) {
     mpm["domain_y"] = {floor, above * h};
     const double end = depth > 0.0 ? nanometres(values["foundation_extent"]) : 0.0;
     mpm["floor"] = {{"level", floor},
-                    {"friction", {{{"from", end}, {"to", right}, {"coefficient", 0.5}}}}};
+                    {"friction", {{{"from", left}, {"to", right}, {"coefficient", 0.5}}}}};
     if (depth > 0.0)
         mpm["terrain"] = {{left - h, nanometres(-depth)},
                           {end + 0.2 * h, nanometres(-depth)},
                           {end + 0.4 * h, 0.0},
                           {right, 0.0}};
     mpm["fill_points"] = 3;
-    mpm["gimp_half_size"] = 0.08;  // 1 / (4 fill_points): else firm ground holds what slides on it
     if (!all.with_fem) mpm["fill_stress"] = "overburden";
     mpm["overlap_correction"] = {{"rate", 5}};
     mpm["softening_length"] = rounded(H / 15.0);

@@ -58,7 +58,7 @@ floors = {
 doors = {"services/import": ["services/import/import"],
          "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question"]}
 # units that are one thing in several files: a door that its own parts include
-one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|reader|reading|plausibility|resolution|words)$"),
+one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|beds|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {

@@ -45,6 +45,33 @@ TEST(Kernel, BSplineSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
     expect_complete(BSplineKernel{});
 }
 
+/// The top of a bed is a wall to the soil of the bed alone, and only while it lies below it.
+template <class Kernel>
+void expect_end_of_a_bed(const Kernel& kernel) {
+    const WallRows bed{.low = 1, .high = 4};
+    for (int k = 1; k < 1000; ++k) {
+        const double d = k / 1000.0;
+        const auto below = kernel(4.0 - d, bed);
+        for (int i = 0; i < 3; ++i) {
+            if (below.first + i > bed.high) {
+                EXPECT_EQ(below.N[i], 0.0) << d;
+            }
+        }
+        const auto above = kernel(4.0 + d, bed);
+        const auto free = kernel(4.0 + d, WallRows{.low = 1});
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_EQ(above.N[i], free.N[i]) << d;
+            EXPECT_EQ(above.dN[i], free.dN[i]) << d;
+        }
+    }
+}
+
+TEST(Kernel, DomainsEndAtTheTopOfABedAndAreFreeBeyondIt) {
+    for (const double l : {0.1, 0.25, 0.5}) expect_end_of_a_bed(GimpKernel(l));
+    expect_end_of_a_bed(BSplineKernel{});
+    expect_end_of_a_bed(LinearKernel{});
+}
+
 TEST(Kernel, BSplineAndItsSlopeAreContinuousUpToTheWalls) {
     const BSplineKernel kernel;
     const auto at = [&](double xi, int node, auto part) {

@@ -181,6 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"/mpm/runout/toe", "[-60, 0]", Caught::refused, "x points downstream"},
         Slip{"/mpm/runout/toe", "[45, 0]", Caught::flagged, "before anything has moved"},
         Slip{"/mpm/runout/toe", "[160, 0]", Caught::flagged, "far beyond the soil"},
+        Slip{"/mpm/floor/friction", R"([{"from": 60, "to": 200, "coefficient": 0.4}])",
+             Caught::flagged, "no zone covers x = 0 to 60 m"},
         Slip{"/mpm/time_step", "40", Caught::refused, "longer than the duration of 30 s"},
         Slip{"/section/element_size", "0.01", Caught::flagged, "sizes are in m"}));
 

@@ -1,0 +1,114 @@
+#include "core/scene/beds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace breach::scene {
+
+namespace {
+
+constexpr double level_tolerance = 1e-6;  // [m]
+constexpr double usual_gravity = 9.81;    // for a ratio only
+
+/// Shear strength that is left after softening, at a depth below the top of dry soil [Pa];
+/// infinite: it cannot fail. Water is left out: this tells firm from weak, no more.
+double residual_strength(const Material& material, const materials::Place& place) {
+    if (material.strength) {
+        const auto of = materials::strength_of_point(*material.strength, place,
+                                                     materials::Liquefaction::before);
+        return of.c_residual + place.sigma_v0 * of.tan_phi_residual;
+    }
+    const auto limit = materials::limit_strength(material.law);
+    if (!limit) return std::numeric_limits<double>::infinity();
+    const materials::Softening* softening = materials::softening(material.law);
+    if (!softening) return limit->c + place.sigma_v0 * limit->tan_phi;
+    return softening->c_residual + place.sigma_v0 * softening->tan_phi_residual;
+}
+
+bool is_firm_under(const Scene& scene, const Soil& bed, const Soil& cover, const Vec2& place) {
+    const Material& below = scene.materials[bed.material];
+    const Material& above = scene.materials[cover.material];
+    const double top = bounding_box(scene.section.regions[cover.region].polygon).high.y();
+    const double depth = std::max(top - place.y(), 0.0);
+    const materials::Place where{depth, place.y(), above.density * usual_gravity * depth};
+    const double weak = residual_strength(above, where);
+    return std::isfinite(weak) && residual_strength(below, where) >= firm_strength_ratio * weak;
+}
+
+bool has_points(const Scene& scene, const Soil& soil) {
+    return !scene.section.regions[soil.region].polygon.empty() &&
+           materials::is_for_particles(scene.materials[soil.material].law);
+}
+
+/// A region that lies on this edge of a soil and is weak against it.
+std::optional<std::size_t> weak_cover(const Scene& scene, const std::vector<Soil>& soils,
+                                      const Soil& bed, const Vec2& from, const Vec2& to) {
+    constexpr int samples = 16;
+    const Vec2 along = to - from;
+    const Vec2 out = Vec2{along.y(), -along.x()}.normalized();
+    for (int k = 0; k < samples; ++k) {
+        const Vec2 place = from + (k + 0.5) / samples * along + 1e-3 * out;
+        for (const Soil& cover : soils) {
+            if (cover.region == bed.region || !has_points(scene, cover)) continue;
+            if (!contains(scene.section.regions[cover.region].polygon, place)) continue;
+            if (is_firm_under(scene, bed, cover, place)) return cover.region;
+        }
+    }
+    return std::nullopt;
+}
+
+bool is_same_top(const Bed& a, const Bed& b) {
+    if (a.region != b.region || a.material != b.material ||
+        a.level.has_value() != b.level.has_value())
+        return false;
+    return !a.level || std::abs(*a.level - *b.level) <= level_tolerance;
+}
+
+}  // namespace
+
+std::vector<Bed> beds_of(const Scene& scene) {
+    const std::vector<Soil> soils = soils_of(scene);
+    std::vector<Bed> beds;
+    for (const Soil& soil : soils) {
+        if (!has_points(scene, soil)) continue;
+        const Polygon& polygon = scene.section.regions[soil.region].polygon;
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const Vec2& from = polygon[k];
+            const Vec2& to = polygon[(k + 1) % polygon.size()];
+            const Vec2 along = to - from;  // counter-clockwise: tops run to the left
+            if (along.x() >= 0.0 || std::abs(along.y()) > -along.x()) continue;
+            const auto cover = weak_cover(scene, soils, soil, from, to);
+            if (!cover) continue;
+            Bed bed{soil.region, soil.material, *cover, std::nullopt};
+            if (std::abs(along.y()) <= level_tolerance) bed.level = from.y();
+            const auto same = [&](const Bed& known) { return is_same_top(known, bed); };
+            if (std::ranges::none_of(beds, same)) beds.push_back(bed);
+        }
+    }
+    return beds;
+}
+
+double cells_up_to(const Mpm& mpm, double level) {
+    return (level - mpm.floor.level) / mpm.cell_size;
+}
+
+std::optional<std::int32_t> rows_below_bed(const Scene& scene, std::size_t material) {
+    double highest = std::numeric_limits<double>::lowest();
+    for (const Soil& soil : soils_of(scene)) {
+        const Polygon& polygon = scene.section.regions[soil.region].polygon;
+        if (soil.material == material && !polygon.empty())
+            highest = std::max(highest, bounding_box(polygon).high.y());
+    }
+    for (const Bed& bed : beds_of(scene)) {
+        if (bed.material != material || !bed.level) continue;
+        if (*bed.level < highest - level_tolerance) continue;
+        const double rows = cells_up_to(mpm_of(scene), *bed.level);
+        const double line = std::nearbyint(rows);
+        if (line >= 1.0 && std::abs(rows - line) <= line_tolerance)
+            return static_cast<std::int32_t>(line);
+    }
+    return std::nullopt;
+}
+
+}  // namespace breach::scene
