@@ -36,23 +36,40 @@ bool is_firm_under(const Scene& scene, const Soil& bed, const Soil& cover, const
     return std::isfinite(weak) && residual_strength(below, where) >= firm_strength_ratio * weak;
 }
 
-bool has_points(const Scene& scene, const Soil& soil) {
-    return !scene.section.regions[soil.region].polygon.empty() &&
-           materials::is_for_particles(scene.materials[soil.material].law);
+/// A soil that points of a drawn region can be, and where.
+struct Drawn {
+    Soil soil;
+    const Polygon& polygon;
+    Box box;
+};
+
+std::vector<Drawn> drawn_soils(const Scene& scene) {
+    std::vector<Drawn> drawn;
+    for (const Soil& soil : soils_of(scene)) {
+        const Polygon& polygon = scene.section.regions[soil.region].polygon;
+        if (polygon.empty() || !materials::is_for_particles(scene.materials[soil.material].law))
+            continue;
+        drawn.push_back({soil, polygon, bounding_box(polygon)});
+    }
+    return drawn;
+}
+
+bool lies_in(const Vec2& place, const Drawn& soil) {
+    return (place.array() >= soil.box.low.array()).all() &&
+           (place.array() <= soil.box.high.array()).all() && contains(soil.polygon, place);
 }
 
 /// A region that lies on this edge of a soil and is weak against it.
-std::optional<std::size_t> weak_cover(const Scene& scene, const std::vector<Soil>& soils,
+std::optional<std::size_t> weak_cover(const Scene& scene, const std::vector<Drawn>& drawn,
                                       const Soil& bed, const Vec2& from, const Vec2& to) {
     constexpr int samples = 16;
     const Vec2 along = to - from;
     const Vec2 out = Vec2{along.y(), -along.x()}.normalized();
     for (int k = 0; k < samples; ++k) {
         const Vec2 place = from + (k + 0.5) / samples * along + 1e-3 * out;
-        for (const Soil& cover : soils) {
-            if (cover.region == bed.region || !has_points(scene, cover)) continue;
-            if (!contains(scene.section.regions[cover.region].polygon, place)) continue;
-            if (is_firm_under(scene, bed, cover, place)) return cover.region;
+        for (const Drawn& cover : drawn) {
+            if (cover.soil.region == bed.region || !lies_in(place, cover)) continue;
+            if (is_firm_under(scene, bed, cover.soil, place)) return cover.soil.region;
         }
     }
     return std::nullopt;
@@ -68,17 +85,15 @@ bool is_same_top(const Bed& a, const Bed& b) {
 }  // namespace
 
 std::vector<Bed> beds_of(const Scene& scene) {
-    const std::vector<Soil> soils = soils_of(scene);
+    const std::vector<Drawn> drawn = drawn_soils(scene);
     std::vector<Bed> beds;
-    for (const Soil& soil : soils) {
-        if (!has_points(scene, soil)) continue;
-        const Polygon& polygon = scene.section.regions[soil.region].polygon;
+    for (const auto& [soil, polygon, box] : drawn) {
         for (std::size_t k = 0; k < polygon.size(); ++k) {
             const Vec2& from = polygon[k];
             const Vec2& to = polygon[(k + 1) % polygon.size()];
             const Vec2 along = to - from;  // counter-clockwise: tops run to the left
             if (along.x() >= 0.0 || std::abs(along.y()) > -along.x()) continue;
-            const auto cover = weak_cover(scene, soils, soil, from, to);
+            const auto cover = weak_cover(scene, drawn, soil, from, to);
             if (!cover) continue;
             Bed bed{soil.region, soil.material, *cover, std::nullopt};
             if (std::abs(along.y()) <= level_tolerance) bed.level = from.y();
@@ -95,11 +110,8 @@ double cells_up_to(const Mpm& mpm, double level) {
 
 std::optional<std::int32_t> rows_below_bed(const Scene& scene, std::size_t material) {
     double highest = std::numeric_limits<double>::lowest();
-    for (const Soil& soil : soils_of(scene)) {
-        const Polygon& polygon = scene.section.regions[soil.region].polygon;
-        if (soil.material == material && !polygon.empty())
-            highest = std::max(highest, bounding_box(polygon).high.y());
-    }
+    for (const Drawn& each : drawn_soils(scene))
+        if (each.soil.material == material) highest = std::max(highest, each.box.high.y());
     for (const Bed& bed : beds_of(scene)) {
         if (bed.material != material || !bed.level) continue;
         if (*bed.level < highest - level_tolerance) continue;

@@ -1,0 +1,42 @@
+"""After a transfer firm ground lets go of what slides on it, too: nine points per cell run as far as four, whose domains end at
+the ground's top by themselves, and on cells that share the top no run is started unwarned."""
+import json
+import pathlib
+import tempfile
+
+from phases import check, result, root, run
+
+SLOPE = root / "workflows/scenes/slope.json"
+# Weak soil that does not soften: no band hangs on the cells.
+WEAK = ["--set", '/materials/slope_soil/law={"type":"mohr_coulomb","E_MPa":20,"nu":0.3,"c_kPa":5,"phi_deg":14}']
+MOMENT = 0.8  # s
+
+
+def runout(folder, snapshot, points, shift):
+    name = f"{points}_{shift[0]}"
+    cells = [*WEAK, "--set", "/mpm/cell_size=1.25", "--set", f"/transfer/points_per_cell={points}", "--set", f"/transfer/point_shift={shift}"]
+    moved = run("transfer_tool", SLOPE, folder / f"points_{name}", "--input", snapshot, *cells)
+    assert moved.returncode == 0, moved.stderr
+    ended = run("mpm_solver", SLOPE, folder / f"flow_{name}", "--input", folder / f"points_{name}" / "particles.vtkhdf", *cells)
+    assert ended.returncode == 0, ended.stderr
+    return result(folder / f"flow_{name}")["runout_beyond_toe"]
+
+
+def main(folder):
+    shaken = run("fem_solver", SLOPE, folder / "fem", *WEAK, "--set", f"/fem/snapshot_times=[{MOMENT}]")
+    assert shaken.returncode == 0, shaken.stderr
+    snapshot = folder / "fem" / f"snapshot_{MOMENT:.6f}.vtkhdf"
+    four = runout(folder, snapshot, 4, [0, 0])
+    for shift in ([0, 0], [0.3, 0.3], [0.6, 0.8]):
+        nine = runout(folder, snapshot, 9, shift)
+        check(f"nine points moved by {shift} run {nine:.1f} m, four {four:.1f} m", abs(nine / four - 1) < 0.15)
+
+    plan = run("mpm_solver", SLOPE, folder / "plan", "--plan")
+    check("the plan names the ground", "base_soil at 0 m" in plan.stdout + plan.stderr, plan.stdout + plan.stderr)
+    shared = run("mpm_solver", SLOPE, folder / "shared", "--check", "--set", "/mpm/cell_size=0.8")
+    said = shared.stdout + shared.stderr
+    check("a top within a cell is told with cells that fit", "0.25 of a cell above a line" in said and "0.714286 m or 0.833333 m" in said, said)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    main(pathlib.Path(scratch))
