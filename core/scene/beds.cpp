@@ -26,16 +26,6 @@ double residual_strength(const Material& material, const materials::Place& place
     return softening->c_residual + place.sigma_v0 * softening->tan_phi_residual;
 }
 
-bool is_firm_under(const Scene& scene, const Soil& bed, const Soil& cover, const Vec2& place) {
-    const Material& below = scene.materials[bed.material];
-    const Material& above = scene.materials[cover.material];
-    const double top = bounding_box(scene.section.regions[cover.region].polygon).high.y();
-    const double depth = std::max(top - place.y(), 0.0);
-    const materials::Place where{depth, place.y(), above.density * usual_gravity * depth};
-    const double weak = residual_strength(above, where);
-    return std::isfinite(weak) && residual_strength(below, where) >= firm_strength_ratio * weak;
-}
-
 /// A soil that points of a drawn region can be, and where.
 struct Drawn {
     Soil soil;
@@ -59,6 +49,15 @@ bool lies_in(const Vec2& place, const Drawn& soil) {
            (place.array() <= soil.box.high.array()).all() && contains(soil.polygon, place);
 }
 
+bool is_firm_under(const Scene& scene, const Soil& bed, const Drawn& cover, const Vec2& place) {
+    const Material& below = scene.materials[bed.material];
+    const Material& above = scene.materials[cover.soil.material];
+    const double depth = std::max(cover.box.high.y() - place.y(), 0.0);
+    const materials::Place where{depth, place.y(), above.density * usual_gravity * depth};
+    const double weak = residual_strength(above, where);
+    return std::isfinite(weak) && residual_strength(below, where) >= firm_strength_ratio * weak;
+}
+
 /// A region that lies on this edge of a soil and is weak against it.
 std::optional<std::size_t> weak_cover(const Scene& scene, const std::vector<Drawn>& drawn,
                                       const Soil& bed, const Vec2& from, const Vec2& to) {
@@ -69,7 +68,7 @@ std::optional<std::size_t> weak_cover(const Scene& scene, const std::vector<Draw
         const Vec2 place = from + (k + 0.5) / samples * along + 1e-3 * out;
         for (const Drawn& cover : drawn) {
             if (cover.soil.region == bed.region || !lies_in(place, cover)) continue;
-            if (is_firm_under(scene, bed, cover.soil, place)) return cover.soil.region;
+            if (is_firm_under(scene, bed, cover, place)) return cover.soil.region;
         }
     }
     return std::nullopt;
@@ -108,6 +107,14 @@ double cells_up_to(const Mpm& mpm, double level) {
     return (level - mpm.floor.level) / mpm.cell_size;
 }
 
+std::optional<std::int32_t> line_at(const Mpm& mpm, double level) {
+    constexpr double tolerance = 0.01;  // [cells]
+    const double rows = cells_up_to(mpm, level);
+    const double line = std::nearbyint(rows);
+    if (std::abs(rows - line) > tolerance) return std::nullopt;
+    return static_cast<std::int32_t>(line);
+}
+
 std::optional<std::int32_t> rows_below_bed(const Scene& scene, std::size_t material) {
     double highest = std::numeric_limits<double>::lowest();
     for (const Drawn& each : drawn_soils(scene))
@@ -115,10 +122,8 @@ std::optional<std::int32_t> rows_below_bed(const Scene& scene, std::size_t mater
     for (const Bed& bed : beds_of(scene)) {
         if (bed.material != material || !bed.level) continue;
         if (*bed.level < highest - level_tolerance) continue;
-        const double rows = cells_up_to(mpm_of(scene), *bed.level);
-        const double line = std::nearbyint(rows);
-        if (line >= 1.0 && std::abs(rows - line) <= line_tolerance)
-            return static_cast<std::int32_t>(line);
+        const auto line = line_at(mpm_of(scene), *bed.level);
+        if (line && *line >= 1) return line;
     }
     return std::nullopt;
 }

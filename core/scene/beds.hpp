@@ -26,9 +26,10 @@ struct Bed {
 /// to 45 degrees). Regions without a polygon are left out.
 std::vector<Bed> beds_of(const Scene& scene);
 
-/// From the MPM's floor up to a level [cells]; within the tolerance of a whole number it is a line.
+/// From the MPM's floor up to a level [cells].
 double cells_up_to(const Mpm& mpm, double level);
-constexpr double line_tolerance = 0.01;
+/// The line of the grid that a level lies on, to a hundredth of a cell, counted from the floor.
+std::optional<std::int32_t> line_at(const Mpm& mpm, double level);
 
 /// How many rows of cells above the floor a material's points end, when its highest ground is a
 /// level bed and lies on a line of the grid: there their domains can end, too.

@@ -354,7 +354,7 @@ std::optional<CutBed> cut_of(const Scene& scene, const Bed& bed) {
     if (rows_below_bed(scene, bed.material)) return std::nullopt;
     const double rows = cells_up_to(mpm, *bed.level);
     const std::string at = "lies at " + text_of(*bed.level) + " m, ";
-    if (std::abs(rows - std::nearbyint(rows)) <= line_tolerance)
+    if (line_at(mpm, *bed.level))
         return CutBed{at + "but soil of the same material lies above it",
                       "give it a material of its own"};
     return CutBed{at + text_of(rows - std::floor(rows)) + " of a cell above a line of the grid",
