@@ -339,6 +339,17 @@ std::string cells_dividing(const Mpm& mpm, double height) {
     return sizes;
 }
 
+/// A floor below terrain carries nothing: it may lie lower, with lines of the grid through a level.
+std::string floor_with_a_line_at(const Mpm& mpm, double level) {
+    const double h = mpm.cell_size;
+    const double floor = level - h * std::ceil(cells_up_to(mpm, level));
+    const double low = floor - (mpm.floor.level - mpm.domain_y[0]);
+    const double high = low + (mpm.domain_y[1] - mpm.domain_y[0]) + h;
+    return "set /mpm/floor/level to " + words::text_of(floor, 9) + " and /mpm/domain_y to [" +
+           words::text_of(low, 9) + ", " + words::text_of(high, 9) +
+           "], which moves a line of the grid there (the terrain carries the soil, not the floor)";
+}
+
 struct CutBed {
     std::string how;
     std::string remedy;
@@ -357,7 +368,10 @@ std::optional<CutBed> cut_of(const Scene& scene, const Bed& bed) {
     if (line_at(mpm, *bed.level))
         return CutBed{at + "but soil of the same material lies above it",
                       "give it a material of its own"};
-    return CutBed{at + text_of(rows - std::floor(rows)) + " of a cell above a line of the grid",
+    const std::string how =
+        at + text_of(rows - std::floor(rows)) + " of a cell above a line of the grid";
+    if (!mpm.terrain.empty()) return CutBed{how, floor_with_a_line_at(mpm, *bed.level)};
+    return CutBed{how,
                   "take cells that divide the " + text_of(*bed.level - mpm.floor.level) +
                       " m from the floor up to it (" +
                       cells_dividing(mpm, *bed.level - mpm.floor.level) +

@@ -73,7 +73,10 @@ Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
         rungs.push_back({each->size.value_or(std::exp2(-halvings)), *each->value});
     }
     Convergence found = convergence_of(rungs);
-    if (!sized) found.order = found.limit = found.gci = std::nullopt;
+    if (!sized) {
+        found.order = found.limit = found.gci = std::nullopt;
+        found.order_by_noise = std::nullopt;
+    }
     return found;
 }
 
@@ -301,12 +304,17 @@ json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
     return answer;
 }
 
+json as_json(const std::optional<Range>& range) {
+    return range ? json{range->low, range->high} : json();
+}
+
 json as_json(const LadderSummary& ladder, const std::string& name) {
     const Convergence& c = ladder.convergence;
     return {{"name", name},
             {"course", name_of(c.course)},
             {"message", ladder.message},
             {"order", or_null(c.order)},
+            {"order_by_noise", as_json(c.order_by_noise)},
             {"limit", or_null(c.limit)},
             {"gci", or_null(c.gci)},
             {"error_of_finest", or_null(c.error_of_finest)},

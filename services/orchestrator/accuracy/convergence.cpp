@@ -101,8 +101,22 @@ double two_grid_error(double change, double ratio) {
     return factor_of_safety_of_two * std::abs(change) / (ratio - 1.0);
 }
 
+/// The last difference is told apart from noise, so more than a standard error of it is left.
+Range order_by_noise(const Ending& e, double noise) {
+    const std::size_t repeats =
+        std::min({e.coarse.value.count, e.middle.value.count, e.fine.value.count});
+    const double off = noise * std::sqrt(2.0 / static_cast<double>(repeats));
+    const double coarse = std::abs(e.change_coarse);
+    const double fine = std::abs(e.change_fine);
+    const auto order = [&](double change_coarse, double change_fine) {
+        return observed_order(e.ratio_coarse, e.ratio_fine, change_coarse, change_fine);
+    };
+    return {.low = order(coarse - off, fine + off).value_or(0.0),
+            .high = order(coarse + off, fine - off).value_or(highest_order)};
+}
+
 /// What the finest rung may be off, in the unit of the value; order and limit where there are any.
-double judge(const Ending& e, Convergence& found) {
+double judge(const Ending& e, std::optional<double> noise, Convergence& found) {
     if (e.change_coarse * e.change_fine < 0.0) {
         found.course = Course::oscillating;
         const auto [least, most] =
@@ -114,10 +128,13 @@ double judge(const Ending& e, Convergence& found) {
         found.course = Course::not_falling;
         return two_grid_error(e.change_fine, e.ratio_fine);
     }
-    const double left = e.change_fine / std::expm1(*found.order * std::log(e.ratio_fine));
+    const auto left = [&](double order) {
+        return e.change_fine / std::expm1(order * std::log(e.ratio_fine));
+    };
     found.course = Course::monotone;
-    found.limit = e.fine.value.mean + left;
-    return factor_of_safety * std::abs(left);
+    found.limit = e.fine.value.mean + left(*found.order);
+    if (noise) found.order_by_noise = order_by_noise(e, *noise);
+    return factor_of_safety * std::abs(left(std::min(*found.order, highest_formal_order)));
 }
 
 /// Of the finest rung where noise does not tell it from the one before: their difference. Rungs that
@@ -154,7 +171,7 @@ Convergence convergence_of(std::span<const Rung> rungs) {
         found.course = Course::below_noise;
         error = hidden_error(ending, *noise);
     } else if (rungs.size() >= 3) {
-        error = judge({ending.front(), middle, fine}, found);
+        error = judge({ending.front(), middle, fine}, noise, found);
     }
     if (fine.value.mean == 0.0) return found;
     found.error_of_finest = error / std::abs(fine.value.mean);

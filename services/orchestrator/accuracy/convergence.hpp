@@ -17,6 +17,15 @@ struct Rung {
     Repeats value;
 };
 
+struct Range {
+    double low;
+    double high;
+};
+
+/// No scheme here has a higher one: rungs that fall faster do so by chance, or because the coarsest is
+/// far too coarse.
+constexpr double highest_formal_order = 2.0;
+
 /// How the three finest rungs of a ladder run; of two, whether they differ.
 enum class Course {
     too_few,      ///< fewer than three have a value, and two differ by more than the noise
@@ -30,9 +39,13 @@ std::string_view name_of(Course course);
 struct Convergence {
     Course course = Course::too_few;
     std::optional<double> order;  ///< p of value = limit + C size^p
+    /// What the order could be as well, the two differences of the means being off by a standard
+    /// error each: from 0, which is no limit, to 20. Nothing: no rung was repeated
+    std::optional<Range> order_by_noise;
     std::optional<double> limit;  ///< Richardson's
     /// Roache's grid convergence index of the finest rung, with his factor of safety 1.25 for three
-    /// grids; relative to its value
+    /// grids; relative to its value. An order above `highest_formal_order` is not relied on: the
+    /// index goes by that one
     std::optional<double> gci;
     /// What the finest rung may be off, relative to its value. monotone: the index; oscillating: half
     /// of the range of the three finest (Stern et al. 2001); below_noise: the last difference, and

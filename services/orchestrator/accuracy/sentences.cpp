@@ -32,6 +32,16 @@ std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& p
                : "";
 }
 
+/// Where the noise leaves the order open: what else it could be, and what would tell it.
+std::string order_in_words(const Convergence& convergence) {
+    std::string words = "order " + shown(*convergence.order, "%.2g");
+    if (!convergence.order_by_noise) return words;
+    const auto [low, high] = *convergence.order_by_noise;
+    if (high <= 2.0 * low) return words;
+    return words + " (by the noise anything from " + shown(low, "%.2g") + " to " +
+           shown(high, "%.2g") + "; rungs farther apart, or more draws, would tell it)";
+}
+
 std::string setting_in_words(const AccuracyTable& table, const AccuracyRow& row) {
     const Ladder& ladder = table.plan.ladders[row.setting.ladder];
     std::string words = ladder.name + ":";
@@ -143,7 +153,7 @@ std::string course_in_words(const Convergence& convergence, const AccuracyPlan& 
                     "given (\"sizes\"): no order";
                 break;
             }
-            words = "order " + shown(*convergence.order, "%.2g") + ", limit " +
+            words = order_in_words(convergence) + ", limit " +
                     with_unit(*convergence.limit, plan.quantity);
             if (convergence.gci)
                 words += ", grid convergence index of the finest " + percent(*convergence.gci);

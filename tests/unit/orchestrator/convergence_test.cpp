@@ -40,6 +40,32 @@ TEST(Convergence, IndexIsRoachesWithHisFactorForThreeGrids) {
     EXPECT_NEAR(*convergence_of(rungs).gci, 1.25 * (f_2 - f_1) / (3.0 * f_1), 1e-9);
 }
 
+TEST(Convergence, AnOrderThatNoSchemeHasIsNotReliedOn) {
+    const auto rungs = power_law(10.0, 0.01, 4.0, {4.0, 2.0, 1.0});  // 12.56, 10.16, 10.01
+    const Convergence found = convergence_of(rungs);
+    EXPECT_NEAR(*found.order, 4.0, 1e-9);
+    EXPECT_NEAR(*found.limit, 10.0, 1e-9);
+    EXPECT_NEAR(*found.gci, 1.25 * 0.15 / (3.0 * 10.01), 1e-9) << "as of second order";
+}
+
+TEST(Convergence, SaysWhatTheOrderCouldBeByTheNoise) {
+    // Runouts of 25, 36 and 64 points per cell, eight draws each.
+    const std::array near{rung(8, 191.9, 2.16, 8), rung(6.667, 193.6, 2.16, 8),
+                          rung(5, 196.0, 2.16, 8)};
+    const Convergence open = convergence_of(near);
+    ASSERT_TRUE(open.order);
+    EXPECT_EQ(open.order_by_noise->low, 0.0);
+    EXPECT_GT(open.order_by_noise->high, 4.0);
+    // With differences of 4 and 2 that are off by 1 each: 3 to 3 is no order, 5 to 1 is 2.32.
+    const double deviation = 2.0;
+    const Convergence known = convergence_of(std::array{
+        rung(4, 16.0, deviation, 8), rung(2, 12.0, deviation, 8), rung(1, 10.0, deviation, 8)});
+    EXPECT_EQ(known.order_by_noise->low, 0.0);
+    EXPECT_NEAR(known.order_by_noise->high, std::log2(5.0), 1e-9);
+    EXPECT_FALSE(convergence_of(power_law(10.0, 0.4, 2.0, {4.0, 2.0, 1.0})).order_by_noise)
+        << "one run each says nothing of noise";
+}
+
 TEST(Convergence, OnlyTheThreeFinestRungsCount) {
     auto rungs = power_law(10.0, 0.4, 2.0, {4.0, 2.0, 1.0});
     rungs.insert(rungs.begin(), rung(8.0, -100.0));

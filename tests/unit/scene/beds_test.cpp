@@ -90,6 +90,22 @@ TEST(Beds, AnEdgeWithinACellIsToldWithCellsThatMendIt) {
     EXPECT_NE(told.find("1 m or 2 m"), std::string::npos) << told;
 }
 
+TEST(Beds, OnTerrainTheFloorThatMendsIt) {
+    json document = slope_on_ground();
+    document["mpm"]["cell_size"] = 1.5;
+    document["mpm"]["domain_y"] = {-5, 13};
+    document["mpm"]["floor"]["level"] = -5;
+    document["mpm"]["terrain"] = json::parse("[[0,-2],[90,-2]]");
+    const std::string told = shared_cells(document);
+    EXPECT_NE(told.find("/mpm/floor/level to -6 and /mpm/domain_y to [-6, 13.5]"),
+              std::string::npos)
+        << told;
+    document["mpm"]["floor"]["level"] = -6;
+    document["mpm"]["domain_y"] = {-6, 13.5};
+    EXPECT_EQ(shared_cells(document), "");
+    EXPECT_EQ(scene::rows_below_bed(parsed(document), firm), 4);
+}
+
 TEST(Beds, ATopThatSlopesIsTold) {
     json document = slope_on_ground();
     document["section"]["regions"][0]["polygon"] =
