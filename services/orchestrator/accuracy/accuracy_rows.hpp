@@ -16,7 +16,7 @@ namespace breach::orchestrator {
 struct MeanOfDraws {
     std::size_t draws;
     double error;        ///< what it is off at most, in nine of ten times; relative
-    double cpu_seconds;  ///< of all the draws, which share a FEM
+    double cpu_seconds;  ///< of all the draws; those of points share a FEM
 };
 
 struct AccuracyRow {

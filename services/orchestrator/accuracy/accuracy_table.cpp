@@ -151,11 +151,12 @@ void tell_errors_of_runs(AccuracyTable& table) {
     }
 }
 
-/// Draws share the FEM, which no lattice changes.
-MeanOfDraws mean_of(const AccuracyRow& row, double reference, std::size_t draws) {
+/// Draws of the points share the FEM, which no lattice changes.
+MeanOfDraws mean_of(const AccuracyRow& row, Redrawn drawn, double reference, std::size_t draws) {
     const auto& by_phase = row.cost->cpu_seconds_by_phase;
     const auto fem = by_phase.find(phases::fem.program);
-    const double shared = fem == by_phase.end() ? 0.0 : fem->second;
+    const bool shares = drawn == Redrawn::points && fem != by_phase.end();
+    const double shared = shares ? fem->second : 0.0;
     const double own = row.cost->cpu_seconds - shared;
     return {draws, promised_error(*row.bias, *row.value, reference, draws),
             shared + static_cast<double>(draws) * own};
@@ -167,7 +168,7 @@ void tell_means(AccuracyTable& table) {
         const double reference = *table.ladders[row.setting.ladder].reference;
         if (const auto draws =
                 draws_within(table.plan.asked_error, *row.bias, *row.value, reference))
-            row.mean_within_asked = mean_of(row, reference, *draws);
+            row.mean_within_asked = mean_of(row, table.plan.draws_of, reference, *draws);
     }
 }
 
@@ -369,6 +370,7 @@ json as_json(const AccuracyTable& table) {
             {"time", or_null(quantity.time)},
             {"transfer_time", or_null(table.transfer_time)},
             {"draws", table.plan.draws},
+            {"draws_of", name_of(table.plan.draws_of)},
             {"base", table.plan.base},
             {"reference", reference_in_words(table.plan.reference)},
             {"asked_error", table.plan.asked_error},

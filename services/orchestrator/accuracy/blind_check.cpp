@@ -102,6 +102,7 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
                {"overrides", overrides},
                {"draws", wish.repeats * mean_of},
                {"first_draw", plan.draws},
+               {"draws_of", name_of(plan.draws_of)},
                {"stability", false},
                {"resources", of.at("resources")},
                {"priority", of.at("priority")},
@@ -122,7 +123,7 @@ std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data
     const json scene = json::parse(store.scene_of(run).value());
     std::vector<fault::Fault> none;  // the study was checked when it was accepted
     BlindCheck check;
-    check.plan = read_blind_check(study->at("check"), scene, study->at("draws"), none);
+    check.plan = read_blind_check(study->at("check"), scene, draws_of(*study), none);
     const auto measured = measured_variants(store.tasks_of(run), check.plan.quantity, data);
     std::vector<std::string> variants;
     for (const json& each : study->at("variants")) {

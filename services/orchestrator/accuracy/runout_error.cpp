@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t most_studies = 20;  // the newest are asked
 constexpr const char* noise_of_points =
     "noise of the points, not the error of the setting or of a FEM before it";
+constexpr const char* noise_of_fem =
+    "noise of the FEM and of the points, not the error of the setting";
 
 struct Estimate {
     std::optional<double> error;      ///< [m]
@@ -165,6 +167,7 @@ class Scatter {
     Scatter(const Store& store, const std::string& run) {
         const json study = store.study_of(run).value_or(json::object());
         if (study.value("draws", 1) < 2 && study.value("first_draw", 0) == 0) return;
+        if (redrawn_named(study.value("draws_of", "")) == Redrawn::fem) noise_ = noise_of_fem;
         for (const json& each : study.at("variants"))
             repeated_.emplace(each.at("name"), repeated_variant(each));
         for (const ResultRow& row : store.results(run)) {
@@ -177,9 +180,8 @@ class Scatter {
     std::optional<Estimate> estimate(const ResultRow& row) const {
         const auto found = runouts_.find(place_of(row));
         if (found == runouts_.end() || found->second.size() < 2) return std::nullopt;
-        return Estimate{
-            repeats_of(found->second).deviation,
-            "scatter of " + std::to_string(found->second.size()) + " draws: " + noise_of_points};
+        return Estimate{repeats_of(found->second).deviation,
+                        "scatter of " + std::to_string(found->second.size()) + " draws: " + noise_};
     }
 
     /// What the scatter leaves of the mean of a place's draws.
@@ -189,7 +191,7 @@ class Scatter {
             return {std::nullopt, "fewer than two draws have a runout"};
         return {half_width_of_mean(repeats_of(found->second)),
                 "scatter of the mean of " + std::to_string(found->second.size()) +
-                    " draws, Student's 90 %: " + noise_of_points};
+                    " draws, Student's 90 %: " + noise_};
     }
 
     /// The MPM's task of a draw that has a runout; nothing: none has.
@@ -206,6 +208,7 @@ class Scatter {
                         value_of(row, "transfer_time"));
     }
 
+    const char* noise_ = noise_of_points;
     std::map<std::string, std::string> repeated_;
     std::map<Place, std::vector<double>> runouts_;
     std::map<Place, std::string> tasks_;

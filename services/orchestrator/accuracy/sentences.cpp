@@ -24,12 +24,19 @@ std::string with_unit(double value, const Quantity& quantity) {
     return shown(value) + (quantity.unit == "1" ? "" : " " + quantity.unit);
 }
 
+/// Empty: every run of the quantity gives the same.
+std::string what_tells_the_noise(const AccuracyPlan& plan) {
+    if (can_redraw(Redrawn::points, plan.quantity.reach)) return "\"draws\" would tell it";
+    return can_redraw(Redrawn::fem, plan.quantity.reach)
+               ? "\"draws\" with \"draws_of\": \"fem\" would tell it"
+               : "";
+}
+
 std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& plan) {
     if (convergence.noise)
         return "; one run scatters by " + with_unit(*convergence.noise, plan.quantity);
-    return has_lattice(plan.quantity.reach)
-               ? "; the noise of one run is not known, \"draws\" would tell it"
-               : "";
+    const std::string remedy = what_tells_the_noise(plan);
+    return remedy.empty() ? "" : "; the noise of one run is not known, " + remedy;
 }
 
 /// Where the noise leaves the order open: what else it could be, and what would tell it.
@@ -111,13 +118,11 @@ std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& 
     const MeanOfDraws& mean = *row.mean_within_asked;
     const std::string setting = setting_in_words(table, row);
     const std::string asked = percent(table.plan.asked_error);
+    const std::string remedy = what_tells_the_noise(table.plan);
     if (!row.value->deviation)
         return "The cheapest setting within " + asked + " is " + setting + " (" +
                run_in_words(table, row) + ")" +
-               (has_lattice(table.plan.quantity.reach)
-                    ? "; its scatter is not known, \"draws\" would tell it"
-                    : "") +
-               ".";
+               (remedy.empty() ? "" : "; its scatter is not known, " + remedy) + ".";
     return "The cheapest within " + asked + " is " + mean_in_words(mean.draws) + " of " + setting +
            ": nine of ten " + (mean.draws == 1 ? "runs" : "such means") + " are within " +
            percent(mean.error) + " at " + cost_in_words(mean.cpu_seconds) + " (" +

@@ -199,6 +199,29 @@ json changed(json scene, const std::vector<std::string>& overrides) {
     return scene;
 }
 
+/// So small a change of what may be left out of balance is none of the model; steps that come to
+/// other residuals part ways where the soil is about to fail.
+std::vector<std::string> residuals_of_draw(std::size_t draw, const json& scene) {
+    constexpr double smaller = 0.95;  // than that of the draw before
+    const json::json_pointer pointer("/fem/force_tolerance");
+    if (draw == 0 || !scene.contains(pointer) || !scene[pointer].is_number()) return {};
+    const double tolerance =
+        scene[pointer].get<double>() * std::pow(smaller, static_cast<double>(draw));
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "/fem/force_tolerance=%.6g", tolerance);
+    return {text.data()};
+}
+
+/// `scene`: with the changes of the variant that is repeated.
+std::vector<std::string> changes_of_draw(std::size_t draw, Redrawn what, Reach reach,
+                                         const json& scene) {
+    std::vector<std::string> changes;
+    if (what == Redrawn::fem) changes = residuals_of_draw(draw, scene);
+    if (has_lattice(reach))
+        for (std::string& each : lattice_of_draw(draw, reach)) changes.push_back(std::move(each));
+    return changes;
+}
+
 }  // namespace
 
 std::vector<phases::Phase> phases_of(Reach reach) {
@@ -226,6 +249,16 @@ std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
     constexpr double largest_shift = 0.9;  // that the scene allows, to either side
     return {
         override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
+}
+
+Redrawn redrawn_named(const std::string& name) {
+    return name == name_of(Redrawn::fem) ? Redrawn::fem : Redrawn::points;
+}
+
+std::string_view name_of(Redrawn what) { return what == Redrawn::fem ? "fem" : "points"; }
+
+bool can_redraw(Redrawn what, Reach reach) {
+    return what == Redrawn::fem ? reach == Reach::chain || reach == Reach::fem : has_lattice(reach);
 }
 
 bool has_lattice(Reach reach) { return reach == Reach::chain || reach == Reach::filled_mpm; }
@@ -256,13 +289,9 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
     plan.ladders = read_ladders(entry.at("ladders"), plan.reference.kind, faults);
     plan.base = entry.at("base").get<std::vector<std::string>>();
     plan.draws = entry.at("draws");
+    plan.draws_of = redrawn_named(entry.value("draws_of", ""));
     plan.asked_error = entry.at("asked_error");
-    if (plan.draws > 1 && !has_lattice(plan.quantity.reach))
-        faults.push_back({"/accuracy/draws",
-                          std::string("repeats move the lattice of material points, and ") +
-                              phases_of(plan.quantity.reach).front().program + " has none",
-                          "leave \"draws\" out; what a run scatters by is seen in rungs that go up "
-                          "and down"});
+    check_draws({0, plan.draws, plan.draws_of}, plan.quantity.reach, "/accuracy", faults);
     std::size_t rungs = 0;
     for (const Ladder& each : plan.ladders) rungs += each.steps.size();
     if (rungs * plan.draws > most_variants)
@@ -309,7 +338,8 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
                                .pointer = ladder + "/steps/" + std::to_string(setting.step),
                                .made_by = "accuracy"};
             if (d > 0) entry.draws_pointer = "/accuracy/draws";
-            for (std::string& each : lattice_of_draw(d, plan.quantity.reach))
+            for (std::string& each : changes_of_draw(d, plan.draws_of, plan.quantity.reach,
+                                                     changed(scene, entry.overrides)))
                 entry.overrides.push_back(std::move(each));
             entries.push_back(std::move(entry));
         }
@@ -317,41 +347,68 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
     return entries;
 }
 
-BlindCheckPlan read_blind_check(const json& entry, const json& scene, std::size_t draws,
+void check_draws(const Draws& draws, Reach reach, const std::string& where,
+                 std::vector<Fault>& faults) {
+    const char* program = phases_of(reach).front().program;
+    if (draws.of == Redrawn::fem && !can_redraw(draws.of, reach))
+        faults.push_back(
+            {where + "/draws_of",
+             std::string("draws are to compute the FEM again, and ") + program + " comes first",
+             "leave \"draws_of\" out"});
+    else if (draws.first + draws.count > 1 && !can_redraw(draws.of, reach))
+        faults.push_back(
+            {where + "/draws",
+             std::string("repeats move the lattice of material points, and ") + program +
+                 " has none",
+             can_redraw(Redrawn::fem, reach)
+                 ? "give \"draws_of\": \"fem\", so that each computes the FEM again, or "
+                   "leave \"draws\" out"
+                 : "leave \"draws\" out: every run gives the same"});
+}
+
+const json& entries_of_no_draws() {
+    static const json entries{
+        {"draws", 1}, {"first_draw", 0}, {"draws_of", name_of(Redrawn::points)}};
+    return entries;
+}
+
+Draws draws_of(const json& study) {
+    return {study.at("first_draw"), study.at("draws"), redrawn_named(study.value("draws_of", ""))};
+}
+
+BlindCheckPlan read_blind_check(const json& entry, const json& scene, const Draws& draws,
                                 std::vector<Fault>& faults) {
     BlindCheckPlan plan{.of = entry.at("of"),
                         .quantity = read_quantity(entry, "/check", scene, faults),
                         .mean_of = entry.at("mean_of"),
                         .reference = entry.at("reference"),
                         .asked_error = entry.at("asked_error")};
-    if (!has_lattice(plan.quantity.reach))
-        faults.push_back({"/check/quantity",
-                          std::string(phases_of(plan.quantity.reach).front().program) +
-                              " has no lattice of points: every run of it gives the same",
-                          "check a quantity of the runout"});
+    check_draws(draws, plan.quantity.reach, "", faults);
     if (plan.reference == 0.0)
         faults.push_back({"/check/reference",
                           "errors are relative to the reference, and it is zero",
                           "check a quantity that is not zero, such as runout_largest"});
-    if (draws % plan.mean_of != 0)
+    if (draws.count % plan.mean_of != 0)
         faults.push_back({"/draws",
-                          std::to_string(draws) + " draws do not make whole means of " +
+                          std::to_string(draws.count) + " draws do not make whole means of " +
                               std::to_string(plan.mean_of),
                           "give a multiple of /check/mean_of"});
     return plan;
 }
 
-std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, Draws draws, Reach reach) {
+std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const Draws& draws,
+                                   Reach reach, const json& scene) {
     std::vector<VariantEntry> entries;
     for (const VariantEntry& each : own) {
+        const json its_scene = changed(scene, each.overrides);
         for (std::size_t d = draws.first; d < draws.first + draws.count; ++d) {
             VariantEntry entry = each;
             const bool unnamed = each.name.empty();
             entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
             if (unnamed || d > 0) entry.made_by = "draws";
             if (d > 0) entry.draws_pointer = "/draws";
-            for (std::string& shift : lattice_of_draw(d, reach))
-                entry.overrides.push_back(std::move(shift));
+            for (std::string& change : changes_of_draw(d, draws.of, reach, its_scene))
+                entry.overrides.push_back(std::move(change));
             entries.push_back(std::move(entry));
         }
     }

@@ -1,5 +1,6 @@
-// The study's own repeats: the entry "accuracy" (ladders of settings, each rung on some lattices of
-// points) and the entry "draws" (every variant on some lattices). Both become ordinary variants;
+// The study's own repeats: the entry "accuracy" (ladders of settings, each rung drawn some times)
+// and the entry "draws" (every variant). A draw moves the lattice of points, or computes the FEM
+// again with other residuals. Both become ordinary variants;
 // which variant is which rung follows from the study alone. What they say of the error is in
 // accuracy/.
 #pragma once
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/fault/fault.hpp"
@@ -24,6 +26,15 @@ enum class Reach { chain, filled_mpm, fem, lem };
 std::vector<phases::Phase> phases_of(Reach reach);
 /// Whether there are material points, whose lattice can be moved.
 bool has_lattice(Reach reach);
+/// What a draw does again: it moves the points; or it computes the FEM afresh as well, in smaller
+/// residuals than the draw before, which nothing but what a FEM scatters by should hang on.
+enum class Redrawn { points, fem };
+/// Studies of versions before it have no name for it: points.
+Redrawn redrawn_named(const std::string& name);
+std::string_view name_of(Redrawn what);
+/// Whether these phases have what is drawn.
+bool can_redraw(Redrawn what, Reach reach);
+
 /// Changes that move the points to another lattice; none for the first one, number 0, which is the
 /// scene's own.
 std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach);
@@ -61,6 +72,7 @@ struct AccuracyPlan {
     std::vector<Ladder> ladders;
     std::vector<std::string> base;
     std::size_t draws = 1;
+    Redrawn draws_of = Redrawn::points;
     Reference reference;
     double asked_error = 0.05;
 };
@@ -82,7 +94,7 @@ struct VariantEntry {
     std::string name_pointer;  ///< of the study's entry that its name comes from
     std::string pointer;       ///< of the entry that its overrides come from
     std::string made_by;       ///< "draws", "accuracy", "uncertainty"; empty: it is the study's own
-    std::string draws_pointer = {};   ///< of the entry that its lattice comes from; empty: unmoved
+    std::string draws_pointer = {};   ///< of the entry that draws it; empty: it is the first draw
     nlohmann::json sample = nullptr;  ///< what was drawn for it (sampled_variants.hpp)
 };
 
@@ -91,7 +103,7 @@ struct VariantEntry {
 struct Setting {
     std::size_t ladder;
     std::size_t step;
-    std::vector<std::string> variants;  ///< one per draw, the unmoved lattice first
+    std::vector<std::string> variants;  ///< one per draw, the scene itself first
     bool is_base = false;               ///< it is what the other ladders leave as it is
 };
 
@@ -104,19 +116,28 @@ std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json&
 /// All variants of the plan, each once, in the order of the settings.
 std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const nlohmann::json& scene);
 
-/// The entry "check"; faults have the study's pointers. draws: of the study.
-BlindCheckPlan read_blind_check(const nlohmann::json& entry, const nlohmann::json& scene,
-                                std::size_t draws, std::vector<fault::Fault>& faults);
-
-/// Which lattices: `count` of them from the one with the number `first`; number 0 is unmoved.
+/// Which draws: `count` of them from the one with the number `first`; number 0 is the scene itself.
 struct Draws {
     std::size_t first = 0;
     std::size_t count = 1;
+    Redrawn of = Redrawn::points;
 };
+/// Draws of what the quantity or the runout does not come from. `where`: the object that has them.
+void check_draws(const Draws& draws, Reach reach, const std::string& where,
+                 std::vector<fault::Fault>& faults);
+/// The study's own entries, which the schema has found sound.
+Draws draws_of(const nlohmann::json& study);
+/// These entries where nothing is drawn.
+const nlohmann::json& entries_of_no_draws();
 
-/// The study's own variants, each on these lattices: "soft", "soft_d2", "soft_d3"; of a study
-/// without variants "d1", "d2", "d3".
-std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, Draws draws, Reach reach);
+/// The entry "check"; faults have the study's pointers. draws: of the study.
+BlindCheckPlan read_blind_check(const nlohmann::json& entry, const nlohmann::json& scene,
+                                const Draws& draws, std::vector<fault::Fault>& faults);
+
+/// The study's own variants, each so often: "soft", "soft_d2", "soft_d3"; of a study without
+/// variants "d1", "d2", "d3".
+std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const Draws& draws,
+                                   Reach reach, const nlohmann::json& scene);
 /// What a variant of the completed study repeats: "soft_d2" -> "soft"; its own name when it is no
 /// repeat. variant: {name, made_by}.
 std::string repeated_variant(const nlohmann::json& variant);

@@ -86,7 +86,7 @@ void check_company_of_samples(const json& document, const UncertaintyPlan& plan,
         refuse(
             "variants", "an uncertainty study makes its variants of its samples",
             "leave \"variants\" out; what is one of several becomes a parameter with \"one_of\"");
-    for (const auto& [entry, none] : {std::pair{"draws", 1}, std::pair{"first_draw", 0}})
+    for (const auto& [entry, none] : entries_of_no_draws().items())
         if (document[entry] != none)
             refuse(entry, "an uncertainty study draws lattices itself",
                    "give a parameter {\"name\": \"lattice\", \"numerical\": true}");

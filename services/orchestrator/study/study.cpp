@@ -212,15 +212,14 @@ std::vector<VariantEntry> own_variants(const json& entries) {
 }
 
 /// On as many lattices as the study asks for.
-std::vector<VariantEntry> wanted_variants(const json& document, Reach reach,
+std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, const json& scene,
                                           std::vector<Fault>& faults) {
     constexpr std::size_t longest_name = 32;  // of the schema
-    const Draws draws{.first = document["first_draw"], .count = document["draws"]};
+    const Draws draws = draws_of(document);
     std::vector<VariantEntry> own = own_variants(document["variants"]);
     if (draws.first == 0 && draws.count == 1) return own;
-    if (!has_lattice(reach)) {
-        faults.push_back({"/draws", "draws move the lattice of material points, and there are none",
-                          "leave \"draws\" and \"first_draw\" out, or add \"mpm\" to the scene"});
+    if (!can_redraw(draws.of, reach)) {
+        if (!document.contains("check")) check_draws(draws, reach, "", faults);
         return own;
     }
     if (own.empty())
@@ -229,7 +228,7 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach,
                        .name_pointer = "/draws",
                        .pointer = "/draws",
                        .made_by = ""});
-    std::vector<VariantEntry> entries = repeated(own, draws, reach);
+    std::vector<VariantEntry> entries = repeated(own, draws, reach, scene);
     for (const VariantEntry& each : entries)
         if (each.name.size() > longest_name)
             faults.push_back({each.name_pointer,
@@ -362,11 +361,11 @@ void check_company(const json& document, const Study& study, std::vector<Fault>&
     if (!own_variants(document["variants"]).empty())
         faults.push_back({"/variants", "an accuracy study makes its variants of its ladders",
                           "leave \"variants\" out: a ladder's rungs say what is changed"});
-    for (const auto& [entry, none] : {std::pair{"draws", 1}, std::pair{"first_draw", 0}})
+    for (const auto& [entry, none] : entries_of_no_draws().items())
         if (document[entry] != none)
             faults.push_back({std::string("/") + entry,
                               "an accuracy study has its own entry for repeats",
-                              "give /accuracy/draws"});
+                              "give /accuracy/draws and /accuracy/draws_of"});
     if (document.contains("check"))
         faults.push_back({"/check", "a study measures or is checked, not both",
                           "leave \"check\" out, or give it in a study without \"accuracy\""});
@@ -536,6 +535,8 @@ Study read_study_document(json document, const SentFiles& files) {
              "put the scene itself here (jq can: .scene = $scene[0]), or store it (POST "
              "/v1/scenes) and give scene:NAME"});
     }
+    const bool repeats_are_sound =
+        sound("variants") && sound("draws") && sound("first_draw") && sound("draws_of");
     Study study;
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
@@ -550,9 +551,10 @@ Study read_study_document(json document, const SentFiles& files) {
         } else if (sound("uncertainty")) {
             study.reach =
                 reach_of_samples(document["uncertainty"], base.scene, reach_of(base.scene), faults);
-        } else if (sound("check") && sound("draws")) {
-            study.reach = read_blind_check(document["check"], base.scene, document["draws"], faults)
-                              .quantity.reach;
+        } else if (sound("check") && repeats_are_sound) {
+            study.reach =
+                read_blind_check(document["check"], base.scene, draws_of(document), faults)
+                    .quantity.reach;
         } else {
             study.reach = reach_of(base.scene);
         }
@@ -579,7 +581,6 @@ Study read_study_document(json document, const SentFiles& files) {
     }
     const bool rungs_are_sound = std::ranges::none_of(
         faults, [](const Fault& each) { return each.pointer.starts_with("/accuracy"); });
-    const bool repeats_are_sound = sound("variants") && sound("draws") && sound("first_draw");
     if (accuracy && scene && times_are_sound && repeats_are_sound) {
         check_company(document, study, faults);
         check_time(accuracy->quantity, scene->scene, faults);
@@ -601,7 +602,7 @@ Study read_study_document(json document, const SentFiles& files) {
     if (!samples && scene && repeats_are_sound && rungs_are_sound) {
         const std::vector<VariantEntry> entries =
             accuracy ? variants_of(*accuracy, base.scene)
-                     : wanted_variants(document, study.reach, faults);
+                     : wanted_variants(document, study.reach, base.scene, faults);
         const bool late = fem && !study.transfer_times.empty() &&
                           study.transfer_times.back() > dynamic_duration(*fem) + microsecond;
         study.variants = checked_variants(

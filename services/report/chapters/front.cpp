@@ -109,7 +109,9 @@ std::vector<std::string> asked_of(const Run& run, const json& scene) {
                         (names.size() <= most ? ": " + joined(names) : "") +
                         ". What each changes stands in the chapter of variants.");
     if (const int draws = run.study.value("draws", 1); draws > 1)
-        asked.push_back("Each on " + std::to_string(draws) + " lattices of material points.");
+        asked.push_back(
+            "Each on " + std::to_string(draws) + " lattices of material points" +
+            (run.study.value("draws_of", "") == "fem" ? ", after a FEM of its own each." : "."));
     std::vector<std::string> changes;
     for (const json& each : run.study.value("overrides", json::array())) changes.push_back(each);
     if (!changes.empty())

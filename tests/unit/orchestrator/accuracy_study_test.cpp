@@ -168,14 +168,53 @@ TEST(AccuracyStudy, ALimitNeedsThreeRungsAndTheirSizes) {
     refusal(study_with(accuracy), "/accuracy/ladders/0/sizes");
 }
 
-TEST(AccuracyStudy, RepeatsNeedALattice) {
+json study_of_crest() {
     json study = study_with(
         {{"quantity", "crest_displacement@0.5"},
          {"draws", 3},
          {"ladders",
-          {{{"name", "step"}, {"steps", {{"/fem/stages/1/time_step=0.01"}, {"=0.005"}}}}}}});
+          {{{"name", "step"}, {"steps", {{"/fem/stages/1/time_step=0.01"}, {"=0.005"}}}},
+           {{"name", "residual"},
+            {"steps", {{"/fem/force_tolerance=1e-4"}, {"/fem/force_tolerance=1e-5"}}}}}}});
     study.erase("transfer_times");
-    refusal(study, "/accuracy/draws");
+    return study;
+}
+
+TEST(AccuracyStudy, RepeatsOfAFemNeedOtherResiduals) {
+    json study = study_of_crest();
+    EXPECT_NE(refusal(study, "/accuracy/draws").remedy.find("\"draws_of\": \"fem\""),
+              std::string::npos);
+    study["accuracy"]["draws_of"] = "fem";
+    const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
+    ASSERT_EQ(count(graph, "fem_solver"), 12u) << "each draw has a FEM of its own";
+    EXPECT_EQ(graph.tasks[0].overrides.back(), "/fem/stages/1/time_step=0.01");
+    EXPECT_EQ(graph.tasks[2].overrides.back(), "/fem/force_tolerance=9.025e-07") << "0.95^2 x 1e-6";
+    const std::vector<std::string>& of_rung = graph.tasks[8].overrides;
+    EXPECT_EQ(of_rung.back(), "/fem/force_tolerance=9.025e-05") << "of what the rung asks for";
+
+    study["accuracy"]["quantity"] = "factor_of_safety";
+    study["accuracy"]["ladders"] = {{{"name", "slices"}, {"steps", {{"/lem/slices=10"}, {"=20"}}}}};
+    refusal(study, "/accuracy/draws_of");
+}
+
+TEST(Draws, OfTheFemHaveOneEachAndOtherLattices) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study["draws"] = 3;
+    EXPECT_EQ(count(plan_tasks(read_study(study.dump()), numerics), "fem_solver"), 1u);
+    study["draws_of"] = "fem";
+    study["variants"] =
+        json::array({{{"name", "loose"}, {"overrides", {"/fem/force_tolerance=1e-3"}}}});
+    const Study read = read_study(study.dump());
+    EXPECT_EQ(count(plan_tasks(read, numerics), "fem_solver"), 3u);
+    EXPECT_EQ(read.variants[1].scene["fem"]["force_tolerance"], 9.5e-4);
+    EXPECT_NE(read.variants[1].scene["transfer"]["point_shift"],
+              read.variants[0].scene["transfer"]["point_shift"]);
+    study["scene"].erase("fem");
+    study["scene"].erase("transfer");
+    study.erase("transfer_times");
+    study["variants"] = json::array();
+    refusal(study, "/draws_of");
 }
 
 TEST(Draws, OfASweepAreVariantsOfTheirOwn) {
@@ -274,8 +313,12 @@ TEST(BlindCheck, DrawsOneSettingAtOneTime) {
     refusal(with("/triggers", json::array({{{"kind", "manual"}, {"name", "now"}}})), "/triggers");
     refusal(with("/check/reference", 0), "/check/reference");
     refusal(with("/check/quantity", "runnout"), "/check/quantity");
-    refusal(with("/check/quantity", "crest_displacement@0.5"), "/check/quantity");
     refusal(with("/accuracy", accuracy_entry()), "/check");
+    json of_fem = with("/check/quantity", "crest_displacement@0.5");
+    of_fem.erase("transfer_times");
+    refusal(of_fem, "/draws");
+    of_fem["draws_of"] = "fem";
+    EXPECT_EQ(count(plan_tasks(read_study(of_fem.dump()), numerics), "fem_solver"), 4u);
 }
 
 TEST(BlindCheck, OfASceneWithoutFemMovesTheSquaresOfTheFilling) {
