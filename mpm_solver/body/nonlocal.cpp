@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <span>
 
 namespace breach::mpm {
 
@@ -16,10 +15,6 @@ constexpr double spent_after = 5.0;  // strains at residual strength
 
 /// r exp(-(r / l)^2): none at the point itself, most at 0.7 l (Galavi & Schweiger 2010).
 double weight(double r, double length) { return r * std::exp(-(r / length) * (r / length)); }
-
-bool is_in(const scene::Box& box, double x, double y) {
-    return x >= box.low.x() && x <= box.high.x() && y >= box.low.y() && y <= box.high.y();
-}
 
 }  // namespace
 
@@ -89,18 +84,9 @@ bool NonlocalSoftening::takes_part(const Points& points, std::size_t p, const Gr
     return points.region[p] == group.region && before_[p] < spent && points.volume[p] < widest_;
 }
 
-std::optional<scene::Box> NonlocalSoftening::box_of_growth(const Points& points, const Zone& zone,
-                                                           const Group& group, double spent) const {
-    std::optional<scene::Box> box;
-    for (std::size_t p = zone.begin; p < zone.end; ++p) {
-        if (points.epsilon_q_plastic[p] == before_[p] || !takes_part(points, p, group, spent))
-            continue;
-        const Vec2 place{points.x[p], points.y[p]};
-        if (!box) box = scene::Box{place, place};
-        box->low = box->low.cwiseMin(place);
-        box->high = box->high.cwiseMax(place);
-    }
-    return box;
+bool NonlocalSoftening::grows(const Points& points, const Zone& zone) const {
+    return !std::equal(before_.begin() + zone.begin, before_.begin() + zone.end,
+                       points.epsilon_q_plastic.begin() + zone.begin);
 }
 
 void NonlocalSoftening::spread(Points& points, const std::vector<Zone>& zones, const Grid& grid) {
@@ -119,73 +105,53 @@ void NonlocalSoftening::spread_with(const Kernel& kernel, Points& points,
                                     const std::vector<Zone>& zones, const Grid& grid) {
     for (const Group& group : groups_) {
         const Zone& zone = zones[group.zone];
-        if (!find_near(points, zone, group, grid.h)) continue;
-        scatter(kernel, points, grid);
-        const Run nodes = nodes_in_reach(grid, neighbourhoods_[group.zone]);
-        average(grid, nodes, neighbourhoods_[group.zone]);
-        for (std::size_t k = 0; k < near_.size(); ++k) {
-            double dk = 0.0;
-            for_nodes(grid, weights_[k],
-                      [&](std::int32_t node, double N) { dk += N * mean_[node]; });
-            points.epsilon_q_plastic[near_[k]] = before_[near_[k]] + std::max(dk, 0.0);
+        const double spent = spent_after * materials::softening(zone.law)->epsilon_q_end;
+        if (!grows(points, zone)) continue;
+        weights_.clear();
+        for (std::size_t p = zone.begin; p < zone.end; ++p) {
+            if (!takes_part(points, p, group, spent)) continue;
+            const double V = points.V[p];
+            const double V_dk = V * (points.epsilon_q_plastic[p] - before_[p]);
+            weights_.push_back(weights_of(kernel, grid, points.x[p], points.y[p]));
+            for_nodes(grid, weights_.back(), [&](std::int32_t node, double N) {
+                volume_[node] += N * V;
+                growth_[node] += N * V_dk;
+            });
         }
-        for (auto* numbers : {&volume_, &growth_, &given_, &mean_})
-            std::fill(numbers->begin() + nodes.begin, numbers->begin() + nodes.end, 0.0);
+        average(grid, neighbourhoods_[group.zone]);
+        auto weights = weights_.begin();
+        for (std::size_t p = zone.begin; p < zone.end; ++p) {
+            if (!takes_part(points, p, group, spent)) continue;
+            double dk = 0.0;
+            for_nodes(grid, *weights++,
+                      [&](std::int32_t node, double N) { dk += N * mean_[node]; });
+            points.epsilon_q_plastic[p] = before_[p] + std::max(dk, 0.0);
+        }
+        for (const std::int32_t node : grid.active) {
+            volume_[node] = growth_[node] = mean_[node] = 0.0;
+        }
+        forget_given(grid, neighbourhoods_[group.zone]);
     }
 }
 
-/// What grows reaches its neighbours, whose means count the volume of theirs. False: none grows.
-bool NonlocalSoftening::find_near(const Points& points, const Zone& zone, const Group& group,
-                                  double cell) {
-    const double spent = spent_after * materials::softening(zone.law)->epsilon_q_end;
-    auto box = box_of_growth(points, zone, group, spent);
-    if (!box) return false;
-    const double farthest = 2.0 * reach * zone.nonlocal_length + 4.0 * cell;
-    box->low.array() -= farthest;
-    box->high.array() += farthest;
-    near_.clear();
-    for (std::size_t p = zone.begin; p < zone.end; ++p) {
-        if (takes_part(points, p, group, spent) && is_in(*box, points.x[p], points.y[p]))
-            near_.push_back(p);
-    }
-    return true;
-}
-
-template <class Kernel>
-void NonlocalSoftening::scatter(const Kernel& kernel, const Points& points, const Grid& grid) {
-    weights_.clear();
-    for (const std::size_t p : near_) {
-        const double V = points.V[p];
-        const double V_dk = V * (points.epsilon_q_plastic[p] - before_[p]);
-        weights_.push_back(weights_of(kernel, grid, points.x[p], points.y[p]));
-        for_nodes(grid, weights_.back(), [&](std::int32_t node, double N) {
-            volume_[node] += N * V;
-            growth_[node] += N * V_dk;
-        });
-    }
-}
-
-/// Of the columns that the points near growth reach; most of a grid is far from them.
-NonlocalSoftening::Run NonlocalSoftening::nodes_in_reach(
-    const Grid& grid, const std::vector<Column>& neighbourhood) const {
+/// In the columns that the group's points reach; most of a grid is far from them.
+void NonlocalSoftening::forget_given(const Grid& grid, const std::vector<Column>& neighbourhood) {
+    if (weights_.empty()) return;
     const auto [least, most] = std::ranges::minmax(weights_, {}, &Weights::first);
     const std::int32_t farthest = neighbourhood.back().columns;
-    return {.begin = std::max(least.first / grid.rows - farthest, 0) * grid.rows,
-            .end = std::min(most.first / grid.rows + 3 + farthest, grid.columns) * grid.rows};
+    const std::int32_t begin = std::max(least.first / grid.rows - farthest, 0);
+    const std::int32_t end = std::min(most.first / grid.rows + 3 + farthest, grid.columns);
+    std::fill(given_.begin() + begin * grid.rows, given_.begin() + end * grid.rows, 0.0);
 }
 
 /// The mean growth of every node's neighbourhood, by volume. Most nodes give nothing in a step, so
 /// those that do reach out; only where something arrives is the neighbourhood's volume counted.
-void NonlocalSoftening::average(const Grid& grid, Run nodes,
-                                const std::vector<Column>& neighbourhood) {
-    const std::span<const std::int32_t> active(  // they rise
-        std::ranges::lower_bound(grid.active, nodes.begin),
-        std::ranges::lower_bound(grid.active, nodes.end));
-    for (const std::int32_t node : active) {
+void NonlocalSoftening::average(const Grid& grid, const std::vector<Column>& neighbourhood) {
+    for (const std::int32_t node : grid.active) {
         if (growth_[node] > 0.0) give(grid, node, neighbourhood);
     }
     Run run{0, 0};
-    for (const std::int32_t node : active) {
+    for (const std::int32_t node : grid.active) {
         if (volume_[node] <= 0.0 || (given_[node] <= 0.0 && growth_[node] <= 0.0)) continue;
         if (node != run.end || node % grid.rows == 0) {
             take(grid, run, neighbourhood);

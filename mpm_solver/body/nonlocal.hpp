@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "mpm_solver/body/grid.hpp"
@@ -37,7 +36,7 @@ class NonlocalSoftening {
         std::int32_t columns, rows;   ///< from the node in the middle
         std::vector<double> weights;  ///< 0 of the middle itself
     };
-    /// Nodes [begin, end).
+    /// Nodes [begin, end) of one column.
     struct Run {
         std::int32_t begin, end;
     };
@@ -50,28 +49,23 @@ class NonlocalSoftening {
     static Weights weights_of(const Kernel& kernel, const Grid& grid, double x, double y);
     template <class Visit>
     static void for_nodes(const Grid& grid, const Weights& weights, const Visit& visit);
+    bool grows(const Points& points, const Zone& zone) const;
     bool takes_part(const Points& points, std::size_t p, const Group& group, double spent) const;
-    std::optional<scene::Box> box_of_growth(const Points& points, const Zone& zone,
-                                            const Group& group, double spent) const;
-    bool find_near(const Points& points, const Zone& zone, const Group& group, double cell);
-    template <class Kernel>
-    void scatter(const Kernel& kernel, const Points& points, const Grid& grid);
     template <class Kernel>
     void spread_with(const Kernel& kernel, Points& points, const std::vector<Zone>& zones,
                      const Grid& grid);
-    Run nodes_in_reach(const Grid& grid, const std::vector<Column>& neighbourhood) const;
-    void average(const Grid& grid, Run nodes, const std::vector<Column>& neighbourhood);
+    void average(const Grid& grid, const std::vector<Column>& neighbourhood);
     void give(const Grid& grid, std::int32_t node, const std::vector<Column>& neighbourhood);
     void take(const Grid& grid, Run run, const std::vector<Column>& neighbourhood);
+    void forget_given(const Grid& grid, const std::vector<Column>& neighbourhood);
 
     std::vector<Group> groups_;
     std::vector<std::vector<Column>> neighbourhoods_;  ///< per zone; empty: its softening is local
     KernelKind kernel_ = KernelKind::gimp;
     double gimp_half_size_ = 0.0;
     double widest_ = 0.0;
-    std::vector<double> before_;     ///< epsilon_q_plastic of the points of zones with neighbours
-    std::vector<std::size_t> near_;  ///< points of one group that take part and lie near growth
-    std::vector<Weights> weights_;   ///< theirs
+    std::vector<double> before_;    ///< epsilon_q_plastic of the points of zones with neighbours
+    std::vector<Weights> weights_;  ///< of the points of one group that take part, in their order
     // Per node, of one group at a time; all 0 between the groups.
     std::vector<double> volume_;  ///< of the points about it [m3]
     std::vector<double> growth_;  ///< volume x growth [m3]
