@@ -212,14 +212,16 @@ std::vector<std::string> residuals_of_draw(std::size_t draw, const json& scene) 
     return {text.data()};
 }
 
-/// `scene`: with the changes of the variant that is repeated.
-std::vector<std::string> changes_of_draw(std::size_t draw, Redrawn what, Reach reach,
-                                         const json& scene) {
-    std::vector<std::string> changes;
-    if (what == Redrawn::fem) changes = residuals_of_draw(draw, scene);
-    if (has_lattice(reach))
-        for (std::string& each : lattice_of_draw(draw, reach)) changes.push_back(std::move(each));
-    return changes;
+/// Makes a variant its draw with this number. `pointer`: of the entry that asks for draws; `scene`:
+/// with the variant's own changes.
+void draw(VariantEntry& entry, std::size_t number, const char* pointer, Redrawn what, Reach reach,
+          const json& scene) {
+    const auto add = [&](const std::vector<std::string>& changes) {
+        entry.overrides.insert(entry.overrides.end(), changes.begin(), changes.end());
+    };
+    if (number > 0) entry.draws_pointer = pointer;
+    if (what == Redrawn::fem) add(residuals_of_draw(number, scene));
+    if (has_lattice(reach)) add(lattice_of_draw(number, reach));
 }
 
 }  // namespace
@@ -331,16 +333,15 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
         const std::string rung = name_of_rung(plan.ladders[setting.ladder], setting.step);
         if (setting.variants.front() != rung) continue;  // that of another ladder
         const std::string ladder = "/accuracy/ladders/" + std::to_string(setting.ladder);
+        const auto overrides = overrides_of(plan, setting.ladder, setting.step);
+        const json its_scene = changed(scene, overrides);
         for (std::size_t d = 0; d < plan.draws; ++d) {
             VariantEntry entry{.name = setting.variants[d],
-                               .overrides = overrides_of(plan, setting.ladder, setting.step),
+                               .overrides = overrides,
                                .name_pointer = ladder + "/name",
                                .pointer = ladder + "/steps/" + std::to_string(setting.step),
                                .made_by = "accuracy"};
-            if (d > 0) entry.draws_pointer = "/accuracy/draws";
-            for (std::string& each : changes_of_draw(d, plan.draws_of, plan.quantity.reach,
-                                                     changed(scene, entry.overrides)))
-                entry.overrides.push_back(std::move(each));
+            draw(entry, d, "/accuracy/draws", plan.draws_of, plan.quantity.reach, its_scene);
             entries.push_back(std::move(entry));
         }
     }
@@ -406,9 +407,7 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const D
             const bool unnamed = each.name.empty();
             entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
             if (unnamed || d > 0) entry.made_by = "draws";
-            if (d > 0) entry.draws_pointer = "/draws";
-            for (std::string& change : changes_of_draw(d, draws.of, reach, its_scene))
-                entry.overrides.push_back(std::move(change));
+            draw(entry, d, "/draws", draws.of, reach, its_scene);
             entries.push_back(std::move(entry));
         }
     }
