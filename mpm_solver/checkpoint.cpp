@@ -132,11 +132,18 @@ std::int64_t count_at(const Archive& archive, const std::string& name, const std
     return count;
 }
 
+NonlocalSoftening::Pace load_pace(const Archive& archive, const std::string& file) {
+    const std::vector<std::int64_t>& stored = archive.integers.at("run.softening_pace");
+    const NonlocalSoftening::Pace pace{.done = stored.at(0), .due = stored.at(1)};
+    if (pace.done < 0 || pace.done >= pace.due || pace.due > NonlocalSoftening::most_steps)
+        refuse(file, "/run.softening_pace", "is no pace");
+    return pace;
+}
+
 Points load_points(const Archive& archive, const std::string& file) {
     Points points;
-    if (const auto excess = archive.reals.find("excess"); excess != archive.reals.end()) {
-        points.excess = excess->second;
-    }
+    if (archive.reals.contains("excess")) points.excess.resize(1);
+    if (archive.reals.contains("epsilon_q_shared")) points.epsilon_q_shared.resize(1);
     if (archive.reals.contains("c")) points.c.resize(1);
     for_each_real(points, [&](const char* name, std::vector<double>& values) {
         values = archive.reals.at(name);
@@ -192,6 +199,10 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
     archive.integers["run.frames"] = {clock.frames};
     archive.integers["run.looks"] = {clock.looks};
     archive.integers["run.telemetry_lines"] = {telemetry_lines};
+    if (body.softening.is_on()) {
+        const NonlocalSoftening::Pace& pace = body.softening.pace();
+        archive.integers["run.softening_pace"] = {pace.done, pace.due};
+    }
     const Records& records = simulation.records();
     store(records.history, records_prefix, archive);
     store(simulation.gauges(), records.gauges, records_prefix, archive);
@@ -218,7 +229,11 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         refuse_if_homeless(points.points, archive.reals.at("run.strayed").at(0),
                            make_grid(scene::mpm_of(scene)), file.string());
         points.zones = zones_of(scene, points.points);
+        const bool has_shared = !points.points.epsilon_q_shared.empty();
         Body body = make_body(scene, std::move(points), file.string(), computing);
+        if (body.softening.is_on() != has_shared)
+            refuse(file.string(), "/epsilon_q_shared", "does not go with this scene's softening");
+        if (body.softening.is_on()) body.softening.go_on_from(load_pace(archive, file.string()));
         Clock clock;
         Start start;
         for_each_number(clock, start, body.tally, [&](const char* name, double& value) {

@@ -64,6 +64,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     }
     body.softening = NonlocalSoftening(body.points, body.zones, body.grid, body.kernel,
                                        body.gimp_half_size, body.widest);
+    if (body.softening.is_on() && body.points.epsilon_q_shared.empty())
+        body.softening.remember(body.points);
     const std::size_t n = body.points.size();
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
@@ -76,9 +78,9 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     }
     const bool has_homes = body.points.home[0] >= 0;
     if (has_homes) {
-        body.strips.cut(body.grid, body.points, body.zones);
+        body.strips.cut(body.grid, body.points, body.zones, body.team->threads());
     } else {
-        body.strips.sort(body.grid, body.points, body.zones);
+        body.strips.sort(body.grid, body.points, body.zones, body.team->threads());
     }
     return body;
 }

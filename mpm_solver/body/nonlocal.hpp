@@ -1,5 +1,5 @@
-// Softening that does not hang on the lattice: what a brittle soil's softening strain grows by in a
-// step is averaged over its neighbourhood, so that a shear band is as wide as the soil's own length
+// Softening that does not hang on the lattice: what a brittle soil's softening strain grows by in some
+// steps is averaged over its neighbourhood, so that a shear band is as wide as the soil's own length
 // says and not as wide as a cell. How and why: docs/mpm_method.md.
 #pragma once
 
@@ -13,6 +13,14 @@ namespace breach::mpm {
 
 class NonlocalSoftening {
   public:
+    /// Neighbourhoods share after `due` steps, of which `done` are done: as many as let the bands grow
+    /// by no more than a small part of what softens.
+    struct Pace {
+        std::int64_t done = 0;
+        std::int64_t due = 1;
+    };
+    static constexpr std::int64_t most_steps = 16;
+
     /// Nothing is averaged.
     NonlocalSoftening() = default;
     /// `widest`: Body's; a point that has opened that far is torn off.
@@ -20,10 +28,16 @@ class NonlocalSoftening {
                       KernelKind kernel, double gimp_half_size, double widest);
 
     bool is_on() const { return !groups_.empty(); }
-    /// Before the stress update of a step, where it is on: from where the strains grow.
-    void remember(const Points& points, const std::vector<Zone>& zones);
-    /// After it: the growth of every brittle point becomes its neighbourhood's.
-    void spread(Points& points, const std::vector<Zone>& zones, const Grid& grid);
+    /// From where the strains grow.
+    void remember(Points& points) const;
+    /// After the stress update of a step, where it is on.
+    void follow(Points& points, const std::vector<Zone>& zones, const Grid& grid);
+    /// The growth of every brittle point becomes its neighbourhood's. Returns the mean growth where soil
+    /// grows, as a part of the strain over which it softens.
+    double spread(Points& points, const std::vector<Zone>& zones, const Grid& grid);
+
+    const Pace& pace() const { return pace_; }
+    void go_on_from(const Pace& pace) { pace_ = pace; }
 
   private:
     /// Soil of one region: debris that rides over another dam does not soften that from a distance.
@@ -49,11 +63,11 @@ class NonlocalSoftening {
     static Weights weights_of(const Kernel& kernel, const Grid& grid, double x, double y);
     template <class Visit>
     static void for_nodes(const Grid& grid, const Weights& weights, const Visit& visit);
-    bool grows(const Points& points, const Zone& zone) const;
+    static bool grows(const Points& points, const Zone& zone);
     bool takes_part(const Points& points, std::size_t p, const Group& group, double spent) const;
     template <class Kernel>
-    void spread_with(const Kernel& kernel, Points& points, const std::vector<Zone>& zones,
-                     const Grid& grid);
+    double spread_with(const Kernel& kernel, Points& points, const std::vector<Zone>& zones,
+                       const Grid& grid);
     void average(const Grid& grid, const std::vector<Column>& neighbourhood);
     void give(const Grid& grid, std::int32_t node, const std::vector<Column>& neighbourhood);
     void take(const Grid& grid, Run run, const std::vector<Column>& neighbourhood);
@@ -64,7 +78,7 @@ class NonlocalSoftening {
     KernelKind kernel_ = KernelKind::gimp;
     double gimp_half_size_ = 0.0;
     double widest_ = 0.0;
-    std::vector<double> before_;    ///< epsilon_q_plastic of the points of zones with neighbours
+    Pace pace_;
     std::vector<Weights> weights_;  ///< of the points of one group that take part, in their order
     // Per node, of one group at a time; all 0 between the groups.
     std::vector<double> volume_;  ///< of the points about it [m3]

@@ -30,7 +30,10 @@ struct Points {
     std::vector<double> sxx, syy, szz, sxy;  ///< effective stress [Pa], tension positive
     std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
     std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
-    std::vector<double> gap;                 ///< volume strain to be closed after tension [-]
+    /// The same when neighbourhoods last shared what it had grown by; empty unless some softening is
+    /// nonlocal
+    std::vector<double> epsilon_q_shared;
+    std::vector<double> gap;     ///< volume strain to be closed after tension [-]
     std::vector<double> excess;  ///< overlap beyond what is tolerated; see OverlapMeter [-];
                                  ///< empty unless the body corrects it
     /// Strengths before and after softening [Pa, -], of soils whose material has a profile, 0 of
@@ -62,6 +65,7 @@ void for_each_real(AnyPoints& points, Visit&& visit) {
     visit("szz", points.szz), visit("sxy", points.sxy);
     visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
     visit("gap", points.gap);
+    if (!points.epsilon_q_shared.empty()) visit("epsilon_q_shared", points.epsilon_q_shared);
     if (!points.excess.empty()) visit("excess", points.excess);
     if (points.c.empty()) return;
     visit("c", points.c), visit("tan_phi", points.tan_phi);

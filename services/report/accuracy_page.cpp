@@ -21,7 +21,7 @@ constexpr const char* head =
     "ran them, shared with others.\n"
     "\n"
     "*Error* is that of the mean over the draws (repeats on moved lattices of points, or of the "
-    "FEM with other residuals), *of a run* is what one run is off: with what the reference is off "
+    "FEM with other steps and residuals), *of a run* is what one run is off: with what the reference is off "
     "itself, the error of the base on the "
     "other ladders, and the scatter. "
     "*Order*, *limit* and *grid convergence index* "

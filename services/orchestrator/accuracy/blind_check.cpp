@@ -109,7 +109,7 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
                {"reuse", of.at("reuse")}};
     if (of.contains("transfer_times")) study["transfer_times"] = of.at("transfer_times");
     study["check"] = {{"of", run},
-                      {"quantity", plan.quantity.name},
+                      {"quantity", text_of(plan.quantity)},
                       {"mean_of", mean_of},
                       {"reference", *reference},
                       {"asked_error", plan.asked_error}};
@@ -146,7 +146,7 @@ json as_json(const BlindCheck& check) {
     json means = json::array();
     for (const BlindMean& each : check.means) means.push_back(as_json(each));
     return {{"of", plan.of},
-            {"quantity", plan.quantity.name},
+            {"quantity", text_of(plan.quantity)},
             {"unit", plan.quantity.unit},
             {"mean_of", plan.mean_of},
             {"reference", plan.reference},

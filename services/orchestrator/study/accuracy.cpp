@@ -158,30 +158,6 @@ Reference read_reference(const json& entry, std::vector<Fault>& faults) {
     return {ReferenceKind::given, reference.at("value"), reference.at("source")};
 }
 
-// ---------------------------------------------------------------- lattices
-
-constexpr const char* point_shift = "/transfer/point_shift";
-constexpr const char* fill_shift = "/mpm/fill_shift";
-
-/// The k-th place of the R2 sequence (Roberts 2018), which fills the unit square evenly however far
-/// it is taken; the 0-th is the corner.
-std::array<double, 2> place_of_draw(std::size_t draw) {
-    constexpr std::array step{0.7548776662466927, 0.5698402909980532};
-    const auto k = static_cast<double>(draw);
-    return {std::fmod(k * step[0], 1.0), std::fmod(k * step[1], 1.0)};
-}
-
-std::string override_of(const char* pointer, double a, double b) {
-    std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "%s=[%.4f,%.4f]", pointer, a, b);
-    return text.data();
-}
-
-std::string name_of_draw(const std::string& variant, std::size_t draw) {
-    if (draw == 0) return variant;
-    return variant + "_d" + std::to_string(draw + 1);
-}
-
 std::string name_of_rung(const Ladder& ladder, std::size_t step) {
     return ladder.name + "_" + std::to_string(step + 1);
 }
@@ -194,76 +170,7 @@ std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladd
     return overrides;
 }
 
-json changed(json scene, const std::vector<std::string>& overrides) {
-    for (const std::string& each : overrides) scene::apply_override(scene, each);
-    return scene;
-}
-
-/// So small a change of what may be left out of balance is none of the model; steps that come to
-/// other residuals part ways where the soil is about to fail.
-std::vector<std::string> residuals_of_draw(std::size_t draw, const json& scene) {
-    constexpr double smaller = 0.95;  // than that of the draw before
-    const json::json_pointer pointer("/fem/force_tolerance");
-    if (draw == 0 || !scene.contains(pointer) || !scene[pointer].is_number()) return {};
-    const double tolerance =
-        scene[pointer].get<double>() * std::pow(smaller, static_cast<double>(draw));
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "/fem/force_tolerance=%.6g", tolerance);
-    return {text.data()};
-}
-
-/// Makes a variant its draw with this number. `pointer`: of the entry that asks for draws; `scene`:
-/// with the variant's own changes.
-void draw(VariantEntry& entry, std::size_t number, const char* pointer, Redrawn what, Reach reach,
-          const json& scene) {
-    const auto add = [&](const std::vector<std::string>& changes) {
-        entry.overrides.insert(entry.overrides.end(), changes.begin(), changes.end());
-    };
-    if (number > 0) entry.draws_pointer = pointer;
-    if (what == Redrawn::fem) add(residuals_of_draw(number, scene));
-    if (has_lattice(reach)) add(lattice_of_draw(number, reach));
-}
-
 }  // namespace
-
-std::vector<phases::Phase> phases_of(Reach reach) {
-    switch (reach) {
-        case Reach::chain:
-            break;
-        case Reach::filled_mpm:
-            return {phases::mpm};
-        case Reach::fem:
-            return {phases::fem};
-        case Reach::lem:
-            return {phases::lem};
-    }
-    return {phases::fem, phases::transfer, phases::mpm};
-}
-
-bool is_lattice(const std::string& pointer) {
-    return pointer.starts_with(point_shift) || pointer.starts_with(fill_shift);
-}
-
-std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
-    if (draw == 0) return {};
-    const auto [a, b] = place_of_draw(draw);
-    if (reach == Reach::filled_mpm) return {override_of(fill_shift, a, b)};
-    constexpr double largest_shift = 0.9;  // that the scene allows, to either side
-    return {
-        override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
-}
-
-Redrawn redrawn_named(const std::string& name) {
-    return name == name_of(Redrawn::fem) ? Redrawn::fem : Redrawn::points;
-}
-
-std::string_view name_of(Redrawn what) { return what == Redrawn::fem ? "fem" : "points"; }
-
-bool can_redraw(Redrawn what, Reach reach) {
-    return what == Redrawn::fem ? reach == Reach::chain || reach == Reach::fem : has_lattice(reach);
-}
-
-bool has_lattice(Reach reach) { return reach == Reach::chain || reach == Reach::filled_mpm; }
 
 std::string names_of_results() {
     std::string names;
@@ -282,6 +189,10 @@ std::optional<Quantity> quantity_named(const std::string& text, const json& scen
             return Quantity{text, scene.contains("fem") ? Reach::chain : Reach::filled_mpm,
                             each.pointer, each.unit, std::nullopt};
     return std::nullopt;
+}
+
+std::string text_of(const Quantity& quantity) {
+    return quantity.time ? quantity.name + "@" + json(*quantity.time).dump() : quantity.name;
 }
 
 AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fault>& faults) {
@@ -348,35 +259,6 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
     return entries;
 }
 
-void check_draws(const Draws& draws, Reach reach, const std::string& where,
-                 std::vector<Fault>& faults) {
-    const char* program = phases_of(reach).front().program;
-    if (draws.of == Redrawn::fem && !can_redraw(draws.of, reach))
-        faults.push_back(
-            {where + "/draws_of",
-             std::string("draws are to compute the FEM again, and ") + program + " comes first",
-             "leave \"draws_of\" out"});
-    else if (draws.first + draws.count > 1 && !can_redraw(draws.of, reach))
-        faults.push_back(
-            {where + "/draws",
-             std::string("repeats move the lattice of material points, and ") + program +
-                 " has none",
-             can_redraw(Redrawn::fem, reach)
-                 ? "give \"draws_of\": \"fem\", so that each computes the FEM again, or "
-                   "leave \"draws\" out"
-                 : "leave \"draws\" out: every run gives the same"});
-}
-
-const json& entries_of_no_draws() {
-    static const json entries{
-        {"draws", 1}, {"first_draw", 0}, {"draws_of", name_of(Redrawn::points)}};
-    return entries;
-}
-
-Draws draws_of(const json& study) {
-    return {study.at("first_draw"), study.at("draws"), redrawn_named(study.value("draws_of", ""))};
-}
-
 BlindCheckPlan read_blind_check(const json& entry, const json& scene, const Draws& draws,
                                 std::vector<Fault>& faults) {
     BlindCheckPlan plan{.of = entry.at("of"),
@@ -395,30 +277,6 @@ BlindCheckPlan read_blind_check(const json& entry, const json& scene, const Draw
                               std::to_string(plan.mean_of),
                           "give a multiple of /check/mean_of"});
     return plan;
-}
-
-std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const Draws& draws,
-                                   Reach reach, const json& scene) {
-    std::vector<VariantEntry> entries;
-    for (const VariantEntry& each : own) {
-        const json its_scene = changed(scene, each.overrides);
-        for (std::size_t d = draws.first; d < draws.first + draws.count; ++d) {
-            VariantEntry entry = each;
-            const bool unnamed = each.name.empty();
-            entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
-            if (unnamed || d > 0) entry.made_by = "draws";
-            draw(entry, d, "/draws", draws.of, reach, its_scene);
-            entries.push_back(std::move(entry));
-        }
-    }
-    return entries;
-}
-
-std::string repeated_variant(const json& variant) {
-    const auto& name = variant.at("name").get_ref<const std::string&>();
-    if (variant.value("made_by", "") != "draws") return name;
-    const std::size_t suffix = name.rfind("_d");
-    return suffix == std::string::npos ? "" : name.substr(0, suffix);
 }
 
 }  // namespace breach::orchestrator

@@ -68,7 +68,7 @@ Speed collapse(double h, double end, const Computing& computing) {
         };
         keep_sorted(body);
         lap(0);
-        clear(body.grid);
+        forget_last_step(body);
         lap(1);
         particle_to_grid(body, dt);
         lap(2);

@@ -58,7 +58,7 @@ TEST(Sort, ChangesTheOrderAndNothingElse) {
     Body body = filled_body(scene);
     std::reverse(body.points.x.begin(), body.points.x.end());
     const exchange::ParticleState before = particle_state(scene, body.points);
-    body.strips.sort(body.grid, body.points, body.zones);
+    body.strips.sort(body.grid, body.points, body.zones, 1);
     const exchange::ParticleState after = particle_state(scene, body.points);
     for (std::size_t p = 0; p < before.size(); ++p) {
         EXPECT_EQ(before.position[p], after.position[p]);
@@ -84,7 +84,7 @@ TEST(Sort, KnowsTheCellsThatEachZonesPointsReach) {
     for (int k = 0; k < 600; ++k) {
         step(body, dt);
         for (std::size_t z = 0; z < body.zones.size(); ++z) {
-            const std::vector<std::int32_t>& cells = body.strips.cells(z);
+            const std::vector<std::int32_t>& cells = body.strips.cells(z).places;
             EXPECT_LT(cells.size(), body.grid.active.size());
             for (std::size_t p = body.zones[z].begin; p < body.zones[z].end; ++p) {
                 ASSERT_TRUE(std::ranges::binary_search(cells, body.points.cell[p])) << k;

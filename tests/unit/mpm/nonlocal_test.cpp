@@ -23,12 +23,13 @@ struct Layer {
     int points_per_cell;  ///< along the height
     double shift;         ///< of the weak seam from the middle [m]
     bool nonlocal;
+    bool at_its_pace = false;  ///< growth is shared by the solver's pace, not in each step
 };
 
 /// Points of a soil whose rows are the layer's; many columns, for the average has two dimensions.
 class Rows {
   public:
-    explicit Rows(const Layer& layer) : body_(body_of(layer)) {
+    explicit Rows(const Layer& layer) : body_(body_of(layer)), at_its_pace_(layer.at_its_pace) {
         const double row = layer.h / layer.points_per_cell;
         rows_.resize(static_cast<std::size_t>(std::lround(height / row)));
         const double middle = 0.5 * body_.grid.high.x();
@@ -47,11 +48,16 @@ class Rows {
     /// What each row's softening strain grows by; the middle column stands for all.
     void grow(const std::vector<double>& by) {
         std::vector<double>& k = body_.points.epsilon_q_plastic;
-        if (body_.softening.is_on()) body_.softening.remember(body_.points, body_.zones);
         for (std::size_t p = 0; p < k.size(); ++p) k[p] += by[row_of_[p]];
-        if (!body_.softening.is_on()) return;
-        body_.softening.spread(body_.points, body_.zones, body_.grid);
+        NonlocalSoftening& softening = body_.softening;
+        if (!softening.is_on()) return;
+        if (at_its_pace_)
+            softening.follow(body_.points, body_.zones, body_.grid);
+        else
+            softening.spread(body_.points, body_.zones, body_.grid);
+        if (at_its_pace_ && softening.pace().done > 0) return;
         for (std::size_t p = 0; p < k.size(); ++p) k[p] = strain(row_of_[p]);
+        softening.remember(body_.points);
     }
 
   private:
@@ -61,7 +67,8 @@ class Rows {
                                       rectangle(0, 0, width, height), layer.h, width, height);
         std::get<materials::MohrCoulomb>(scene.materials[0].law).softening =
             materials::Softening{.epsilon_q_start = 0.0,
-                                 .epsilon_q_end = 100.0,  // nobody is spent
+                                 // In steps nobody is to be spent; the pace goes by it.
+                                 .epsilon_q_end = layer.at_its_pace ? strain_to_residual : 100.0,
                                  .c_residual = 5e3,
                                  .tan_phi_residual = 0.0};
         if (layer.nonlocal) scene.materials[0].nonlocal_length = length;
@@ -73,6 +80,7 @@ class Rows {
         double off = 1e9;
     };
     Body body_;
+    bool at_its_pace_;
     std::vector<std::size_t> row_of_;
     std::vector<Row> rows_;
 };
@@ -165,6 +173,15 @@ TEST(NonlocalSoftening, BandIsTwoAndAHalfLengthsWideWhateverTheCells) {
     expect_within(widths_of(1.25, true), 0.02);  // 3.2 cells; 2.52
 }
 
+TEST(NonlocalSoftening, BandIsAsWideWhenGrowthIsSharedAfterSomeSteps) {
+    for (const double shift : {0.0, 0.6}) {
+        const Layer layer{1.25, 3, shift * 1.25, true};
+        Layer at_its_pace = layer;
+        at_its_pace.at_its_pace = true;
+        EXPECT_NEAR(band_width(at_its_pace) / band_width(layer), 1.0, 0.015);
+    }
+}
+
 TEST(NonlocalSoftening, WithoutItTheBandIsTheLattices) {
     const Widths coarse = widths_of(2.5, false);
     const Widths fine = widths_of(1.25, false);
@@ -201,7 +218,7 @@ template <class Own>
 std::vector<double> gains(Body& body, const Own& own) {
     std::vector<double>& k = body.points.epsilon_q_plastic;
     const std::vector<double> before = k;
-    body.softening.remember(body.points, body.zones);
+    body.softening.remember(body.points);
     for (std::size_t p = 0; p < k.size(); ++p) k[p] += own(p);
     body.softening.spread(body.points, body.zones, body.grid);
     std::vector<double> gained(k.size());
@@ -231,6 +248,27 @@ TEST(NonlocalSoftening, SoilOfAnotherRegionSharesNoStrain) {
     alone.section.regions.resize(1);
     const std::vector<double> left = gains_where_the_left_grows(alone);
     EXPECT_TRUE(std::equal(left.begin(), left.end(), apart.begin())) << "as if nothing lay beside";
+}
+
+TEST(NonlocalSoftening, IsSharedTheOftenerTheFasterBandsGrow) {
+    Body body = filled_body(one_region());
+    std::vector<double>& k = body.points.epsilon_q_plastic;
+    const auto due_after = [&](double growth_of_a_step) {
+        for (int step = 0; step < 100; ++step) {
+            std::ranges::fill(k, 0.0);
+            body.softening.remember(body.points);
+            do {
+                for (double& each : k) each += growth_of_a_step;
+                body.softening.follow(body.points, body.zones, body.grid);
+            } while (body.softening.pace().done > 0);
+        }
+        return body.softening.pace().due;
+    };
+    constexpr double range = 0.09;  // over which the soil softens
+    EXPECT_EQ(due_after(0.0), NonlocalSoftening::most_steps);
+    EXPECT_EQ(due_after(0.0065 * range), 4);
+    EXPECT_EQ(due_after(0.2 * range), 1);
+    EXPECT_EQ(due_after(1e-9), NonlocalSoftening::most_steps);
 }
 
 /// The points on the right are out of it in one of two ways, or just not yet.

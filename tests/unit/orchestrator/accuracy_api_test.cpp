@@ -208,6 +208,32 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
         << one_by_one.at("verdict");
 }
 
+/// The fakes tell no crest: what is checked here is that the check asks for what its study did.
+TEST(BlindCheck, OfANumberOfTheFemDrawsFemsAtItsTime) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json study = noisy_study();
+    study["accuracy"]["quantity"] = "crest_displacement@0.25";
+    study["accuracy"]["draws_of"] = "fem";
+    study["accuracy"]["ladders"] = {
+        {{"name", "step"},
+         {"steps", {{"/fem/stages/1/time_step=0.01"}, {"/fem/stages/1/time_step=0.005"}}}}};
+    study.erase("transfer_times");
+    const std::string run = service.submit(study);
+    service.wait_for_end(run);
+    const auto made = service.post(
+        "/v1/runs/" + run + "/accuracy/check?repeats=2&ladder=step&step=2&mean_of=1", "{}");
+    ASSERT_EQ(made.status, 202) << made.text;
+    const std::string check = made.body.at("id");
+    const json checked = service.wait_for_end(check);
+    ASSERT_EQ(checked.at("tasks").size(), 2u);
+    for (const json& each : checked.at("tasks"))
+        EXPECT_EQ(each.at("state"), "succeeded") << "no FEM of the study";
+    const json told = service.get("/v1/runs/" + check + "/accuracy/check").body;
+    EXPECT_EQ(told.at("quantity"), "crest_displacement@0.25");
+    EXPECT_EQ(told.at("means").size(), 2u);
+}
+
 TEST(BlindCheck, OfNothingRecommendedIsRefusedWithTheReason) {
     const Sandbox sandbox;
     Service service(sandbox);

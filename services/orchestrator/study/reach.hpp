@@ -1,0 +1,18 @@
+// How far a study's tasks go.
+#pragma once
+
+#include <vector>
+
+#include "core/phases/phases.hpp"
+
+namespace breach::orchestrator {
+
+/// FEM, transfer and MPM; the MPM alone, from the section itself; the
+/// FEM alone; lem_tool alone.
+enum class Reach { chain, filled_mpm, fem, lem };
+/// The phases of a variant, first to last.
+std::vector<phases::Phase> phases_of(Reach reach);
+/// Whether there are material points, whose lattice can be moved.
+bool has_lattice(Reach reach);
+
+}  // namespace breach::orchestrator
