@@ -46,6 +46,9 @@ inline constexpr std::string_view runout_figure = "runout_against_transfer_time"
 /// Its curves, one per variant: of means where the runouts were drawn on several lattices.
 std::vector<Series> runout_curves(const Run& run);
 
+/// Where the window of transfer times opens and closes; where there is none, why.
+void mark_window(const WindowEdges& window, std::vector<Mark>& marks);
+
 /// The section before anything moved.
 Series section_at_rest(const nlohmann::json& scene);
 

@@ -103,12 +103,7 @@ Figure runout_against_time(const Material& from) {
                    {"runout [m]"},
                    runout_curves(from.run)},
                   from.run.means.empty() ? of_runs : of_means};
-    for (const auto& [key, label] :
-         {std::pair{"window_lower", "window opens"}, std::pair{"window_upper", "window closes"}}) {
-        if (const auto it = from.measures.find(key); it != from.measures.end()) {
-            figure.chart.marks.push_back({Mark::At::x, it->second.value, label});
-        }
-    }
+    mark_window(window_in(from.measures), figure.chart.marks);
     return figure;
 }
 
@@ -151,12 +146,16 @@ std::vector<const PhaseFolder*> runouts_shown(const Run& run) {
 }
 
 std::string window_text(const Measures& measures) {
-    const auto lower = measures.find("window_lower"), upper = measures.find("window_upper");
-    if (lower == measures.end()) return "";
-    return "The window of transfer times opens at " + short_number(lower->second.value) +
-           " s and " +
-           (upper == measures.end() ? std::string("stays open to the end of the FEM.")
-                                    : "closes at " + short_number(upper->second.value) + " s.");
+    const WindowEdges window = window_in(measures);
+    if (!window.lower) return "";
+    if (window.is_none())
+        return "By its criteria there is no window of transfer times: the mesh is too distorted "
+               "from " +
+               short_number(*window.upper) + " s on, and the failure is developed at " +
+               short_number(*window.lower) + " s.";
+    return "The window of transfer times opens at " + short_number(*window.lower) + " s and " +
+           (window.upper ? "closes at " + short_number(*window.upper) + " s."
+                         : "stays open to the end of the FEM.");
 }
 
 }  // namespace

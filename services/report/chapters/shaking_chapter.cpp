@@ -151,6 +151,15 @@ std::string end_of(const PhaseFolder& fem) {
 
 }  // namespace
 
+void mark_window(const WindowEdges& window, std::vector<Mark>& marks) {
+    const bool none = window.is_none();
+    if (window.lower)
+        marks.push_back({Mark::At::x, *window.lower, none ? "failure developed" : "window opens"});
+    if (window.upper)
+        marks.push_back(
+            {Mark::At::x, *window.upper, none ? "mesh too distorted" : "window closes"});
+}
+
 void add_shaking(const Material& from, Document& document) {
     const PhaseFolder* fem = phase_shown(from.run, phases::fem.program);
     if (!fem || !has_telemetry(*fem)) {
@@ -177,11 +186,7 @@ void add_shaking(const Material& from, Document& document) {
         figure.chart.marks = plan.marks;
         const std::vector<Mark> thresholds = thresholds_of(from.run, plan);
         figure.chart.marks.insert(figure.chart.marks.end(), thresholds.begin(), thresholds.end());
-        const WindowEdges window = window_of(from.run, telemetry);
-        if (window.lower)
-            figure.chart.marks.push_back({Mark::At::x, *window.lower, "window opens"});
-        if (window.upper)
-            figure.chart.marks.push_back({Mark::At::x, *window.upper, "window closes"});
+        mark_window(window_of(from.run, telemetry), figure.chart.marks);
         add_points(from.paper, figure);
         chapter.figures.push_back(std::move(figure));
     }

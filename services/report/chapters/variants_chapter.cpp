@@ -306,7 +306,8 @@ void add_variants(const Material& from, Document& document) {
         {},
         "Runout and distances beyond the toe: medians over the plateau, the transfer times "
         "around the largest runout that give at least 75 % of it; variants that share a "
-        "FEM share its edges. - where nothing ran past the toe. \u2265: soil of a runout behind it "
+        "FEM share its edges; one that closes before it opens is none. - where nothing ran past "
+        "the toe. \u2265: soil of a runout behind it "
         "still moved, so it is a lower bound and compared with nothing."};
     const auto first = plateau_of(from.run, variants.front());
     std::optional<double> reference;

@@ -270,8 +270,15 @@ WindowEdges window_of(const Run& run, const Telemetry& fem) {
     };
     edges.lower = fem.first_time(condition("lower"));
     if (edges.lower && spec.contains("upper")) edges.upper = fem.first_time(condition("upper"));
-    if (edges.upper && *edges.upper < *edges.lower) edges.upper = edges.lower;
     return edges;
+}
+
+WindowEdges window_in(const Measures& measures) {
+    const auto edge = [&](const char* key) {
+        const auto found = measures.find(key);
+        return found == measures.end() ? std::nullopt : std::optional(found->second.value);
+    };
+    return {edge("window_lower"), edge("window_upper")};
 }
 
 std::vector<Threshold> thresholds_in(const Run& run) {

@@ -29,11 +29,16 @@ const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
 Telemetry telemetry_of(const Run& run, const PhaseFolder& fem);
 
 /// The edges of the transfer window [s] by the study's first window trigger, or /transfer/window of
-/// the scene; an edge that telemetry never meets is missing.
+/// the scene; an edge that telemetry never meets is missing. A mesh that is too distorted (upper)
+/// before the failure is developed (lower) leaves no window.
 struct WindowEdges {
     std::optional<double> lower, upper;
+
+    bool is_none() const { return lower && upper && *upper <= *lower; }
 };
 WindowEdges window_of(const Run& run, const Telemetry& fem);
+/// The same as it was measured.
+WindowEdges window_in(const Measures& measures);
 
 /// A field of the telemetry that a condition compares with one number.
 struct Threshold {

@@ -27,8 +27,7 @@ MATRIX = "fem_solver/solve/linear_system.cpp"
 EDITS = {
     "mpm_solver": [
         ("viscosity", MPM_STEP, "    body.tally.viscous += for_all_points(body, &Loops::dissipate, Writes::own_points, dt).viscous;\n", ""),
-        ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.remember(body.points, body.zones);\n", ""),
-        ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.spread(body.points, body.zones, body.grid);\n", ""),
+        ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.follow(body.points, body.zones, body.grid);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::trD);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::sigma_m);\n", ""),
         ("anti-locking", MPM_STEP, "    if (body.order == UpdateOrder::usl) forget_averages(body);\n", ""),

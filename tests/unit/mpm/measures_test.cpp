@@ -94,6 +94,37 @@ TEST(Sort, KnowsTheCellsThatEachZonesPointsReach) {
     }
 }
 
+/// A heap that is deep at one end: strips of one thread hold as many points as those of another, to a
+/// strip, and its nodes are those of its strips.
+TEST(Sort, DealsPointsNotStrips) {
+    const scene::Scene scene = one_soil(sand(1e7, 0.3, 0.0, 30.0), 1800.0,
+                                        {{0, 0}, {40, 0}, {40, 1}, {0, 12}}, 0.5, 60.0, 15.0);
+    Body body = filled_body(scene);
+    for (const std::size_t threads : {1u, 2u, 3u}) {
+        body.strips.sort(body.grid, body.points, body.zones, threads);
+        const Dealt<std::size_t>& all = body.strips.all();
+        ASSERT_EQ(all.starts.size(), threads + 1);
+        std::size_t most_of_a_strip = 0;
+        for (std::size_t n = 0; n < threads; ++n) {
+            std::size_t points = 0;
+            for (std::size_t k = all.starts[n]; k < all.starts[n + 1]; ++k) {
+                const Span span = body.strips.span(all[k], 0);
+                points += span.end - span.begin;
+                most_of_a_strip = std::max(most_of_a_strip, span.end - span.begin);
+            }
+            EXPECT_NEAR(static_cast<double>(points),
+                        static_cast<double>(body.points.size()) / static_cast<double>(threads),
+                        static_cast<double>(most_of_a_strip));
+        }
+        const std::vector<std::size_t>& nodes = body.strips.starts_of_active();
+        for (std::size_t n = 1; n < threads; ++n) {
+            const std::int32_t column = body.grid.active[nodes[n]] / body.grid.rows;
+            EXPECT_EQ(static_cast<std::size_t>(column / Strips::width), all[all.starts[n]]);
+        }
+        EXPECT_EQ(nodes.back(), body.grid.active.size());
+    }
+}
+
 TEST(Input, PointsOutsideTheGridAreRefusedWithARemedy) {
     scene::Scene scene = one_soil(elastic(1e6, 0.3), 2000.0, rectangle(1, 0, 7, 4), 1.0, 8.0, 6.0);
     exchange::ParticleState state = fill_section(scene).state;

@@ -195,6 +195,19 @@ TEST_F(WetRun, KnowsTheCriticalDepthThatItsTriggersAskFor) {
     EXPECT_EQ(m.at("window_upper").value, 18);
 }
 
+TEST_F(WetRun, SaysThatThereIsNoWindowWhereTheMeshIsDistortedFirst) {
+    std::ofstream(folder_ / "study.json") << R"({"triggers": [{"kind": "window",
+        "lower": "time >= 18", "upper": "time >= 12"}]})";
+    EXPECT_TRUE(window_in(measures_of(read_run(folder_), paper_for("mochikoshi"))).is_none());
+    const Document d = document();
+    const std::vector<Mark> marks = figure(d, "runout_against_transfer_time").chart.marks;
+    ASSERT_EQ(marks.size(), 2u);
+    EXPECT_EQ(marks[0].label, "failure developed");
+    EXPECT_EQ(marks[0].value, 18);
+    EXPECT_EQ(marks[1].label, "mesh too distorted");
+    EXPECT_EQ(marks[1].value, 12);
+}
+
 TEST_F(WetRun, TellsWhatEachVariantChanges) {
     const Document d = document();
     const auto chapter = std::ranges::find(d.chapters, "Variants", &Chapter::title);
