@@ -86,8 +86,8 @@ Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
     const Strips& strips = body.strips;
     const std::size_t zones = body.zones.size();
     body.sums.resize(strips.count() * zones);
-    const auto over = [&](const Dealt<std::size_t>& together) {
-        body.team->share(together.starts, [&](std::size_t task) {
+    const auto over = [&](const std::vector<std::size_t>& together) {
+        body.team->share(together.size(), [&](std::size_t task) {
             const std::size_t strip = together[task];
             for (std::size_t z = 0; z < zones; ++z) {
                 const Span span = strips.span(strip, z);
@@ -98,7 +98,7 @@ Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
         });
     };
     if (writes == Writes::nodes) {
-        for (const Dealt<std::size_t>& together : strips.apart()) over(together);
+        for (const std::vector<std::size_t>& together : strips.apart()) over(together);
     } else {
         over(strips.all());
     }
@@ -113,10 +113,7 @@ void forget_averages(Body& body) {
     for (std::size_t z = 0; z < body.averages.size(); ++z) {
         std::vector<CellSum>& sums = body.averages[z];
         if (sums.empty()) continue;
-        const Dealt<std::int32_t>& cells = body.strips.cells(z);
-        for_parts(body, cells.starts, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) sums[cells[k]] = {};
-        });
+        for (const std::int32_t cell : body.strips.cells(z)) sums[cell] = {};
     }
 }
 

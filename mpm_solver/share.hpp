@@ -15,12 +15,6 @@ enum class Writes {
 /// their order: the same for any number of threads.
 Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt);
 
-/// Calls part(begin, end) until the places are covered, each thread its own.
-template <class Part>
-void for_parts(Body& body, const std::vector<std::size_t>& starts, const Part& part) {
-    body.team->share(starts.size() - 1, [&](std::size_t n) { part(starts[n], starts[n + 1]); });
-}
-
 /// Anti-locking: empties the cells that are in use.
 void forget_averages(Body& body);
 

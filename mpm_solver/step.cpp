@@ -34,28 +34,6 @@ void hold(Grid& grid, std::int32_t node) {
     if (must & condition::hold_y) v[1] = 0.0;
 }
 
-/// A node that has mass. Returns the work that friction takes [J].
-[[gnu::always_inline]] inline double move_node(Grid& grid, std::int32_t node, const Vec2& pull,
-                                               double dt) {
-    const double m = grid.mass[node];
-    const Lane motion = grid.motion[node] / m;
-    const Vec2 v_before{motion[0], motion[1]};
-    Vec2 v = v_before + dt * (Vec2{motion[2], motion[3]} + pull);
-    double friction_work = 0.0;
-    if (const std::uint8_t must = grid.conditions[node]; must != 0) {
-        if (must & condition::floor) {
-            friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);
-        }
-        if (must & condition::terrain) {
-            friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);
-        }
-        if (must & condition::hold_x) v.x() = 0.0;
-        if (must & condition::hold_y) v.y() = 0.0;
-    }
-    grid.motion[node] << v.x(), v.y(), v.x() - v_before.x(), v.y() - v_before.y();
-    return friction_work;
-}
-
 void move_strayed(Body& body, const Totals& sums) {
     body.tally.strayed += sums.farthest * body.grid.per_h;
     if (sums.lost != Totals::none) body.tally.lost = sums.lost;
@@ -66,13 +44,9 @@ void average(Body& body, double CellSum::*number) {
     for (std::size_t z = 0; z < body.averages.size(); ++z) {
         std::vector<CellSum>& sums = body.averages[z];
         if (sums.empty()) continue;
-        const Dealt<std::int32_t>& cells = body.strips.cells(z);
-        for_parts(body, cells.starts, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) {
-                CellSum& sum = sums[cells[k]];
-                if (sum.V > 0.0) sum.*number /= sum.V;
-            }
-        });
+        for (const std::int32_t cell : body.strips.cells(z)) {
+            if (sums[cell].V > 0.0) sums[cell].*number /= sums[cell].V;
+        }
     }
 }
 
@@ -101,18 +75,13 @@ void find_lightest(Body& body) {
 
 void keep_sorted(Body& body) {
     if (body.tally.strayed <= Strips::largest_stray) return;
-    body.strips.sort(body.grid, body.points, body.zones, body.team->threads());
+    body.strips.sort(body.grid, body.points, body.zones);
     body.tally.strayed = 0.0;
-}
-
-void forget_last_step(Body& body) {
-    for_parts(body, body.strips.starts_of_active(),
-              [&](std::size_t begin, std::size_t end) { clear(body.grid, begin, end); });
 }
 
 void step(Body& body, double dt) {
     keep_sorted(body);
-    forget_last_step(body);
+    clear(body.grid);
     particle_to_grid(body, dt);
     if (body.order == UpdateOrder::usf) update_stress_first(body, dt);
     update_momentum(body, dt);
@@ -129,19 +98,27 @@ void particle_to_grid(Body& body, double dt) {
 void update_momentum(Body& body, double dt) {
     Grid& grid = body.grid;
     const Vec2 pull = body.gravity - Vec2{body.frame_acceleration, 0.0};
-    const auto free_ones = [&grid, pull, dt](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            const std::int32_t node = grid.active[k];
-            if (grid.mass[node] <= 0.0)
-                grid.motion[node].setZero();
-            else if (!(grid.conditions[node] & condition::rubs))
-                move_node(grid, node, pull, dt);
+    double friction_work = 0.0;
+    for (const std::int32_t node : grid.active) {
+        const double m = grid.mass[node];
+        if (m <= 0.0) {
+            grid.motion[node].setZero();
+            continue;
         }
-    };
-    for_parts(body, body.strips.starts_of_active(), free_ones);
-    double friction_work = 0.0;  // summed in the nodes' order whatever the threads
-    for (const std::int32_t node : grid.rubbing) {
-        if (grid.mass[node] > 0.0) friction_work += move_node(grid, node, pull, dt);
+        const Lane motion = grid.motion[node] / m;
+        const Vec2 v_before{motion[0], motion[1]};
+        Vec2 v = v_before + dt * (Vec2{motion[2], motion[3]} + pull);
+        if (const std::uint8_t must = grid.conditions[node]; must != 0) {
+            if (must & condition::floor) {
+                friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);
+            }
+            if (must & condition::terrain) {
+                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);
+            }
+            if (must & condition::hold_x) v.x() = 0.0;
+            if (must & condition::hold_y) v.y() = 0.0;
+        }
+        grid.motion[node] << v.x(), v.y(), v.x() - v_before.x(), v.y() - v_before.y();
     }
     body.tally.friction += friction_work;
 }

@@ -13,9 +13,6 @@ void step(Body& body, double dt);
 /// Sorts the points when one has strayed too far from its home.
 void keep_sorted(Body& body);
 
-/// Zeroes the active nodes.
-void forget_last_step(Body& body);
-
 /// Mass, affine momentum and (unless USF) internal force of the points onto the nodes.
 void particle_to_grid(Body& body, double dt);
 

@@ -51,7 +51,7 @@ void timed_step(Body& body, const scene::Mpm& mpm, OverlapMeter& overlap, std::i
             laps.time("gaps held to their room", [&] { overlap.hold_gaps_to_room(body); });
     }
     const double dt = mpm.time_step ? *mpm.time_step : courant_step(body, mpm.cfl);
-    laps.time("sorting and clearing", [&] { keep_sorted(body), forget_last_step(body); });
+    laps.time("sorting and clearing", [&] { keep_sorted(body), clear(body.grid); });
     laps.time("particle to grid", [&] { particle_to_grid(body, dt); });
     if (body.order == UpdateOrder::usf)
         laps.time("stress and forces", [&] { update_stress_first(body, dt); });

@@ -42,8 +42,7 @@ std::optional<std::size_t> Team::Range::take(End from) {
     }
 }
 
-Team::Team(int threads)
-    : ranges_(static_cast<std::size_t>(std::max(threads, 1))), even_(ranges_.size() + 1) {
+Team::Team(int threads) : ranges_(static_cast<std::size_t>(std::max(threads, 1))) {
     for (std::size_t n = 1; n < ranges_.size(); ++n) members_.emplace_back([this, n] { serve(n); });
 }
 
@@ -54,10 +53,11 @@ Team::~Team() {
     for (std::thread& member : members_) member.join();
 }
 
-void Team::share_out(std::span<const std::size_t> starts, Call call, const void* work) {
+void Team::share_out(std::size_t tasks, Call call, const void* work) {
     call_ = call;
     work_ = work;
-    for (std::size_t n = 0; n < ranges_.size(); ++n) ranges_[n].set(starts[n], starts[n + 1]);
+    for (std::size_t n = 0; n < ranges_.size(); ++n)
+        ranges_[n].set(tasks * n / ranges_.size(), tasks * (n + 1) / ranges_.size());
     state_ += one_round + open;  // publishes all of the above
     state_.notify_all();
     take_tasks(0);

@@ -11,7 +11,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <thread>
 #include <vector>
 
@@ -31,19 +30,12 @@ class Team {
     /// exception is thrown again here; tasks that nobody has taken by then may be left out.
     template <class Work>
     void share(std::size_t tasks, const Work& work) {
-        for (std::size_t n = 0; n < even_.size(); ++n) even_[n] = tasks * n / threads();
-        share(even_, work);
-    }
-
-    /// The same of tasks that are not alike: thread n begins with [starts[n], starts[n + 1]).
-    template <class Work>
-    void share(std::span<const std::size_t> starts, const Work& work) {
-        if (members_.empty() || starts.back() < 2) {
-            for (std::size_t task = 0; task < starts.back(); ++task) work(task);
+        if (members_.empty() || tasks < 2) {
+            for (std::size_t task = 0; task < tasks; ++task) work(task);
             return;
         }
         share_out(
-            starts,
+            tasks,
             [](const void* what, std::size_t task) { (*static_cast<const Work*>(what))(task); },
             &work);
     }
@@ -62,14 +54,13 @@ class Team {
         std::atomic<std::uint64_t> left_{0};
     };
 
-    void share_out(std::span<const std::size_t> starts, Call call, const void* work);
+    void share_out(std::size_t tasks, Call call, const void* work);
     void take_tasks(std::size_t own);
     void serve(std::size_t own);
 
     Call call_ = nullptr;
     const void* work_ = nullptr;
-    std::vector<Range> ranges_;      ///< the caller's, then the members'
-    std::vector<std::size_t> even_;  ///< starts of parts of a size
+    std::vector<Range> ranges_;  ///< the caller's, then the members'
     /// Number of the round, whether it is open, and how many members are at work in it.
     std::atomic<std::uint32_t> state_{0};
     std::atomic<bool> closing_{false};

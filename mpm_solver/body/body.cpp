@@ -78,9 +78,9 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     }
     const bool has_homes = body.points.home[0] >= 0;
     if (has_homes) {
-        body.strips.cut(body.grid, body.points, body.zones, body.team->threads());
+        body.strips.cut(body.grid, body.points, body.zones);
     } else {
-        body.strips.sort(body.grid, body.points, body.zones, body.team->threads());
+        body.strips.sort(body.grid, body.points, body.zones);
     }
     return body;
 }

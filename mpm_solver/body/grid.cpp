@@ -90,9 +90,8 @@ Grid make_grid(const scene::Mpm& mpm) {
     return grid;
 }
 
-void clear(Grid& grid, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-        const std::int32_t node = grid.active[k];
+void clear(Grid& grid) {
+    for (const std::int32_t node : grid.active) {
         grid.mass[node] = 0.0;
         grid.motion[node].setZero();
     }

@@ -22,7 +22,6 @@ constexpr std::uint8_t hold_x = 1;
 constexpr std::uint8_t hold_y = 2;
 constexpr std::uint8_t floor = 4;    ///< unilateral in y, Coulomb friction in x
 constexpr std::uint8_t terrain = 8;  ///< a Contact
-constexpr std::uint8_t rubs = floor | terrain;
 }  // namespace condition
 
 /// Row of the floor's nodes: one ghost row lies below it.
@@ -53,7 +52,6 @@ struct Grid {
 
     /// Nodes that points may reach before they are sorted again, ascending.
     std::vector<std::int32_t> active;
-    std::vector<std::int32_t> rubbing;  ///< those of them that feel floor or terrain
 
     std::int32_t nodes() const { return columns * rows; }
     double xi(double x) const { return (x - origin.x()) * per_h; }
@@ -73,7 +71,7 @@ struct Grid {
 
 Grid make_grid(const scene::Mpm& mpm);
 
-/// Forgets the last step: zeroes the active nodes [begin, end).
-void clear(Grid& grid, std::size_t begin, std::size_t end);
+/// Forgets the last step: zeroes the active nodes.
+void clear(Grid& grid);
 
 }  // namespace breach::mpm

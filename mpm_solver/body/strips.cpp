@@ -1,7 +1,6 @@
 #include "mpm_solver/body/strips.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 
 namespace breach::mpm {
@@ -56,7 +55,7 @@ std::vector<std::int32_t> marked(const std::vector<std::uint8_t>& nodes) {
 
 }  // namespace
 
-void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones, std::size_t threads) {
+void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
     for (std::size_t p = 0; p < points.size(); ++p) {
         points.home[p] = grid.nearest_node(grid.xi(points.x[p]), grid.eta(points.y[p]));
     }
@@ -71,11 +70,10 @@ void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones, st
         for_each_integer(points,
                          [&](const char*, auto& values) { permute(values, order, integers); });
     }
-    cut(grid, points, zones, threads);
+    cut(grid, points, zones);
 }
 
-void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zones,
-                 std::size_t threads) {
+void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
     zones_ = zones.size();
     count_ = static_cast<std::size_t>((grid.columns + width - 1) / width);
     spans_.assign(count_ * zones_, {0, 0});
@@ -90,63 +88,31 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
             holds_points[strip] = 1;
         }
     }
-    all_.places.clear();
-    for (Dealt<std::size_t>& each : apart_) each.places.clear();
-    for (std::size_t strip = 0; strip < count_; ++strip) {
-        if (!holds_points[strip]) continue;
-        all_.places.push_back(strip);
-        apart_[strip % apart_.size()].places.push_back(strip);
-    }
-    find_active_nodes(grid, points, zones);
-    deal(grid, threads);
-}
-
-/// Every thread the strips, and the nodes in their columns, from where it has its part of the points.
-void Strips::deal(const Grid& grid, std::size_t threads) {
-    std::vector<std::size_t> points_before(count_ + 1, 0);
-    for (std::size_t strip = 0; strip < count_; ++strip) {
-        points_before[strip + 1] = points_before[strip];
-        for (std::size_t z = 0; z < zones_; ++z)
-            points_before[strip + 1] += span(strip, z).end - span(strip, z).begin;
-    }
-    const auto starts = [&](const auto& places, std::size_t places_of_a_strip) {
-        std::vector<std::size_t> found{0};
-        for (std::size_t n = 1; n < threads; ++n) {
-            const auto first = std::ranges::lower_bound(
-                points_before, (points_before.back() * n + threads / 2) / threads);
-            const auto strip = static_cast<std::size_t>(first - points_before.begin());
-            const auto place =
-                std::ranges::lower_bound(places, strip * places_of_a_strip, {},
-                                         [](auto each) { return static_cast<std::size_t>(each); });
-            found.push_back(static_cast<std::size_t>(place - places.begin()));
+    all_.clear();
+    for (std::size_t colour = 0; colour < apart_.size(); ++colour) {
+        apart_[colour].clear();
+        for (std::size_t strip = colour; strip < count_; strip += apart_.size()) {
+            if (holds_points[strip]) apart_[colour].push_back(strip);
         }
-        found.push_back(places.size());
-        return found;
-    };
-    const auto nodes = static_cast<std::size_t>(width * grid.rows);
-    for (Dealt<std::size_t>& each : apart_) each.starts = starts(each.places, 1);
-    all_.starts = starts(all_.places, 1);
-    for (Dealt<std::int32_t>& each : cells_) each.starts = starts(each.places, nodes);
-    starts_of_active_ = starts(grid.active, nodes);
+        all_.insert(all_.end(), apart_[colour].begin(), apart_[colour].end());
+    }
+    std::sort(all_.begin(), all_.end());
+    find_active_nodes(grid, points, zones);
 }
 
 /// The 5 x 5 nodes about every home: what a point can reach from at most a cell away.
 void Strips::find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
-    clear(grid, 0, grid.active.size());
+    clear(grid);
     std::vector<std::uint8_t> of_any(static_cast<std::size_t>(grid.nodes()), 0);
     std::vector<std::uint8_t> of_zone;
     cells_.clear();
     for (const Zone& zone : zones) {
         of_zone.assign(of_any.size(), 0);
         mark_reachable(grid, points, zone, of_zone);
-        cells_.push_back({marked(of_zone), {}});
+        cells_.push_back(marked(of_zone));
         for (const std::int32_t node : cells_.back()) of_any[node] = 1;
     }
     grid.active = marked(of_any);
-    grid.rubbing.clear();
-    std::ranges::copy_if(grid.active, std::back_inserter(grid.rubbing), [&](std::int32_t node) {
-        return (grid.conditions[node] & condition::rubs) != 0;
-    });
 }
 
 }  // namespace breach::mpm

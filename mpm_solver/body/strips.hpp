@@ -2,8 +2,7 @@
 // that share their 3 x 3 nodes are neighbours in memory. Columns are cut into strips; while no point
 // has strayed far from where it was sorted, every second strip shares no node with another, and the
 // active nodes are known. So strips are the unit of work of a thread, and what they add up does not
-// depend on how many threads there are. Each thread has a part of the section with as many points as any
-// other's, the same in every loop, so that points and nodes stay in its core's cache.
+// depend on how many threads there are.
 #pragma once
 
 #include <array>
@@ -14,18 +13,6 @@
 
 namespace breach::mpm {
 
-/// Strips or nodes in their order, and where each thread's own begin, first to last.
-template <class Place>
-struct Dealt {
-    std::vector<Place> places;
-    std::vector<std::size_t> starts;  ///< of as many parts as threads, and the end of the last
-
-    auto begin() const { return places.begin(); }
-    auto end() const { return places.end(); }
-    std::size_t size() const { return places.size(); }
-    Place operator[](std::size_t k) const { return places[k]; }
-};
-
 class Strips {
   public:
     /// Columns of nodes in a strip: of two strips that are a strip apart none reaches the same
@@ -35,32 +22,28 @@ class Strips {
     static constexpr double largest_stray = 0.5;
 
     /// Puts the points in order, gives them new homes and cuts.
-    void sort(Grid& grid, Points& points, const std::vector<Zone>& zones, std::size_t threads);
+    void sort(Grid& grid, Points& points, const std::vector<Zone>& zones);
     /// Cuts points that stand in the order of their homes, and finds the active nodes.
-    void cut(Grid& grid, const Points& points, const std::vector<Zone>& zones, std::size_t threads);
+    void cut(Grid& grid, const Points& points, const std::vector<Zone>& zones);
 
     std::size_t count() const { return count_; }
     /// Points of a zone in a strip.
     Span span(std::size_t strip, std::size_t zone) const { return spans_[strip * zones_ + zone]; }
     /// Strips that share no node with one another: the even ones, the odd ones.
-    const std::array<Dealt<std::size_t>, 2>& apart() const { return apart_; }
-    const Dealt<std::size_t>& all() const { return all_; }
+    const std::array<std::vector<std::size_t>, 2>& apart() const { return apart_; }
+    const std::vector<std::size_t>& all() const { return all_; }
     /// Cells (as their nodes) that a zone's points can be in; every active node is of some zone.
-    const Dealt<std::int32_t>& cells(std::size_t zone) const { return cells_[zone]; }
-    /// Where each thread's own of the active nodes begin.
-    const std::vector<std::size_t>& starts_of_active() const { return starts_of_active_; }
+    const std::vector<std::int32_t>& cells(std::size_t zone) const { return cells_[zone]; }
 
   private:
     void find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones);
-    void deal(const Grid& grid, std::size_t threads);
 
     std::size_t count_ = 0;
     std::size_t zones_ = 0;
     std::vector<Span> spans_;
-    std::array<Dealt<std::size_t>, 2> apart_;
-    Dealt<std::size_t> all_;
-    std::vector<Dealt<std::int32_t>> cells_;
-    std::vector<std::size_t> starts_of_active_;
+    std::array<std::vector<std::size_t>, 2> apart_;
+    std::vector<std::size_t> all_;
+    std::vector<std::vector<std::int32_t>> cells_;
 };
 
 }  // namespace breach::mpm

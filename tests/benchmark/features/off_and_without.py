@@ -36,18 +36,13 @@ EDITS = {
         ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);\n", ""),
         ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::musl) map_again(body, dt);\n", ""),
         ("another order of the update", MPM_STEP, "    if (body.order != UpdateOrder::usf) update_stress(body, dt);\n", "    update_stress(body, dt);\n"),
-        ("friction zones", MPM_STEP, "        if (must & condition::floor) {\n"
-         "            friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);\n        }\n", ""),
+        ("friction zones", MPM_STEP, "            if (must & condition::floor) {\n"
+         "                friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);\n            }\n", ""),
         ("friction zones", MPM_STEP, "double rub(double m, double mu,", "[[maybe_unused]] double rub(double m, double mu,"),
-        ("terrain", MPM_STEP, "        if (must & condition::terrain) {\n"
-         "            friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);\n        }\n", ""),
+        ("terrain", MPM_STEP, "            if (must & condition::terrain) {\n"
+         "                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);\n            }\n", ""),
         ("terrain", MPM_STEP, "    double friction_work = 0.0;\n", ""),
-        ("terrain", MPM_STEP, "    return friction_work;\n", "    return 0.0;\n"),
-        ("terrain", MPM_STEP, "            else if (!(grid.conditions[node] & condition::rubs))\n", "            else\n"),
-        ("terrain", MPM_STEP, "    double friction_work = 0.0;  // summed in the nodes' order whatever the threads\n"
-         "    for (const std::int32_t node : grid.rubbing) {\n"
-         "        if (grid.mass[node] > 0.0) friction_work += move_node(grid, node, pull, dt);\n    }\n"
-         "    body.tally.friction += friction_work;\n", ""),
+        ("terrain", MPM_STEP, "    body.tally.friction += friction_work;\n", ""),
         ("overlap correction", MPM_RUN, "    if (mpm_.overlap_correction.rate > 0.0 && clock_.step % steps_between_marks == 0) {\n"
          "        overlap_.mark(body_, mpm_.overlap_correction.tolerance);\n    }\n", ""),
         ("gaps held to their room", MPM_RUN, "    if (mpm_.gap_closure && mpm_.gap_room && clock_.step % steps_between_marks == 0) {\n"

@@ -68,7 +68,7 @@ Speed collapse(double h, double end, const Computing& computing) {
         };
         keep_sorted(body);
         lap(0);
-        forget_last_step(body);
+        clear(body.grid);
         lap(1);
         particle_to_grid(body, dt);
         lap(2);

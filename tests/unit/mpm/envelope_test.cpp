@@ -79,7 +79,7 @@ TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
         if (k % 20 == 0)
             read_sections(sections, body.points, view, time, k == 0 ? time : time - 0.1, records);
         move(body.points, v * 0.005);
-        body.strips.sort(body.grid, body.points, body.zones, 1);
+        body.strips.sort(body.grid, body.points, body.zones);
     }
     const std::vector<double> passed{2.5, 7.5, 5.75, 0.0, 0.0, 0.0};
     for (std::size_t s = 0; s < sections.size(); ++s) {

@@ -58,7 +58,7 @@ TEST(Sort, ChangesTheOrderAndNothingElse) {
     Body body = filled_body(scene);
     std::reverse(body.points.x.begin(), body.points.x.end());
     const exchange::ParticleState before = particle_state(scene, body.points);
-    body.strips.sort(body.grid, body.points, body.zones, 1);
+    body.strips.sort(body.grid, body.points, body.zones);
     const exchange::ParticleState after = particle_state(scene, body.points);
     for (std::size_t p = 0; p < before.size(); ++p) {
         EXPECT_EQ(before.position[p], after.position[p]);
@@ -84,44 +84,13 @@ TEST(Sort, KnowsTheCellsThatEachZonesPointsReach) {
     for (int k = 0; k < 600; ++k) {
         step(body, dt);
         for (std::size_t z = 0; z < body.zones.size(); ++z) {
-            const std::vector<std::int32_t>& cells = body.strips.cells(z).places;
+            const std::vector<std::int32_t>& cells = body.strips.cells(z);
             EXPECT_LT(cells.size(), body.grid.active.size());
             for (std::size_t p = body.zones[z].begin; p < body.zones[z].end; ++p) {
                 ASSERT_TRUE(std::ranges::binary_search(cells, body.points.cell[p])) << k;
                 ASSERT_GT(body.averages[z][body.points.cell[p]].V, 0.0) << k;
             }
         }
-    }
-}
-
-/// A heap that is deep at one end: strips of one thread hold as many points as those of another, to a
-/// strip, and its nodes are those of its strips.
-TEST(Sort, DealsPointsNotStrips) {
-    const scene::Scene scene = one_soil(sand(1e7, 0.3, 0.0, 30.0), 1800.0,
-                                        {{0, 0}, {40, 0}, {40, 1}, {0, 12}}, 0.5, 60.0, 15.0);
-    Body body = filled_body(scene);
-    for (const std::size_t threads : {1u, 2u, 3u}) {
-        body.strips.sort(body.grid, body.points, body.zones, threads);
-        const Dealt<std::size_t>& all = body.strips.all();
-        ASSERT_EQ(all.starts.size(), threads + 1);
-        std::size_t most_of_a_strip = 0;
-        for (std::size_t n = 0; n < threads; ++n) {
-            std::size_t points = 0;
-            for (std::size_t k = all.starts[n]; k < all.starts[n + 1]; ++k) {
-                const Span span = body.strips.span(all[k], 0);
-                points += span.end - span.begin;
-                most_of_a_strip = std::max(most_of_a_strip, span.end - span.begin);
-            }
-            EXPECT_NEAR(static_cast<double>(points),
-                        static_cast<double>(body.points.size()) / static_cast<double>(threads),
-                        static_cast<double>(most_of_a_strip));
-        }
-        const std::vector<std::size_t>& nodes = body.strips.starts_of_active();
-        for (std::size_t n = 1; n < threads; ++n) {
-            const std::int32_t column = body.grid.active[nodes[n]] / body.grid.rows;
-            EXPECT_EQ(static_cast<std::size_t>(column / Strips::width), all[all.starts[n]]);
-        }
-        EXPECT_EQ(nodes.back(), body.grid.active.size());
     }
 }
 

@@ -274,7 +274,7 @@ TEST(LastGoodState, IsThatOfEveryPointWhateverTheirOrderSince) {
     const std::vector<std::int32_t> order = points.number;
     for (double& each : points.x) each = 4.0 - each;
     for (double& each : points.gap) each = 0.0;
-    body.strips.sort(body.grid, points, body.zones, 1);
+    body.strips.sort(body.grid, points, body.zones);
     ASSERT_NE(points.number, order);
     const Points then = good.restored(points);
     for (std::size_t p = 0; p < then.size(); ++p) {

@@ -40,23 +40,6 @@ TEST(Team, GivesEachThreadAPartOfItsOwn) {
     }
 }
 
-/// The first has one task, the other five: the first one's and any of the five can meet.
-TEST(Team, BeginsWithThePartsThatAreGiven) {
-    using Clock = std::chrono::steady_clock;
-    Team team(2);
-    const std::vector<std::size_t> starts{0, 1, 6};
-    const auto end = Clock::now() + std::chrono::seconds(20);
-    for (int round = 0; round < 100; ++round) {
-        std::array<std::atomic<bool>, 6> begun{};
-        team.share(starts, [&](std::size_t task) {
-            begun[task] = true;
-            while (!(begun[0] && begun[1]) && Clock::now() < end) std::this_thread::yield();
-        });
-        ASSERT_LT(Clock::now(), end) << "round " << round;
-        for (const auto& each : begun) EXPECT_TRUE(each);
-    }
-}
-
 TEST(Team, HelpsWhoIsBehind) {
     Team team(2);
     for (const std::size_t slow : {0, 9}) {
