@@ -65,7 +65,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     body.softening = NonlocalSoftening(body.points, body.zones, body.grid, body.kernel,
                                        body.gimp_half_size, body.widest);
     if (body.softening.is_on() && body.points.epsilon_q_shared.empty())
-        body.softening.remember(body.points);
+        NonlocalSoftening::remember(body.points);
     const std::size_t n = body.points.size();
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);

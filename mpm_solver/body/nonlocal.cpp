@@ -72,7 +72,7 @@ NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zon
     for (auto* numbers : {&volume_, &growth_, &given_, &mean_}) numbers->resize(grid.nodes());
 }
 
-void NonlocalSoftening::remember(Points& points) const {
+void NonlocalSoftening::remember(Points& points) {
     points.epsilon_q_shared = points.epsilon_q_plastic;
 }
 
@@ -80,9 +80,9 @@ void NonlocalSoftening::follow(Points& points, const std::vector<Zone>& zones, c
     if (++pace_.done < pace_.due) return;
     const double growth = spread(points, zones, grid);
     remember(points);
-    const double share_of_due = growth_to_share / std::max(growth, 1e-3 * growth_to_share);
-    const auto due = static_cast<std::int64_t>(share_of_due * static_cast<double>(pace_.due));
-    pace_ = {.due = std::clamp(due, std::int64_t{1}, std::min(2 * pace_.due, most_steps))};
+    const double longer = growth > 0.0 ? std::min(growth_to_share / growth, 2.0) : 2.0;
+    const auto due = static_cast<std::int64_t>(longer * static_cast<double>(pace_.due));
+    pace_ = {.due = std::clamp(due, std::int64_t{1}, most_steps)};
 }
 
 bool NonlocalSoftening::takes_part(const Points& points, std::size_t p, const Group& group,

@@ -29,7 +29,7 @@ class NonlocalSoftening {
 
     bool is_on() const { return !groups_.empty(); }
     /// From where the strains grow.
-    void remember(Points& points) const;
+    static void remember(Points& points);
     /// After the stress update of a step, where it is on.
     void follow(Points& points, const std::vector<Zone>& zones, const Grid& grid);
     /// The growth of every brittle point becomes its neighbourhood's. Returns the mean growth where soil

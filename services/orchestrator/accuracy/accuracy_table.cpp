@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/phases/phases.hpp"
-#include "core/scene/schema.hpp"
 #include "services/orchestrator/accuracy/mean_of_draws.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
@@ -202,8 +201,8 @@ bool changes(const Ladder& ladder, std::string_view entry) {
 }
 
 /// The materials of the base's section that soften.
-std::vector<json> softening_soils(const AccuracyPlan& plan, json scene) {
-    for (const std::string& each : plan.base) scene::apply_override(scene, each);
+std::vector<json> softening_soils(const AccuracyPlan& plan, const json& study_scene) {
+    const json scene = changed(study_scene, plan.base);
     std::vector<json> soils;
     for (const json& region : scene.at("section").at("regions")) {
         const json& soil = scene.at("materials").at(region.at("material").get<std::string>());

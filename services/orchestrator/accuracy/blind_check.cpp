@@ -88,10 +88,6 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
         refuse("/ladder", "there is no reference yet: " + table.ladders[row.setting.ladder].message,
                "wait for the study's end, or check a rung of another ladder");
     const std::size_t mean_of = draws_of_a_mean(row, wish);
-    const std::vector<std::string>& setting =
-        plan.ladders[row.setting.ladder].steps[row.setting.step];
-    std::vector<std::string> overrides = plan.base;
-    overrides.insert(overrides.end(), setting.begin(), setting.end());
 
     const json of = store.study_of(run).value();
     json study{{"format", of.at("format")},
@@ -99,7 +95,7 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
                {"title", "Blind check of " + run + ": " + plan.ladders[row.setting.ladder].name +
                              " " + std::to_string(row.setting.step + 1)},
                {"scene", json::parse(store.scene_of(run).value())},
-               {"overrides", overrides},
+               {"overrides", overrides_of(plan, row.setting.ladder, row.setting.step)},
                {"draws", wish.repeats * mean_of},
                {"first_draw", plan.draws},
                {"draws_of", name_of(plan.draws_of)},

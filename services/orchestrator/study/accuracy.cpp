@@ -1,14 +1,11 @@
 #include "services/orchestrator/study/accuracy.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
 
-#include "core/scene/schema.hpp"
 #include "core/telemetry/columns.hpp"
 #include "services/orchestrator/records/result_columns.hpp"
 
@@ -162,14 +159,6 @@ std::string name_of_rung(const Ladder& ladder, std::size_t step) {
     return ladder.name + "_" + std::to_string(step + 1);
 }
 
-std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
-                                      std::size_t step) {
-    std::vector<std::string> overrides = plan.base;
-    const auto& own = plan.ladders[ladder].steps[step];
-    overrides.insert(overrides.end(), own.begin(), own.end());
-    return overrides;
-}
-
 }  // namespace
 
 std::string names_of_results() {
@@ -212,6 +201,14 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
                           "rungs times draws are more than " + std::to_string(most_variants),
                           "ask for fewer draws, or split the study"});
     return plan;
+}
+
+std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
+                                      std::size_t step) {
+    std::vector<std::string> overrides = plan.base;
+    const auto& own = plan.ladders[ladder].steps[step];
+    overrides.insert(overrides.end(), own.begin(), own.end());
+    return overrides;
 }
 
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {

@@ -78,6 +78,9 @@ struct Setting {
 AccuracyPlan read_accuracy(const nlohmann::json& entry, const nlohmann::json& scene,
                            std::vector<fault::Fault>& faults);
 
+/// What a rung changes in the study's scene: the base, and its own.
+std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
+                                      std::size_t step);
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json& scene);
 /// All variants of the plan, each once, in the order of the settings.
 std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const nlohmann::json& scene);

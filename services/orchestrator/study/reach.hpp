@@ -7,8 +7,7 @@
 
 namespace breach::orchestrator {
 
-/// FEM, transfer and MPM; the MPM alone, from the section itself; the
-/// FEM alone; lem_tool alone.
+/// FEM, transfer and MPM; the MPM alone, from the section itself; the FEM alone; lem_tool alone.
 enum class Reach { chain, filled_mpm, fem, lem };
 /// The phases of a variant, first to last.
 std::vector<phases::Phase> phases_of(Reach reach);

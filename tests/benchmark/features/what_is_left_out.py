@@ -90,7 +90,7 @@ def on_rollers(scene):
 # Feature, what switches it off, and what its being off leaves behind in a step.
 COMPILED, PER_STEP, PER_NODE = "nothing: another loop is compiled without it", "one test per step", "one test per node in use"
 MPM = {
-    "nonlocal softening": (without("materials", "sand", "nonlocal_length"), "one test per step"),
+    "nonlocal softening": (without("materials", "sand", "nonlocal_length"), PER_STEP),
     "softening": (all_of(without("materials", "sand", "law", "softening"), without("materials", "sand", "nonlocal_length")), COMPILED),
     "viscosity": (without("materials", "sand", "viscosity"), COMPILED),
     "anti-locking": (having("off", "mpm", "anti_locking"), COMPILED),

@@ -57,7 +57,7 @@ class Rows {
             softening.spread(body_.points, body_.zones, body_.grid);
         if (at_its_pace_ && softening.pace().done > 0) return;
         for (std::size_t p = 0; p < k.size(); ++p) k[p] = strain(row_of_[p]);
-        softening.remember(body_.points);
+        NonlocalSoftening::remember(body_.points);
     }
 
   private:
@@ -218,7 +218,7 @@ template <class Own>
 std::vector<double> gains(Body& body, const Own& own) {
     std::vector<double>& k = body.points.epsilon_q_plastic;
     const std::vector<double> before = k;
-    body.softening.remember(body.points);
+    NonlocalSoftening::remember(body.points);
     for (std::size_t p = 0; p < k.size(); ++p) k[p] += own(p);
     body.softening.spread(body.points, body.zones, body.grid);
     std::vector<double> gained(k.size());
@@ -256,7 +256,7 @@ TEST(NonlocalSoftening, IsSharedTheOftenerTheFasterBandsGrow) {
     const auto due_after = [&](double growth_of_a_step) {
         for (int step = 0; step < 100; ++step) {
             std::ranges::fill(k, 0.0);
-            body.softening.remember(body.points);
+            NonlocalSoftening::remember(body.points);
             do {
                 for (double& each : k) each += growth_of_a_step;
                 body.softening.follow(body.points, body.zones, body.grid);
