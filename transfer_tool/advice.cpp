@@ -121,6 +121,10 @@ Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& tel
         advice.signs.push_back(sign_of(each.name, each.condition, telemetry));
     advice.lower = edge_of(window.lower());
     if (!advice.lower) return advice;
+    if (window.shut_since()) {
+        advice.shut_since = window.shut_since()->time;
+        return advice;
+    }
     advice.upper = edge_of(window.upper());
     const double from = advice.lower->time;
     const double to = advice.until();
@@ -155,6 +159,9 @@ std::string as_text(const Advice& advice) {
         text += "the telemetry has no \"" + field + "\": a condition on it is never true\n";
     if (!advice.lower) {
         text += "no window: the failure has not developed\n";
+    } else if (advice.shut_since) {
+        text += edge_text("no window: the failure has developed at", *advice.lower);
+        text += line_of("the mesh is too distorted since %.6g s\n", *advice.shut_since);
     } else {
         text += edge_text("lower edge", *advice.lower);
         text += advice.upper ? edge_text("upper edge", *advice.upper)

@@ -31,11 +31,12 @@ struct Edge {
 struct Advice {
     double begin = 0.0;  ///< of the telemetry [s]
     double end = 0.0;
-    std::optional<Edge> lower;       ///< nothing: the failure has not developed
-    std::optional<Edge> upper;       ///< nothing: the telemetry ends first, and closes the window
-    std::vector<double> snapshots;   ///< in the window [s]
-    std::optional<double> half_way;  ///< between the edges [s]
-    std::optional<double> pick;      ///< the snapshot to take [s]
+    std::optional<Edge> lower;         ///< nothing: the failure has not developed
+    std::optional<Edge> upper;         ///< nothing: the telemetry ends first, and closes the window
+    std::optional<double> shut_since;  ///< too distorted before the lower edge: no window [s]
+    std::vector<double> snapshots;     ///< in the window [s]
+    std::optional<double> half_way;    ///< between the edges [s]
+    std::optional<double> pick;        ///< the snapshot to take [s]
     std::vector<Sign> signs;
     std::vector<std::string> missing;  ///< fields of the window that the telemetry lacks
 

@@ -18,8 +18,9 @@ nlohmann::json as_json(const Edge& edge) {
 
 nlohmann::json as_json(const Advice& advice) {
     nlohmann::json entry{{"begin", advice.begin}, {"end", advice.end}, {"missing", advice.missing}};
-    if (advice.lower) {
-        entry["lower"] = as_json(*advice.lower);
+    if (advice.lower) entry["lower"] = as_json(*advice.lower);
+    if (advice.shut_since) entry["shut_since"] = *advice.shut_since;
+    if (advice.half_way) {
         entry["upper"] = advice.upper ? as_json(*advice.upper)
                                       : nlohmann::json{{"time", advice.end},
                                                        {"condition", "the telemetry's end"}};

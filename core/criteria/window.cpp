@@ -1,6 +1,7 @@
 #include "core/criteria/window.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "core/words/words.hpp"
 
@@ -15,10 +16,17 @@ static constexpr auto words_of(Pick) {
 std::optional<Pick> pick_named(std::string_view name) { return words::find<Pick>(name); }
 
 Window::Window(Expression lower, Expression upper, double hold)
-    : lower_(std::move(lower), hold), upper_(std::move(upper), hold) {}
+    : lower_(std::move(lower), hold),
+      upper_(upper, hold),
+      span_(std::move(upper), std::numeric_limits<double>::max()) {}
 
 void Window::take_upper(const Line& line) {
-    if (lower_.state() == Criterion::State::met) upper_.take(line);
+    using State = Criterion::State;
+    if (!shut_since_) span_.take(line);
+    if (lower_.state() != State::met) return;
+    if (const auto& since = span_.crossing(); since && since->time <= lower_.crossing()->time)
+        shut_since_ = since;
+    upper_.take(line);
 }
 
 std::optional<double> picked(Pick pick, double lower, double upper, std::span<const double> times) {

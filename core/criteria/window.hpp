@@ -18,13 +18,18 @@ class Window {
     Window(Expression lower, Expression upper, double hold);
 
     void take_lower(const Line& line) { lower_.take(line); }
-    /// The upper edge counts only once the lower one is reached.
+    /// After take_lower of the same line. The upper edge counts only once the lower one is reached.
     void take_upper(const Line& line);
     const Criterion& lower() const { return lower_; }
     const Criterion& upper() const { return upper_; }
+    /// Where the mesh was too distorted from, without a break, when the failure had developed: there
+    /// is no window. Known once the lower edge is met.
+    const std::optional<Line>& shut_since() const { return shut_since_; }
 
   private:
     Criterion lower_, upper_;
+    Criterion span_;  ///< of the upper condition while the lower edge is not met: never met itself
+    std::optional<Line> shut_since_;
 };
 
 /// The snapshot to take in [lower, upper]; `times` ascend [s]. first: the first not before the

@@ -335,6 +335,16 @@ std::string as_result_table(const json& answer) {
     return as_table(columns, lines) + (notes.empty() ? "" : "\n" + notes);
 }
 
+std::string as_list_without_transfer(const json& answer) {
+    std::string text;
+    for (const json& each : answer.value("without_transfer", json::array())) {
+        const std::string variant = each.at("variant");
+        text += "no transfer" + (variant.empty() ? "" : " of " + variant) + ": " +
+                cell(each, "state") + ", " + cell(each, "reason") + "\n";
+    }
+    return text;
+}
+
 std::string as_mean_table(const json& answer) {
     const json means = answer.value("means", json::array());
     if (means.empty()) return "";

@@ -28,6 +28,8 @@ std::string as_run_page(const nlohmann::json& run);
 std::string as_task_page(const nlohmann::json& task);
 /// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
 std::string as_result_table(const nlohmann::json& answer);
+/// What has no row in it: variants that nothing was transferred of, and why; empty: there are none.
+std::string as_list_without_transfer(const nlohmann::json& answer);
 /// The means of the same answer, with their standard deviations and what is missing in them; empty:
 /// the study has no draws.
 std::string as_mean_table(const nlohmann::json& answer);

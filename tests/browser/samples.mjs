@@ -34,6 +34,9 @@ function model({ "residual strength": strength, viscosity, motion, lattice }) {
 
 const name_of = (number) => `s${String(number).padStart(4, "0")}`;
 
+/// Of a study: the samples that nothing was transferred of.
+const stood_in = (study) => Object.fromEntries((study.stood ?? []).map((name) => [name, "not_reached"]));
+
 /// {names that ended otherwise: state}: every 30th broke down, the last two have not ended.
 export const open_or_failed = (samples) => Object.fromEntries([
     ...Array.from({ length: samples }, (_, i) => i + 1).filter((number) => number % 30 === 5).map((number) => [name_of(number), "failed"]),
@@ -117,7 +120,7 @@ function quantity(rows, name, next, parameters) {
 
 /// task_of(sample's name): of its runout.
 export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of) {
-    const odd = open_or_failed(study.variants.length);
+    const odd = { ...open_or_failed(study.variants.length), ...stood_in(study) };
     const next = numbers_from(11);
     const rows = study.variants.map(({ name: sample, sample: { values } }) => {
         const { moves, ...results } = model(values);
@@ -126,6 +129,7 @@ export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of
     });
     const done = rows.filter((row) => row.results.runout !== null).length;
     const failed = rows.filter((row) => row.state === "failed");
+    const stood = rows.filter((row) => row.state === "not_reached");
     const parameters = [
         { name: "residual strength", kind: "factor", distribution: { type: "lognormal", median: 1, cov: 0.3 }, between: [0.4, 2.5],
           entries: ["/materials/sand/law/softening/c_residual_kPa"], asked_correlation: { viscosity: 0.3 } },
@@ -134,8 +138,10 @@ export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of
         { name: "lattice", kind: "numerical", distribution: null, between: null, entries: [], asked_correlation: {} },
     ];
     return { run: id, name, state, quantity: "runout_beyond_toe", sampling: "latin_hypercube", seed: 7, confidence: 0.9,
-             samples: { planned: rows.length, done, failed: failed.length, questionable: rows.filter((row) => row.state === "questionable").length, open: rows.length - done - failed.length,
-                        left_out: failed.map(({ sample }) => ({ sample, state: "failed", reason: "exit 70: a point left the grid at 3.2 s" })) },
+             samples: { planned: rows.length, done, failed: failed.length, questionable: rows.filter((row) => row.state === "questionable").length, open: rows.length - done - failed.length - stood.length,
+                        no_transfer: stood.length,
+                        left_out: [...failed.map(({ sample }) => ({ sample, state: "failed", reason: "exit 70: a point left the grid at 3.2 s" })),
+                                   ...stood.map(({ sample }) => ({ sample, state: "not_reached", reason: "window: the FEM ended at 25 s" }))] },
              parameters, rows,
              quantities: Object.fromEntries(Object.keys(quantity_names).map((each) => [each, quantity(rows, each, next, parameters.map((one) => one.name))])),
              until: { quantity: "runout_beyond_toe", percentile: 90, half_width: 0.1, reached: false, now: 0.13 }, inverse: null,

@@ -23,13 +23,22 @@ after(async () => {
 
 const text_of = (selector) => page.textContent(selector);
 
-async function open_samples(count, settings = {}) {
-    const run = api.add_run(uncertain_study(study, count), { began: Date.now() - 60000, ...settings });
+async function open_samples(count, settings = {}, more = {}) {
+    const run = api.add_run({ ...uncertain_study(study, count), ...more }, { began: Date.now() - 60000, ...settings });
     await page.goto("about:blank");
     await page.goto(`${url}/#/runs/${run.id}`);
     await page.waitForSelector("#uncertainty:not([hidden]) #uncertainty-samples tbody tr");
     return run;
 }
+
+test("samples that nothing was transferred of have ended, and are counted apart from those that failed", async () => {
+    await open_samples(64, {}, { stood: ["s0010", "s0011"] });
+    const doubts = await text_of("#uncertainty-doubts");
+    assert.match(doubts, /Of 2 of 64 nothing was transferred: their FEM ended and its triggers had not fired/);
+    assert.match(doubts, /2 of 64 left no result/);
+    assert.match(doubts, /2 have not ended/);
+    assert.match(await text_of("#uncertainty-left-out-title"), /4 samples/);
+});
 
 test("how many samples there are, and what that leaves unsaid, stands above the numbers", async () => {
     const run = await open_samples(64);

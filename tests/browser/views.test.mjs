@@ -272,6 +272,17 @@ async function looked_at(kind, bytes) {
     return facts;
 }
 
+test("a variant that nothing was transferred of stands above the figure, with the reason", async () => {
+    const without = [{ variant: "strength_x_1.25", fem_task: "r-0", state: "not_reached", stood: true, reason: "window: the FEM ended at 25 s" }];
+    const run = api.add_run({ ...twelve_variants, name: "without", without }, { began: Date.now() - 60000, breaks: [] });
+    await open_run(run.id);
+    await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);
+    assert.equal(await text_of("#runout-without"), "Nothing was transferred of strength_x_1.25 (not reached): window: the FEM ended at 25 s");
+    const other = api.add_run({ ...twelve_variants, name: "with" }, { began: Date.now() - 60000, breaks: [] });
+    await open_run(other.id);
+    await until("no list", async () => page.locator("#runout-without").isHidden());
+});
+
 test("figures are saved as SVG that needs no style sheet, and as PNG", async () => {
     await open_run();
     const figure = await downloaded("#runout-plot .under-plot button:has-text('SVG')");

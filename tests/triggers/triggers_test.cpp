@@ -38,9 +38,9 @@ json triggers_of(Service& service, const std::string& run) {
 }
 
 /// Every trigger is in a final state and the run is over.
-json settled(Service& service, const std::string& run) {
+json settled(Service& service, const std::string& run, const char* state = "succeeded") {
     const json end = service.wait_for_end(run, 60);
-    EXPECT_EQ(end.value("state", ""), "succeeded") << end.dump();
+    EXPECT_EQ(end.value("state", ""), state) << end.dump();
     return triggers_of(service, run);
 }
 
@@ -95,10 +95,75 @@ TEST(Trigger, CrossedAndUncrossedInsideTheHoldDoesNotFire) {
     Service service(live.sandbox);
     const std::string run = service.submit(
         with_triggers({{{"kind", "criterion"}, {"when", "epsilon_q_max > 0.5"}, {"hold_s", 0.2}}}));
-    const json trigger = settled(service, run).at(0);
+    const json trigger = settled(service, run, "partial").at(0);
     EXPECT_EQ(trigger.at("state"), "expired");
-    EXPECT_EQ(trigger.at("reason"), "the FEM ended and the condition was not true");
+    const std::string reason = trigger.at("reason");
+    EXPECT_EQ(reason,
+              "the FEM ended at 2.8 s, and epsilon_q_max > 0.5 had not held for 0.2 s; at its "
+              "end epsilon_q_max = 0");
+    EXPECT_EQ(trigger.at("result"), json({{"was_met", false}}));
     EXPECT_TRUE(service.table(run).empty());
+    const json missing =
+        service.get("/v1/runs/" + run + "/results").body.at("without_transfer").at(0);
+    EXPECT_EQ(missing.at("state"), "not_reached");
+    EXPECT_EQ(missing.at("stood"), true);
+    EXPECT_EQ(missing.at("reason"), "criterion_1: " + reason);
+    EXPECT_EQ(service.get("/v1/runs/" + run).body.at("message"),
+              "no transfer: criterion_1: " + reason);
+}
+
+TEST(Trigger, AWindowThatIsNoneDoesNotFireAndSaysSo) {
+    const Live live;
+    Service service(live.sandbox);
+    const auto window = [](const char* pick) {
+        return json{{"kind", "window"},           {"name", pick},
+                    {"lower", "time >= 1"},       {"upper", "jacobian_least_avg < 0.97"},
+                    {"snapshot_interval_s", 0.1}, {"pick", pick}};
+    };
+    const std::string run =
+        service.submit(with_triggers({window("first"), window("midpoint"), window("last_before")}));
+    for (const json& each : settled(service, run, "partial")) {
+        EXPECT_EQ(each.at("state"), "expired");
+        EXPECT_TRUE(each.at("reason").get<std::string>().starts_with(
+            "there is no window: jacobian_least_avg < 0.97 is true since 0.65 s, and time >= 1 "
+            "only from 1 s on"))
+            << each;
+        EXPECT_EQ(each.at("result"), json({{"was_met", true}}));
+    }
+    const json answer = service.get("/v1/runs/" + run + "/results").body;
+    ASSERT_EQ(answer.at("without_transfer").size(), 1u);
+    EXPECT_EQ(answer.at("without_transfer")[0].at("stood"), false) << "it failed, and was not run";
+}
+
+TEST(Trigger, SamplesThatNothingWasTransferredOfHaveEndedAndAreCountedApart) {
+    const Live live;
+    Service service(live.sandbox);
+    json wanted = with_triggers({{{"kind", "window"},
+                                  {"name", "window"},
+                                  {"lower", "time >= 100"},
+                                  {"upper", "time >= 200"}}});
+    wanted["uncertainty"] = {
+        {"samples", 3},
+        {"seed", 7},
+        {"parameters",
+         {{{"name", "a"},
+           {"sets", {"/mpm/cfl"}},
+           {"distribution", {{"type", "uniform"}, {"from", 0.3}, {"to", 0.5}}}}}},
+        {"transfer", {{"trigger", "window"}}}};
+    const std::string run = service.submit(wanted);
+    settled(service, run, "partial");
+    const json answer = service.get("/v1/runs/" + run + "/uncertainty").body;
+    const json& samples = answer.at("samples");
+    EXPECT_EQ(samples.at("no_transfer"), 3) << samples;
+    EXPECT_EQ(samples.at("open"), 0);
+    EXPECT_EQ(samples.at("failed"), 0);
+    ASSERT_EQ(samples.at("left_out").size(), 3u);
+    EXPECT_EQ(samples.at("left_out")[0].at("state"), "not_reached");
+    EXPECT_NE(samples.at("left_out")[0].at("reason").get<std::string>().find("at its end time = "),
+              std::string::npos);
+    EXPECT_TRUE(answer.at("sentences")[0].get<std::string>().starts_with(
+        "0 of 3 samples ended with a result; of 3 nothing was transferred."))
+        << answer.at("sentences");
 }
 
 TEST(Trigger, SeveralOnOneStepShareOneTransfer) {

@@ -66,6 +66,14 @@ def main(folder):
             by_x = {float(rows[0]["x_m"]): statistics.median(float(row[column] or 0.0) for row in rows) for rows in zip(*files)}
             off = [(x, by_x[x], median) for x, median in zip(told["x"], told["bands"][name]["p50"]) if not near(by_x[x], median, 1e-5)]
             check(f"the median of {name} is that of the files at all {len(by_x)} places", len(told["x"]) == len(by_x) and not off, off)
+
+        again = service.submit(file)
+        service.finish(again)
+        check("the second run computed nothing", all(row["reused"] for row in service.rows(again)), service.rows(again))
+        retold = service.call(f"/v1/runs/{again}/envelopes")
+        check("reused runouts are in the envelopes", retold["bands"] == told["bands"] and not retold["left_out"], retold["left_out"])
+        run = again
+        check("and have their hydrographs", json.loads(text("section=toe"))["volume"] == toe["volume"])
     finally:
         service.stop()
 

@@ -60,8 +60,7 @@ Measured measured(const Task& last, const TasksById& tasks, const Quantity& quan
                   const DataFolder& data) {
     const auto chain = chain_of(last, tasks);
     const bool there = std::ranges::all_of(chain, [](const Task* each) {
-        return each->result && each->result->is_object() &&
-               (each->state == TaskState::succeeded || each->state == TaskState::cached);
+        return each->result && each->result->is_object() && has_output(each->state);
     });
     if (!there) return {.value = std::nullopt, .reason = reason_of(chain)};
     Measured found{.value = value_measured(last, quantity, data)};

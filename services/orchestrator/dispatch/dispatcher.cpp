@@ -34,9 +34,7 @@ std::string in_seconds(double time) {
 /// A FEM whose mesh entangles has done its work, and so has a run without what lies beyond.
 std::optional<std::string> why_not_reached(const Task& parent, const BlockedTask& child) {
     if (parent.not_reached && parent.fault) return parent.fault->summary;
-    const bool came_through =
-        parent.state == TaskState::succeeded || parent.state == TaskState::cached;
-    if (!came_through || !parent.result || !child.transfer_time) return std::nullopt;
+    if (!has_output(parent.state) || !parent.result || !child.transfer_time) return std::nullopt;
     if (parent.result->value("ended", "") != "entangled") return std::nullopt;
     return "the FEM ended entangled at " + in_seconds(parent.result->value("end_time", 0.0)) +
            ", before " + in_seconds(*child.transfer_time);
@@ -450,8 +448,7 @@ void Dispatcher::settle_children(const std::string& parent_id) {
     const std::optional<Task> found = store_.task(parent_id);
     if (!found) return;  // removed meanwhile
     const Task& parent = *found;
-    const bool succeeded =
-        parent.state == TaskState::succeeded || parent.state == TaskState::cached;
+    const bool succeeded = has_output(parent.state);
     // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
     // What is placed and not taken may go again before its task runs (dispatch/cache.cpp).
     const auto is_being_placed = [&] {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/phases/phases.hpp"
+#include "services/orchestrator/records/or_null.hpp"
 
 namespace breach::orchestrator {
 
@@ -13,8 +14,9 @@ using nlohmann::json;
 
 namespace {
 
+constexpr const char* safety = "factor_of_safety";
 constexpr std::array<const char*, 5> answers{"runout_beyond_toe", "runout", "runout_largest",
-                                             "area_beyond_toe", "factor_of_safety"};
+                                             "area_beyond_toe", safety};
 
 /// Of a row's state, which is that of a task, "questionable" or "not_reached".
 Fate fate_of(const std::string& state) {
@@ -39,17 +41,32 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
     std::map<std::string, ResultRow> rows;
     for (ResultRow& each : store.results(run))
         rows.emplace(value_of(each, "variant").get<std::string>(), std::move(each));
+    std::map<std::string, WithoutTransfer> without;
+    for (WithoutTransfer& each : store.without_transfer(run))
+        without.emplace(each.variant, std::move(each));
+    const auto factors = store.factors_of_safety(run);
     for (const json& variant : study->at("variants")) {
         if (!variant.contains("sample")) continue;
         SampleRow sample{.name = variant.at("name"),
                          .state = "queued",
                          .fate = Fate::open,
+                         .reason = "",
                          .drawn = variant.at("sample").at("values"),
-                         .row = std::nullopt};
+                         .row = std::nullopt,
+                         .factor_of_safety = std::nullopt};
+        for (const std::string& each : {sample.name, std::string()})
+            if (const auto own = factors.find(each);
+                own != factors.end() && !sample.factor_of_safety)
+                sample.factor_of_safety = own->second;
         if (const auto found = rows.find(sample.name); found != rows.end()) {
             sample.state = value_of(found->second, "state");
             sample.fate = fate_of(sample.state);
             sample.row = std::move(found->second);
+            sample.reason = value_of(*sample.row, "reason").get<std::string>();
+        } else if (const auto none = without.find(sample.name); none != without.end()) {
+            sample.state = none->second.state;
+            sample.fate = none->second.stood ? Fate::no_transfer : Fate::failed;
+            sample.reason = none->second.reason;
         }
         ensemble.samples.push_back(std::move(sample));
     }
@@ -57,6 +74,7 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
 }
 
 std::optional<double> result_of(const SampleRow& sample, std::string_view quantity) {
+    if (quantity == safety) return sample.factor_of_safety;
     if (sample.fate != Fate::done) return std::nullopt;
     const json& value = value_of(*sample.row, quantity);
     return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
@@ -114,8 +132,12 @@ SampleTable sample_table(const Ensemble& ensemble) {
         const auto take = [&](const char* name) {
             row.push_back(sample.row ? value_of(*sample.row, name) : json());
         };
-        for (const ResultColumn* each : quantities) take(each->name);
-        for (const char* name : {"questionable", "flags", "reason", "mpm_task"}) take(name);
+        for (const ResultColumn* each : quantities)
+            row.push_back(or_null(result_of(sample, each->name)));
+        take("questionable");
+        take("flags");
+        row.emplace_back(sample.reason);
+        take("mpm_task");
         table.rows.push_back(std::move(row));
     }
     return table;

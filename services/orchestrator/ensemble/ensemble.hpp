@@ -12,14 +12,18 @@
 
 namespace breach::orchestrator {
 
-enum class Fate { done, failed, open };
+enum class Fate { done, failed, no_transfer, open };
 
 struct SampleRow {
     std::string name;      ///< of its variant, "s0001"
     std::string state;     ///< that of its row of the results; "queued": it has none yet
-    Fate fate;             ///< failed: it ended without a result, whatever the reason
+    Fate fate;             ///< failed: it ended without a result, whatever the reason; no_transfer:
+                           ///< its FEM came to its end and not to what the transfer waits for
+    std::string reason;    ///< why it has no result
     nlohmann::json drawn;  ///< by parameter: a number, an option's name, a lattice's number
     std::optional<ResultRow> row;
+    /// Whatever became of its runout: those without one must not be missing in it.
+    std::optional<double> factor_of_safety;
 };
 
 struct Ensemble {

@@ -186,14 +186,14 @@ json counts_of(const Ensemble& ensemble) {
     std::int64_t questionable = 0;
     for (const SampleRow& each : ensemble.samples) {
         if (each.state == "questionable") ++questionable;
-        if (each.fate == Fate::failed)
-            left_out.push_back({{"sample", each.name},
-                                {"state", each.state},
-                                {"reason", value_of(*each.row, "reason")}});
+        if (each.fate == Fate::failed || each.fate == Fate::no_transfer)
+            left_out.push_back(
+                {{"sample", each.name}, {"state", each.state}, {"reason", each.reason}});
     }
-    return {{"planned", ensemble.samples.size()}, {"done", count(Fate::done)},
-            {"failed", count(Fate::failed)},      {"open", count(Fate::open)},
-            {"questionable", questionable},       {"left_out", std::move(left_out)}};
+    return {{"planned", ensemble.samples.size()},      {"done", count(Fate::done)},
+            {"failed", count(Fate::failed)},           {"open", count(Fate::open)},
+            {"no_transfer", count(Fate::no_transfer)}, {"questionable", questionable},
+            {"left_out", std::move(left_out)}};
 }
 
 json rows_of(const Ensemble& ensemble) {

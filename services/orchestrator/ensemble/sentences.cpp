@@ -29,12 +29,18 @@ std::string counts_in_words(const json& samples) {
     std::string words = samples.at("done").dump() + " of " +
                         counted(samples.at("planned"), "sample") + " ended with a result";
     if (samples.at("failed") > 0) words += "; " + samples.at("failed").dump() + " without one";
+    if (samples.at("no_transfer") > 0)
+        words += "; of " + samples.at("no_transfer").dump() + " nothing was transferred";
     if (samples.at("open") > 0) words += "; " + samples.at("open").dump() + " are open";
     words += ".";
     if (samples.at("failed") > 0)
         words +=
             " What those without one would have given is in no number here: if they are the ones "
             "that go farthest, every percentile is too small.";
+    if (samples.at("no_transfer") > 0)
+        words +=
+            " Where nothing was transferred the FEM ended and its triggers had not fired: if the "
+            "dam stands there, nothing runs out, and what is told here is told of dams that fail.";
     if (samples.at("questionable") > 0)
         words += " " + samples.at("questionable").dump() +
                  " of the results carry a flag that forbids to rely on them (a runout that still "

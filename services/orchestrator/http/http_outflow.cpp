@@ -58,7 +58,7 @@ void hydrograph(Service& service, Call& call) {
         throw bad_request("for must be json, csv, hec-ras or flo-2d");
     const Task task = meant_task(service, call.parts[0], phases::mpm.program,
                                  call.number("transfer_time"), call.parameter("variant"));
-    if (task.state != TaskState::succeeded)
+    if (!has_output(task.state))
         throw not_found("hydrograph of task " + task.id + " yet: it has not succeeded");
     const auto output = service.data.output(task);
     outflow::Hydrograph found;
@@ -94,7 +94,7 @@ void envelopes(const Service& service, Call& call) {
         const auto leave_out = [&](const std::string& reason) {
             left_out.push_back({{"task", task.id}, {"variant", task.variant}, {"reason", reason}});
         };
-        if (task.state != TaskState::succeeded) {
+        if (!has_output(task.state)) {
             leave_out(std::string(name_of(task.state)));
             continue;
         }

@@ -227,9 +227,17 @@ void results(const Service& service, Call& call) {
         return;
     }
     if (format != "json") throw bad_request("format must be json, csv or hdf5");
+    json without = json::array();
+    for (const WithoutTransfer& each : service.store.without_transfer(call.parts[0]))
+        without.push_back({{"variant", each.variant},
+                           {"fem_task", each.fem_task},
+                           {"state", each.state},
+                           {"stood", each.stood},
+                           {"reason", each.reason}});
     const json head{{"run", call.parts[0]},
                     {"columns", described(runs.columns)},
-                    {"mean_columns", described(means.columns)}};
+                    {"mean_columns", described(means.columns)},
+                    {"without_transfer", std::move(without)}};
     reply_with_text(call.response,
                     opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
                         ",\"means\":" + as_json_text(means.rows, means.columns) + "}");

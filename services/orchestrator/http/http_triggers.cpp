@@ -4,6 +4,7 @@
 #include "core/scene/schema.hpp"
 #include "core/telemetry/lines.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/study/draws.hpp"
 
 namespace breach::orchestrator {
 
@@ -86,6 +87,11 @@ void add(Service& service, Call& call) {
     const std::string& run = call.parts[0];
     wanted_run(service, run);
     const TriggerPlan plan = checked(service, run, call.json_body());
+    const json study = service.store.study_of(run).value();
+    if (study.value("draws", 1) > 1 && study.value("draws_of", "") == name_of(Redrawn::fem))
+        throw bad_request(
+            "each draw of the run has a FEM of its own, and a trigger fires at another time in "
+            "each: there would be no mean at a transfer time");
     for (const Trigger& each : service.store.triggers_of(run)) {
         if (each.name == plan.name)
             throw Problem{409, "/problems/name-taken", "Name taken",

@@ -162,6 +162,10 @@ bool is_final(TaskState state) {
     });
 }
 
+bool has_output(TaskState state) {
+    return state == TaskState::succeeded || state == TaskState::cached;
+}
+
 bool is_live(AttemptState state) {
     return state == A::submitting || state == A::submitted || state == A::running;
 }

@@ -102,6 +102,8 @@ std::optional<AttemptState> next(AttemptState from, AttemptEvent event);
 
 /// It is over: only a user's redo moves it any more.
 bool is_final(TaskState state);
+/// Its output is there: computed, or taken from an equal task.
+bool has_output(TaskState state);
 /// The attempt may still have a process.
 bool is_live(AttemptState state);
 

@@ -306,6 +306,17 @@ struct TransferFilter {
     std::optional<std::string> before;  ///< the task where the last page ended
 };
 
+/// A variant of which nothing was transferred, and nothing will be.
+struct WithoutTransfer {
+    std::string variant;
+    std::string fem_task;
+    std::string
+        state;   ///< "not_reached": the FEM came to its end, and its triggers to nothing; else
+                 ///< that of the FEM, or "cancelled"
+    bool stood;  ///< no trigger's condition was met, and the mesh was sound to the end
+    std::string reason;  ///< the triggers', or the FEM's
+};
+
 /// What a bisect knows of one of its transfers: of the first variant, on each of its lattices.
 struct Sample {
     double transfer_time;

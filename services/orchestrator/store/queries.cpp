@@ -139,6 +139,7 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
     read([&](Connection& database) {
         database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
+        tell_without_transfer(database, found);
         tell_what_is_missing(database, found);
     });
     return found;
@@ -177,6 +178,7 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
         database.query(run_columns(state) + "WHERE r.id=?", {id},
                        [&](const Row& row) { found.push_back(run_from(row)); });
         add_flags(database, found);
+        tell_without_transfer(database, found);
         tell_what_is_missing(database, found);
     });
     if (found.empty()) return std::nullopt;
@@ -437,6 +439,19 @@ std::optional<Artifact> Store::maker_of(const std::string& sha256) const {
             "SELECT task, name, sha256, bytes FROM artifacts JOIN tasks ON tasks.id=task WHERE "
             "sha256=? ORDER BY same_as IS NOT NULL, state='cached', task LIMIT 1",
             {sha256}, [&](const Row& row) { found = artifact_from(row); });
+    });
+    return found;
+}
+
+std::map<std::string, double> Store::factors_of_safety(const std::string& run) const {
+    std::map<std::string, double> found;
+    read([&](Connection& database) {
+        database.query(
+            "SELECT variant, json_extract(result, '$.factor_of_safety') FROM tasks WHERE run=? AND "
+            "phase=? AND result IS NOT NULL",
+            {run, phases::lem.program}, [&](const Row& row) {
+                if (const auto factor = row.optional_real(1)) found[row.text(0)] = *factor;
+            });
     });
     return found;
 }

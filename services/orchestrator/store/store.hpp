@@ -102,6 +102,8 @@ class Store {
     std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
     /// Of a study with draws, their means in the same order: one value for each of mean_columns().
     std::vector<ResultRow> means(const std::string& run) const;
+    /// By variant; "": of the analysis that serves all that have none of their own.
+    std::map<std::string, double> factors_of_safety(const std::string& run) const;
     /// Of the newest accuracy studies, a newer one's first.
     std::vector<AccuracyRung> accuracy_rungs(std::size_t most_runs) const;
     /// Points of a sweep, and how many of them have their runout.
@@ -113,6 +115,8 @@ class Store {
     std::vector<Trigger> open_batches() const;
     std::vector<Trigger> triggers_of(const std::string& run) const;
     std::vector<FiringRow> firings_of(const std::string& run) const;
+    /// In the order of the run's plan.
+    std::vector<WithoutTransfer> without_transfer(const std::string& run) const;
     /// A bisect's transfers, ascending in time; of several variants the first counts.
     std::vector<Sample> samples_of(const std::string& trigger) const;
 
@@ -158,6 +162,7 @@ class Store {
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void add_flags(Connection& database, std::vector<Run>& runs);
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
+    static void tell_without_transfer(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;

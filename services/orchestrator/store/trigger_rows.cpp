@@ -89,8 +89,10 @@ bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json 
     const auto to = from ? next(*from, event) : std::nullopt;
     if (!to) return false;
     if (detail.is_null()) detail = json::object();
-    database_.change("UPDATE triggers SET state=?, reason=?, changed=? WHERE id=?",
-                     {std::string(name_of(*to)), detail.value("why", ""), utc_now(), trigger.id});
+    database_.change(
+        "UPDATE triggers SET state=?1, reason=?2, changed=?3, "
+        "result=CASE WHEN ?1='armed' THEN NULL ELSE result END WHERE id=?4",
+        {std::string(name_of(*to)), detail.value("why", ""), utc_now(), trigger.id});
     detail["event"] = "trigger";
     detail["trigger"] = trigger.id;
     detail["name"] = trigger.name;

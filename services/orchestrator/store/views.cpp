@@ -13,6 +13,7 @@ namespace {
 
 // A run with an open trigger is not over: it may still get tasks. One of which no transfer time was
 // reached by its FEM has no runout, though nothing failed. Of lem_tool alone no runout is expected.
+// Nor has one whose triggers all came to nothing.
 // One that has spent its budget waits for more as soon as nothing of it runs.
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
@@ -30,6 +31,8 @@ SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_
              WHERE tasks.run = counted.id AND phase <> 'lem_tool')) THEN 'partial'
          WHEN failed > 0 THEN 'failed'
          WHEN reached < ended AND runouts = 0 THEN 'partial'
+         WHEN runouts = 0 AND EXISTS (SELECT 1 FROM triggers WHERE triggers.run = counted.id
+             AND triggers.state = 'expired') THEN 'partial'
          WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
              THEN 'questionable'
          ELSE 'succeeded' END AS state,

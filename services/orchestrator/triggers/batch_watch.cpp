@@ -8,7 +8,6 @@
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
-#include "services/orchestrator/records/result_columns.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
 #include "services/orchestrator/uncertainty/percentiles.hpp"
 
@@ -26,21 +25,13 @@ std::string condition_of(const Until& until) {
            " <= " + number(until.half_width) + " of it";
 }
 
-std::size_t place_of_column(const std::string& name) {
-    const auto& columns = result_columns();
-    const auto found = std::ranges::find(columns, name, &ResultColumn::name);
-    return static_cast<std::size_t>(found - columns.begin());
-}
-
 /// Of the samples that have the number.
 std::vector<double> results_of(const Store& store, const std::string& run,
                                const std::string& quantity) {
-    const std::size_t place = place_of_column(quantity), state = place_of_column("state");
+    const auto ensemble = ensemble_of(store, run);
     std::vector<double> values;
-    for (const ResultRow& row : store.results(run))
-        if (row.at(place).is_number() &&
-            (row.at(state) == "succeeded" || row.at(state) == "questionable"))
-            values.push_back(row.at(place));
+    for (const SampleRow& each : ensemble->samples)
+        if (const auto value = result_of(each, quantity)) values.push_back(*value);
     return values;
 }
 

@@ -11,6 +11,7 @@
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
+#include "core/words/number.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -61,6 +62,26 @@ json crossing_of(const criteria::Criterion& criterion) {
     for (std::size_t i = 0; i < line.values.size(); ++i)
         values[criterion.expression().fields[i]] = line.values[i];
     return values;
+}
+
+std::string in_short(double value) { return words::text_of(value, 4); }
+
+/// Why the condition was not met by the FEM's end, and how near it came: what it asks for on the
+/// last line.
+std::string never_met(const criteria::Criterion& criterion, double hold,
+                      const std::optional<criteria::Line>& last) {
+    const criteria::Expression& condition = criterion.expression();
+    if (!last) return "the FEM ended without a line of telemetry";
+    std::string text = "the FEM ended at " + in_short(last->time) + " s, and " + condition.text;
+    if (criterion.state() == criteria::Criterion::State::holding)
+        text += " had been true for only " + in_short(last->time - criterion.crossing()->time) +
+                " of " + in_short(hold) + " s";
+    else
+        text += hold > 0.0 ? " had not held for " + in_short(hold) + " s" : " had not been true";
+    for (std::size_t i = 0; i < condition.fields.size(); ++i)
+        text += (i == 0 ? "; at its end " : ", ") + condition.fields[i] + " = " +
+                (std::isfinite(last->values[i]) ? in_short(last->values[i]) : "not known");
+    return text;
 }
 
 /// Decided by a mean that may lie on the other side of the level: its own scatter and that of the
@@ -221,11 +242,23 @@ void TriggerWatch::feed(const Fem& fem, Armed& armed) {
     }
 }
 
-void TriggerWatch::take_line(const Fem& fem, Armed& armed, const telemetry::Line& line) {
+criteria::Line TriggerWatch::line_for(const Fem& fem, const criteria::Criterion& criterion,
+                                      const telemetry::Line& line) {
     std::map<std::string, double> beside;
     if (fem.critical_depth) beside.emplace(critical_depth_field, *fem.critical_depth);
+    return criteria::line_for(criterion.expression(), line, beside);
+}
+
+std::string TriggerWatch::why_never(const Fem& fem, const Armed& armed,
+                                    const criteria::Criterion& criterion) {
+    std::optional<criteria::Line> last;
+    if (!fem.lines.empty()) last = line_for(fem, criterion, fem.lines.back());
+    return never_met(criterion, armed.trigger.spec.value("hold_s", 0.0), last);
+}
+
+void TriggerWatch::take_line(const Fem& fem, Armed& armed, const telemetry::Line& line) {
     const auto on = [&](const criteria::Criterion& criterion) {
-        return criteria::line_for(criterion.expression(), line, beside);
+        return line_for(fem, criterion, line);
     };
     const auto note = [&](const criteria::Criterion& criterion, bool before) {
         if (before || criterion.state() != criteria::Criterion::State::met) return;
@@ -272,10 +305,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, When& when) {
     if (state == State::met) {
         take_first_from(fem, armed, when.criterion.met_at());
     } else if (fem.ended) {
-        const std::string why = state == State::armed
-                                    ? "the FEM ended and the condition was not true"
-                                    : "the FEM ended inside the hold";
-        move(armed, TriggerEvent::expire, {{"why", why}});
+        expire(armed, why_never(fem, armed, when.criterion), WasMet::no);
     }
 }
 
@@ -284,8 +314,17 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
     const criteria::Criterion& lower = between.window.lower();
     const criteria::Criterion& upper = between.window.upper();
     if (lower.state() != State::met) {
-        if (fem.ended)
-            move(armed, TriggerEvent::expire, {{"why", "the FEM ended before the lower edge"}});
+        if (fem.ended) expire(armed, why_never(fem, armed, lower), WasMet::no);
+        return;
+    }
+    if (const auto& since = between.window.shut_since()) {
+        expire(armed,
+               "there is no window: " + upper.expression().text + " is true since " +
+                   in_short(since->time) + " s, and " + lower.expression().text + " only from " +
+                   in_short(lower.crossing()->time) +
+                   " s on; post a trigger with other conditions to the run, or add transfer times "
+                   "to it (breach extend)",
+               WasMet::yes);
         return;
     }
     if (armed.trigger.state == TriggerState::armed)
@@ -307,9 +346,10 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
     const double upper_edge = upper_met ? limit : times.empty() ? lower_edge : times.back();
     const auto time = criteria::picked(between.pick, lower_edge, upper_edge, times);
     if (!time) {
-        move(armed, TriggerEvent::expire,
-             {{"why", "no snapshot lies between " + spelt(lower_edge) + " s and " +
-                          spelt(upper_edge) + " s; give a shorter snapshot_interval_s"}});
+        expire(armed,
+               "no snapshot lies between " + spelt(lower_edge) + " s and " + spelt(upper_edge) +
+                   " s; give a shorter snapshot_interval_s",
+               WasMet::yes);
         return;
     }
     armed.crossed = {{"lower", crossing_of(lower)},
@@ -388,8 +428,8 @@ void TriggerWatch::take_first_from(Fem& fem, Armed& armed, double wanted) {
     if (first != fem.snapshots.end()) {
         take(fem, armed, *first, wanted);
     } else if (fem.ended) {
-        move(armed, TriggerEvent::expire,
-             {{"why", "the FEM ended without a snapshot at or after " + spelt(wanted) + " s"}});
+        expire(armed, "the FEM ended without a snapshot at or after " + spelt(wanted) + " s",
+               WasMet::yes);
     } else if (!fem.regular) {
         ask_for_snapshot(fem);
     }
@@ -399,10 +439,11 @@ void TriggerWatch::take(Fem& fem, Armed& armed, const Snapshot& snapshot, double
     const double within = armed.trigger.spec.value("within_s", std::numeric_limits<double>::max());
     const double lag = snapshot.time - wanted;
     if (lag > within + slack) {
-        move(armed, TriggerEvent::expire,
-             {{"why", "the first snapshot after " + spelt(wanted) + " s is at " +
-                          spelt(snapshot.time) + " s, later than within_s = " + spelt(within) +
-                          " s allows; give snapshot_interval_s"}});
+        expire(armed,
+               "the first snapshot after " + spelt(wanted) + " s is at " + spelt(snapshot.time) +
+                   " s, later than within_s = " + spelt(within) +
+                   " s allows; give snapshot_interval_s",
+               WasMet::yes);
         return;
     }
     const Firing firing = firing_of(fem, armed, snapshot, wanted);
@@ -441,6 +482,15 @@ void TriggerWatch::ask_for_snapshot(Fem& fem) {
     std::error_code error;
     std::filesystem::rename(draft, request, error);
     fem.asked = Clock::now();
+}
+
+void TriggerWatch::expire(Armed& armed, const std::string& why, WasMet was_met) {
+    const json result{{"was_met", was_met == WasMet::yes}};
+    store_.write([&](Transaction& transaction) {
+        transaction.keep_trigger_result(armed.trigger.id, result);
+        transaction.move_trigger(armed.trigger, TriggerEvent::expire, {{"why", why}});
+    });
+    armed.trigger.state = *next(armed.trigger.state, TriggerEvent::expire);
 }
 
 void TriggerWatch::move(Armed& armed, TriggerEvent event, json detail) {

@@ -17,6 +17,14 @@ std::string failed_caution(const json& samples) {
            "every percentile is too small.";
 }
 
+std::string standing_caution(const json& samples) {
+    if (samples.value("no_transfer", json(0)) == 0) return "";
+    return "Of " + count_of(samples.at("no_transfer"), "sample") + " of " +
+           samples.at("planned").dump() +
+           " nothing was transferred: their FEM ended, and its triggers had not fired. If the dam "
+           "stands there, nothing runs out: every number here is of the samples that were let go.";
+}
+
 std::string moving_caution(const Run& run) {
     const auto moving = moving_samples(run);
     if (moving.empty()) return "";
@@ -80,6 +88,7 @@ std::string doubt_caution(const Run& run) {
 std::vector<std::string> cautions_of(const Run& run, const json& quantity) {
     const json& answer = run.uncertainty;
     std::vector<std::string> said{failed_caution(answer.at("samples")),
+                                  standing_caution(answer.at("samples")),
                                   moving_caution(run),
                                   doubt_caution(run),
                                   few_caution(quantity),

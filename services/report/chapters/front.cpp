@@ -219,6 +219,10 @@ void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolde
 
 void add_runouts(const Run& run, Table& table) {
     const auto asked = phases_named(run, phases::mpm.program);
+    if (!run.without_transfer.empty())
+        table.rows.push_back({"Variants that nothing was transferred of", "-",
+                              std::to_string(run.without_transfer.size()),
+                              run.without_transfer.front().value("reason", "")});
     if (asked.empty()) return;
     const PhaseFolder* farthest = farthest_runout(run);
     if (!farthest) {

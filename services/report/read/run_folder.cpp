@@ -180,7 +180,10 @@ Run read_run(const fs::path& folder) {
         const json about = read_if_there(folder / "run.json");
         const json results = read_if_there(folder / "results.json");
         take_errors(results, run.phases);
-        if (results.is_object()) run.means = results.value("means", json::array());
+        if (results.is_object()) {
+            run.means = results.value("means", json::array());
+            run.without_transfer = results.value("without_transfer", json::array());
+        }
         run.uncertainty = read_if_there(folder / "uncertainty.json");
         run.envelopes = read_if_there(folder / "envelopes.json");
         run.name = run.scene.at("name");

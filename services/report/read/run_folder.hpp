@@ -40,6 +40,8 @@ struct Run {
     /// Over the draws of each runout, as the service tells them; empty: the study has no draws, or
     /// the folder no results.json
     nlohmann::json means = nlohmann::json::array();
+    /// Variants that nothing was transferred of, and why, as the service tells them.
+    nlohmann::json without_transfer = nlohmann::json::array();
     /// Of a study over distributions, as the service tells them; null where the folder has none
     nlohmann::json uncertainty = {};
     nlohmann::json envelopes = {};

@@ -178,6 +178,30 @@ void add_what_is_not_known(const Run& run, Verdict& verdict) {
     verdict.doubts.push_back(text);
 }
 
+/// Variants without a runout: that of a dam which may stand is none, that of one which failed is
+/// not known.
+void add_what_was_not_let_go(const Run& run, Verdict& verdict) {
+    for (const bool stood : {true, false}) {
+        std::vector<std::string> names;
+        std::string reason;
+        for (const json& each : run.without_transfer) {
+            if (each.value("stood", false) != stood) continue;
+            names.push_back(each.value("variant", ""));
+            if (reason.empty()) reason = each.value("reason", "");
+        }
+        if (names.empty()) continue;
+        const std::string of = names.front().empty() ? ""
+                               : names.size() == 1   ? " of " + names.front()
+                                                     : " of " + std::to_string(names.size()) +
+                                                         " variants (" + names.front() + ", ...)";
+        std::string text =
+            "Nothing was transferred" + of + ", so that there is no runout: " + reason;
+        text += stood ? ". Perhaps the dam stands there; then nothing runs out."
+                      : ". That is no sign that the dam stands.";
+        (stood ? verdict.notes : verdict.doubts).push_back(text);
+    }
+}
+
 /// Of a run whose state is not known it is taken for granted.
 bool is_over(const Run& run) {
     return run.state != "queued" && run.state != "running" && run.state != "budget_exhausted";
@@ -314,6 +338,7 @@ Verdict verdict_of(const Run& run) {
         (is_doubt(each.flag) ? verdict.doubts : verdict.notes).push_back(sentence_of(run, each));
     }
     add_what_is_not_known(run, verdict);
+    add_what_was_not_let_go(run, verdict);
     verdict.word = word_for(run, verdict);
     if (verdict.doubts.empty() && verdict.notes.empty()) {
         verdict.notes.emplace_back("No phase of this run raised a flag.");

@@ -79,7 +79,7 @@ export class Results {
 
     /// Returns the rows, for those who want to draw other things of them.
     async show(run) {
-        const { rows, means } = await api.read_results(run.id);
+        const { rows, means, without_transfer: without } = await api.read_results(run.id);
         if (this.run?.id !== run.id) {
             this.of_mean = null;
             by_id("runout-draws").value = "means";
@@ -100,6 +100,9 @@ export class Results {
             : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
+        by_id("runout-without").hidden = !without?.length;
+        mirror(by_id("runout-without"), without ?? [], ({ variant }) => variant, () => element("li"), (item, { variant, state, reason }) =>
+            set_text(item, `Nothing was transferred${variant ? ` of ${variant}` : ""} (${state.replaceAll("_", " ")}): ${reason}`));
         return this.rows;
     }
 

@@ -101,6 +101,8 @@ export class Uncertainty {
         const unknown = looks.filter((look) => look === "unknown").length;
         const doubts = [
             samples.failed && `${samples.failed} of ${samples.planned} left no result and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
+            samples.no_transfer && `Of ${samples.no_transfer} of ${samples.planned} nothing was transferred: their FEM ended and its triggers had not fired. If the dam stands there, nothing runs out; ` +
+                "the numbers below are of those that were let go.",
             samples.open && `${samples.open} have not ended: the numbers will change.`,
             this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound` +
                 (inverse ? "." : ", and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve."),

@@ -94,6 +94,15 @@ TEST(ResultTable, ShowsADashWhereThereIsNoRunoutAndTheReason) {
               "      1  failed     -              -             -  no memory\n");
 }
 
+TEST(ResultTable, NamesBelowItWhatNothingWasTransferredOf) {
+    EXPECT_EQ(as_list_without_transfer(json::parse(R"({"without_transfer": [
+        {"variant": "strong", "state": "not_reached", "reason": "window: never"},
+        {"variant": "", "state": "failed", "reason": "it broke"}]})")),
+              "no transfer of strong: not_reached, window: never\n"
+              "no transfer: failed, it broke\n");
+    EXPECT_EQ(as_list_without_transfer({{"rows", json::array()}}), "");
+}
+
 TEST(MeanTable, TellsScatterAndWhatIsMissing) {
     const json answer = json::parse(R"({"means": [
         {"transfer_time": 0.5, "variant": "", "state": "partial", "draws": 3, "draws_done": 2, "runout": 12.5,

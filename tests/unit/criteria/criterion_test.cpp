@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/criteria/window.hpp"
@@ -59,6 +60,25 @@ TEST(Window, UpperEdgeBeforeTheLowerOneDoesNotCount) {
     EXPECT_EQ(w.upper().state(), State::armed);
     take(0.3, 2, 0);
     EXPECT_EQ(w.upper().state(), State::met);
+}
+
+TEST(Window, IsNoneWhereTheMeshWasTooDistortedBeforeTheFailureHadDeveloped) {
+    const auto shut_since = [](const std::vector<std::array<double, 3>>& lines, double hold) {
+        Window w(parse("x > 1", Kind::condition, ""), parse("y < 1", Kind::condition, ""), hold);
+        for (const auto& [t, x, y] : lines) {
+            w.take_lower({t, 0, {x}});
+            w.take_upper({t, 0, {y}});
+        }
+        return w.shut_since() ? w.shut_since()->time : -1.0;
+    };
+    EXPECT_EQ(shut_since({{1, 0, 2}, {2, 0, 0}, {3, 0, 0}, {4, 2, 0}, {5, 2, 0}}, 0), 2.0);
+    EXPECT_EQ(shut_since({{1, 0, 2}, {2, 2, 0}}, 0), 2.0) << "on one line: of no length";
+    EXPECT_EQ(shut_since({{1, 0, 0}, {2, 0, 2}, {3, 2, 2}, {4, 2, 0}}, 0), -1.0)
+        << "it was sound again when the failure had developed";
+    EXPECT_EQ(shut_since({{1, 0, 0}, {2, 0, 0}}, 0), -1.0) << "not known before the lower edge";
+    EXPECT_EQ(shut_since({{1, 0, 0}, {2, 2, 0}, {3, 2, 0}, {4, 2, 0}}, 2), 1.0);
+    EXPECT_EQ(shut_since({{1, 0, 2}, {2, 2, 2}, {3, 2, 0}, {4, 2, 0}}, 2), -1.0)
+        << "within the hold, after the lower edge: a short window";
 }
 
 TEST(Window, PicksAsAsked) {

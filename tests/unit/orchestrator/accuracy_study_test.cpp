@@ -221,6 +221,12 @@ TEST(Draws, OfTheFemHaveOneEachAndOtherLattices) {
     EXPECT_NEAR(step(2), 0.976393 * step(0), 1e-5 * step(0));
     EXPECT_NE(read.variants[1].scene["transfer"]["point_shift"],
               read.variants[0].scene["transfer"]["point_shift"]);
+    json waits = study;
+    waits["triggers"] = {{{"kind", "criterion"}, {"when", "crest_displacement > 1"}}};
+    EXPECT_NE(refusal(waits, "/draws_of").cause.find("triggers fire at another time"),
+              std::string::npos);
+    waits["triggers"] = {{{"kind", "at_time"}, {"times", {0.25}}}};
+    EXPECT_NO_THROW(read_study(waits.dump()));
     study["scene"].erase("fem");
     study["scene"].erase("transfer");
     study.erase("transfer_times");

@@ -15,6 +15,7 @@
 #include "services/report/chart/png.hpp"
 #include "services/report/figures/mesh_figures.hpp"
 #include "services/report/read/entries.hpp"
+#include "services/report/read/verdict.hpp"
 #include "tests/unit/report/wet_run.hpp"
 
 namespace breach::report {
@@ -144,6 +145,22 @@ TEST_F(WetRun, IsMeasuredWhereItsTelemetryCrosses) {
     EXPECT_EQ(m.at("plateau_begin:softened").value, 16);
     EXPECT_EQ(m.at("plateau_ratio").value, 7);
     EXPECT_EQ(m.at("plateau_ratio").error, "between 7 and 7 by the runouts of either");
+}
+
+TEST_F(WetRun, SaysWhatNothingWasTransferredOf) {
+    std::ofstream(folder_ / "results.json") << R"({"rows": [], "columns": [], "without_transfer": [
+        {"variant": "strong", "fem_task": "f", "state": "not_reached", "stood": true, "reason": "window: never met"},
+        {"variant": "odd", "fem_task": "g", "state": "not_reached", "stood": false, "reason": "window: there is no window"}]})";
+    const Verdict verdict = verdict_of(read_run(folder_));
+    const auto said = [](const std::vector<std::string>& list, const std::string& text) {
+        return std::ranges::find(list, text) != list.end();
+    };
+    EXPECT_TRUE(said(verdict.notes,
+                     "Nothing was transferred of strong, so that there is no runout: window: never "
+                     "met. Perhaps the dam stands there; then nothing runs out."));
+    EXPECT_TRUE(said(verdict.doubts,
+                     "Nothing was transferred of odd, so that there is no runout: window: there is "
+                     "no window. That is no sign that the dam stands."));
 }
 
 TEST_F(WetRun, SaysWhenARatioOfRunoutsSaysNothing) {

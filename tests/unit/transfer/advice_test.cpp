@@ -72,6 +72,19 @@ TEST(Advice, SaysWhenTheFailureHasNotDevelopedAndWhichSignsAreThere) {
     EXPECT_TRUE(onset("second failure surface").empty());
 }
 
+TEST(Advice, SaysThatThereIsNoWindowWhereTheMeshWasTooDistortedBefore) {
+    auto scene = case_scene();
+    scene.transfer->window->upper = "epsilon_q_avg > 0.1";  // from 8.75 s on
+    const Advice advice = advise(scene, course(22.0), {10.0, 14.75, 16.0});
+    ASSERT_TRUE(advice.lower && advice.shut_since);
+    EXPECT_NEAR(advice.lower->time, 14.75, 1e-9);
+    EXPECT_NEAR(*advice.shut_since, 8.8, 1e-9);
+    EXPECT_FALSE(advice.upper || advice.pick || advice.half_way);
+    const std::string text = as_text(advice);
+    for (const char* part : {"no window", "at 14.75 s", "too distorted since 8.8 s"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
 TEST(Advice, AFieldThatTheTelemetryLacksIsNamed) {
     auto lines = course(20.0);
     for (auto& line : lines) line.values.erase("failure_surfaces");
