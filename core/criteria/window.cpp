@@ -22,11 +22,10 @@ Window::Window(Expression lower, Expression upper, double hold)
 
 void Window::take_upper(const Line& line) {
     using State = Criterion::State;
-    if (!shut_since_) span_.take(line);
-    if (lower_.state() != State::met) return;
-    if (const auto& since = span_.crossing(); since && since->time <= lower_.crossing()->time)
-        shut_since_ = since;
-    upper_.take(line);
+    if (upper_.state() == State::met) return;
+    span_.take(line);
+    if (lower_.state() != State::met || upper_.take(line) != State::met) return;
+    if (span_.crossing()->time <= lower_.crossing()->time) shut_since_ = span_.crossing();
 }
 
 std::optional<double> picked(Pick pick, double lower, double upper, std::span<const double> times) {

@@ -22,13 +22,13 @@ class Window {
     void take_upper(const Line& line);
     const Criterion& lower() const { return lower_; }
     const Criterion& upper() const { return upper_; }
-    /// Where the mesh was too distorted from, without a break, when the failure had developed: there
-    /// is no window. Known once the lower edge is met.
+    /// Since when the mesh was too distorted, where that was before the failure had developed and
+    /// lasted until it counted: there is no window. Known once the upper edge is met.
     const std::optional<Line>& shut_since() const { return shut_since_; }
 
   private:
     Criterion lower_, upper_;
-    Criterion span_;  ///< of the upper condition while the lower edge is not met: never met itself
+    Criterion span_;  ///< of the upper condition, before the lower edge too; never met itself
     std::optional<Line> shut_since_;
 };
 

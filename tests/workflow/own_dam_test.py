@@ -32,6 +32,7 @@ def main():
             check("each submission is a run of the folder's name", [each["name"] for each in runs] == ["my_dam", "my_dam"], runs)
             rows = {each["variant"]: each for each in service.rows(runs[-1]["id"])}
             check("both variants have a factor of safety", all(each["factor_of_safety"] > 1 for each in rows.values()), rows)
+            check("and one below it once its layers liquefy", all(0 < each["factor_of_safety_liquefied"] < 1 for each in rows.values()), rows)
             check("the liquefied dam flows past its toe", rows["liquefied"]["runout"] > 0, rows)
             check("the other one stands", rows["undrained_peak"]["runout"] < 0, rows)
             scene = json.loads((here / "my_dam/scene.json").read_text())

@@ -15,8 +15,9 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* safety = "factor_of_safety";
-constexpr std::array<const char*, 5> answers{"runout_beyond_toe", "runout", "runout_largest",
-                                             "area_beyond_toe", safety};
+constexpr const char* safety_liquefied = "factor_of_safety_liquefied";
+constexpr std::array<const char*, 6> answers{"runout_beyond_toe", "runout", "runout_largest",
+                                             "area_beyond_toe",   safety,   safety_liquefied};
 
 /// Of a row's state, which is that of a task, "questionable" or "not_reached".
 Fate fate_of(const std::string& state) {
@@ -53,11 +54,10 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
                          .reason = "",
                          .drawn = variant.at("sample").at("values"),
                          .row = std::nullopt,
-                         .factor_of_safety = std::nullopt};
-        for (const std::string& each : {sample.name, std::string()})
-            if (const auto own = factors.find(each);
-                own != factors.end() && !sample.factor_of_safety)
-                sample.factor_of_safety = own->second;
+                         .safety = {}};
+        for (const std::string& each : {std::string(), sample.name})
+            if (const auto own = factors.find(each); own != factors.end())
+                sample.safety = own->second;
         if (const auto found = rows.find(sample.name); found != rows.end()) {
             sample.state = value_of(found->second, "state");
             sample.fate = fate_of(sample.state);
@@ -74,7 +74,8 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
 }
 
 std::optional<double> result_of(const SampleRow& sample, std::string_view quantity) {
-    if (quantity == safety) return sample.factor_of_safety;
+    if (quantity == safety) return sample.safety.intact;
+    if (quantity == safety_liquefied) return sample.safety.liquefied;
     if (sample.fate != Fate::done) return std::nullopt;
     const json& value = value_of(*sample.row, quantity);
     return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;

@@ -23,7 +23,7 @@ struct SampleRow {
     nlohmann::json drawn;  ///< by parameter: a number, an option's name, a lattice's number
     std::optional<ResultRow> row;
     /// Whatever became of its runout: those without one must not be missing in it.
-    std::optional<double> factor_of_safety;
+    FactorsOfSafety safety;
 };
 
 struct Ensemble {

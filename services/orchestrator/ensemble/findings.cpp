@@ -169,7 +169,7 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
         if (found.results.size() < samples_needed(p))
             lacking.push_back({{"p", p}, {"needs", samples_needed(p)}});
     made["percentiles_lacking"] = std::move(lacking);
-    if (std::string_view(quantity.name) == "factor_of_safety") {
+    if (std::string_view(quantity.name).starts_with("factor_of_safety")) {
         const Interval failed = share_below(found.results, 1.0);
         made["probability_of_failure"] = {
             {"value", failed.value}, {"low", failed.low}, {"high", failed.high}};

@@ -117,6 +117,17 @@ std::string inverse_in_words(const json& inverse) {
     return reason.empty() ? words : words + " Note: " + reason + ".";
 }
 
+std::string probability_in_words(const json& stability, const std::string& when) {
+    const json& failed = stability.at("probability_of_failure");
+    const auto percent = [&](const char* which) {
+        return shown(100.0 * failed.at(which).get<double>());
+    };
+    return "Probability of failure (factor of safety below 1" + when +
+           "), by the same draws as the other results: " + percent("value") + " % (" +
+           percent("low") + " to " + percent("high") + " %), of " +
+           counted(stability.at("count"), "sample") + ".";
+}
+
 }  // namespace
 
 std::vector<std::string> sentences_of(const json& findings) {
@@ -136,16 +147,13 @@ std::vector<std::string> sentences_of(const json& findings) {
                 "No tornado: " + statistics.at("tornado").at("refused").get<std::string>() +
                 ". A fitted polynomial would not tell what one parameter does.");
     }
-    if (quantities.contains("factor_of_safety")) {
-        const json& stability = quantities.at("factor_of_safety");
-        const json& failed = stability.at("probability_of_failure");
-        sentences.push_back(
-            "Probability of failure (factor of safety below 1), by the same draws as " +
-            std::string("the other results: ") + shown(100.0 * failed.at("value").get<double>()) +
-            " % (" + shown(100.0 * failed.at("low").get<double>()) + " to " +
-            shown(100.0 * failed.at("high").get<double>()) + " %), of " +
-            counted(stability.at("count"), "sample") + ".");
-    }
+    const bool liquefies = quantities.contains("factor_of_safety_liquefied");
+    if (quantities.contains("factor_of_safety"))
+        sentences.push_back(probability_in_words(quantities.at("factor_of_safety"),
+                                                 liquefies ? " before any layer liquefies" : ""));
+    if (liquefies)
+        sentences.push_back(probability_in_words(quantities.at("factor_of_safety_liquefied"),
+                                                 " with every layer liquefied that may"));
     const json& parameters = findings.at("parameters");
     const auto of_kind = [&](const char* kind) {
         return std::ranges::any_of(parameters,

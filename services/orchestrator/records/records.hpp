@@ -306,6 +306,11 @@ struct TransferFilter {
     std::optional<std::string> before;  ///< the task where the last page ended
 };
 
+struct FactorsOfSafety {
+    std::optional<double> intact;     ///< before any layer liquefies
+    std::optional<double> liquefied;  ///< every layer that may
+};
+
 /// A variant of which nothing was transferred, and nothing will be.
 struct WithoutTransfer {
     std::string variant;

@@ -443,15 +443,15 @@ std::optional<Artifact> Store::maker_of(const std::string& sha256) const {
     return found;
 }
 
-std::map<std::string, double> Store::factors_of_safety(const std::string& run) const {
-    std::map<std::string, double> found;
+std::map<std::string, FactorsOfSafety> Store::factors_of_safety(const std::string& run) const {
+    std::map<std::string, FactorsOfSafety> found;
     read([&](Connection& database) {
-        database.query(
-            "SELECT variant, json_extract(result, '$.factor_of_safety') FROM tasks WHERE run=? AND "
-            "phase=? AND result IS NOT NULL",
-            {run, phases::lem.program}, [&](const Row& row) {
-                if (const auto factor = row.optional_real(1)) found[row.text(0)] = *factor;
-            });
+        database.query("SELECT variant, json_extract(result, '$.factor_of_safety'), " +
+                           factor_liquefied("result") +
+                           " FROM tasks WHERE run=? AND phase=? AND result IS NOT NULL",
+                       {run, phases::lem.program}, [&](const Row& row) {
+                           found[row.text(0)] = {row.optional_real(1), row.optional_real(2)};
+                       });
     });
     return found;
 }

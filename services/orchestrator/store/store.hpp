@@ -103,7 +103,7 @@ class Store {
     /// Of a study with draws, their means in the same order: one value for each of mean_columns().
     std::vector<ResultRow> means(const std::string& run) const;
     /// By variant; "": of the analysis that serves all that have none of their own.
-    std::map<std::string, double> factors_of_safety(const std::string& run) const;
+    std::map<std::string, FactorsOfSafety> factors_of_safety(const std::string& run) const;
     /// Of the newest accuracy studies, a newer one's first.
     std::vector<AccuracyRung> accuracy_rungs(std::size_t most_runs) const;
     /// Points of a sweep, and how many of them have their runout.

@@ -58,6 +58,15 @@ const std::string is_judged =
     "(json_type(mpm.result, '$.flags') = 'array'"
     " OR EXISTS (SELECT 1 FROM flags WHERE flags.task = mpm.id))";
 
+/// Of its variant's own stability analysis, or the one that serves all.
+std::string of_stability(const std::string& what) {
+    return "(SELECT " + what +
+           " FROM tasks AS lem"
+           "\n        WHERE lem.run = mpm.run AND lem.phase = '" +
+           std::string(phases::lem.program) +
+           "'\n        AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1)";
+}
+
 /// The columns that result.json does not have.
 const std::vector<Expression> own_columns{
     {"transfer_time", "mpm.transfer_time"},
@@ -79,12 +88,8 @@ const std::vector<Expression> own_columns{
      "\n        JOIN firings ON firings.trigger = triggers.id"
      "\n        WHERE triggers.fem_task = transfer.parent AND firings.snapshot = transfer.input),"
      " 'at_time') END"},
-    // Its variant's own stability analysis, or the one that serves all.
-    {"factor_of_safety",
-     "(SELECT json_extract(lem.result, '$.factor_of_safety') FROM tasks AS lem"
-     "\n        WHERE lem.run = mpm.run AND lem.phase = '" +
-         std::string(phases::lem.program) +
-         "'\n        AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1)"},
+    {"factor_of_safety", of_stability("json_extract(lem.result, '$.factor_of_safety')")},
+    {"factor_of_safety_liquefied", of_stability(factor_liquefied("lem.result"))},
     {"questionable", "CASE WHEN mpm.result IS NULL THEN NULL WHEN " + is_questionable +
                          " THEN 1 WHEN " + is_judged + " THEN 0 END"},
     {"flags", "CASE WHEN " + is_judged +
@@ -198,6 +203,11 @@ void make_views(Connection& database) {
         database.script("DROP VIEW IF EXISTS " + each.name);
         database.script(each.sql);
     }
+}
+
+std::string factor_liquefied(const std::string& result) {
+    return "CASE WHEN json_extract(" + result + ", '$.stages[#-1].layers_liquefied') > 0 THEN " +
+           "json_extract(" + result + ", '$.stages[#-1].factor_of_safety') END";
 }
 
 std::string makes_a_row(const std::string& task) {

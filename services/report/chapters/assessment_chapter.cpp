@@ -29,7 +29,8 @@ std::string words_of(const std::string& quantity) {
         {"runout_beyond_toe", "Of what passed the toe, 99 %"},
         {"runout_largest", "Farthest point"},
         {"area_beyond_toe", "Deposit beyond the toe, per metre of width"},
-        {"factor_of_safety", "Factor of safety"}};
+        {"factor_of_safety", "Factor of safety, nothing liquefied"},
+        {"factor_of_safety_liquefied", "Factor of safety, every layer liquefied that may"}};
     const auto found = words.find(quantity);
     return found == words.end() ? quantity : found->second;
 }

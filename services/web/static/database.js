@@ -39,7 +39,7 @@ const columns = {
               amount("runout_beyond_toe", "m", "passed the toe"), amount("runout_largest", "m", "farthest"), amount("volume_ratio"),
               amount("numerical_share"), amount("overlap"), text("rest"), amount("kinetic_share"), amount("end_time", "s", "end"),
               text("flags", "flags", { wide: true }), amount("cpu_seconds", "s", "CPU"), text("trigger"), text("reused"),
-              text("runout_error_from", "error from", { wide: true }), amount("factor_of_safety"), text("reason", "reason", { wide: true }), run],
+              text("runout_error_from", "error from", { wide: true }), amount("factor_of_safety"), amount("factor_of_safety_liquefied"), text("reason", "reason", { wide: true }), run],
     triggers: [text("name"), text("kind"), state, amount("transfer_time", "s", "t_T"),
                amount("wanted_time", "s"), amount("lag_s", "s", "lag"), amount("fem_step"), amount("fired_ms", "ms", "fired after"),
                amount("start_ms", "ms", "started after"), text("crossed", "crossed", { wide: true, cell: ({ crossed }) => (crossed ? short_json(crossed) : "–") }), text("snapshot"),

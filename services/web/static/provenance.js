@@ -9,9 +9,10 @@ import { moments } from "./triggers.js";
 const column_names = {
     runout: ["runout", "m"], runout_beyond_toe: ["runout of what passed the toe", "m"], runout_largest: ["farthest point", "m"],
     volume_ratio: ["volume ratio", "–"], numerical_share: ["numerical share of the released energy", "–"],
-    overlap: ["overlap", "–"], factor_of_safety: ["factor of safety", ""], cpu_seconds: ["CPU time of the MPM run", "s"],
+    overlap: ["overlap", "–"], factor_of_safety: ["factor of safety", ""],
+    factor_of_safety_liquefied: ["factor of safety, liquefied", ""], cpu_seconds: ["CPU time of the MPM run", "s"],
 };
-const result_paths = { numerical_share: "energy.numerical.share" }; // others stand in result.json under their own name
+const result_paths = { numerical_share: "energy.numerical.share", factor_of_safety_liquefied: "stages[-1].factor_of_safety" }; // others stand in result.json under their own name
 
 export class Provenance {
     /// look_at(row): a person wants to see this point's particles.
@@ -29,7 +30,7 @@ export class Provenance {
         const [name, unit] = column_names[column] ?? [column, ""];
         set_text(by_id("provenance-title"), `${name}: ${number(row[column], 6)} ${unit}`);
         const value = Number.isFinite(row[column]) ? `Exactly ${row[column]}: ` : "";
-        const stability = column === "factor_of_safety" ? stability_of(run, row) : null;
+        const stability = column.startsWith("factor_of_safety") ? stability_of(run, row) : null;
         set_text(by_id("provenance-where"), `${value}${point_name(row) || run.name}. “${result_paths[column] ?? column}” in result.json of ` +
                                             `task ${stability?.id ?? row.mpm_task}${row.reason ? `. ${row.state}: ${row.reason}` : ""}`);
         by_id("provenance-look").hidden = !Number.isFinite(row.runout);

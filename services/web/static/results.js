@@ -13,11 +13,13 @@ export const measures = {
     runout_beyond_toe: "99 % of what passed the toe",
     runout_largest: "farthest point",
     factor_of_safety: "factor of safety",
+    factor_of_safety_liquefied: "factor of safety, liquefied",
 };
 const of_runout = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap"];
-const columns = [...of_runout, "factor_of_safety", "cpu_seconds"];
-const unit_of = (measure) => (measure === "factor_of_safety" ? "" : "m");
-const y_label_of = (measure) => (measure === "factor_of_safety" ? "factor of safety [–]" : "runout from the toe [m]");
+const is_safety = (column) => column.startsWith("factor_of_safety");
+const columns = [...of_runout, "factor_of_safety", "factor_of_safety_liquefied", "cpu_seconds"];
+const unit_of = (measure) => (is_safety(measure) ? "" : "m");
+const y_label_of = (measure) => (is_safety(measure) ? "factor of safety [–]" : "runout from the toe [m]");
 
 /// Left out where the table has no room for them, until a person asks for all.
 const folded = new Set(["runout_largest", "volume_ratio", "overlap"]);
@@ -114,12 +116,14 @@ export class Results {
     /// What the run cannot have is not asked about: runouts of a stability analysis alone, factors of safety without one.
     offer_what_there_is() {
         const has = (phase) => this.run.tasks.some((task) => task.phase === phase);
-        const offered = (measure) => (measure === "factor_of_safety" ? has("lem_tool") : has("mpm_solver") || !has("lem_tool"));
+        const liquefies = this.rows.some((row) => Number.isFinite(row.factor_of_safety_liquefied));
+        const offered = (measure) => (is_safety(measure) ? has("lem_tool") && (liquefies || measure === "factor_of_safety") : has("mpm_solver") || !has("lem_tool"));
         const select = by_id("runout-measure");
         for (const option of select.options) option.hidden = option.disabled = !offered(option.value);
         if (!offered(select.value)) select.value = Object.keys(measures).find(offered);
         const shown = by_id("runout-table").classList;
         shown.toggle("no-safety", !offered("factor_of_safety"));
+        shown.toggle("no-liquefied", !offered("factor_of_safety_liquefied"));
         shown.toggle("no-runout", !offered("runout"));
         shown.toggle("no-time", this.is_static());
     }
@@ -191,7 +195,7 @@ export class Results {
                                     errors: some.map((row) => error_of(row, measure)), looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
         const errors_name = this.shows_means() ? "standard deviation of the draws" : "error of one run";
-        const what = measure === "factor_of_safety" ? "Factor of safety" : "Runout";
+        const what = is_safety(measure) ? "Factor of safety" : "Runout";
         const parameter = this.parameter();
         if (parameter) {
             set_text(by_id("runout-title"), `${what} against a parameter`);
@@ -226,8 +230,9 @@ export class Results {
         const row = element("tr", {}, element("th", { scope: "row" }, look), element("td", { class: "variant" }),
                             element("td", {}, element("span")));
         for (const column of columns) {
-            const kind = of_runout.includes(column) ? "of-runout" : column === "factor_of_safety" ? "safety" : "";
-            row.append(element("td", { class: ["number", folded.has(column) ? "fold" : "", kind].filter(Boolean).join(" "),
+            const kind = of_runout.includes(column) ? "of-runout" : is_safety(column) ? "safety" : "";
+            const liquefied = column === "factor_of_safety_liquefied" ? "liquefied" : "";
+            row.append(element("td", { class: ["number", folded.has(column) ? "fold" : "", kind, liquefied].filter(Boolean).join(" "),
                                        "data-column": column, title: "Where this number comes from" }));
             if (column === "runout") row.append(element("td", { class: "rest of-runout" }), element("td", { class: "flag-codes" }));
         }

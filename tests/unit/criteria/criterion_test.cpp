@@ -76,9 +76,12 @@ TEST(Window, IsNoneWhereTheMeshWasTooDistortedBeforeTheFailureHadDeveloped) {
     EXPECT_EQ(shut_since({{1, 0, 0}, {2, 0, 2}, {3, 2, 2}, {4, 2, 0}}, 0), -1.0)
         << "it was sound again when the failure had developed";
     EXPECT_EQ(shut_since({{1, 0, 0}, {2, 0, 0}}, 0), -1.0) << "not known before the lower edge";
-    EXPECT_EQ(shut_since({{1, 0, 0}, {2, 2, 0}, {3, 2, 0}, {4, 2, 0}}, 2), 1.0);
-    EXPECT_EQ(shut_since({{1, 0, 2}, {2, 2, 2}, {3, 2, 0}, {4, 2, 0}}, 2), -1.0)
-        << "within the hold, after the lower edge: a short window";
+    EXPECT_EQ(shut_since({{1, 0, 0}, {2, 2, 0}, {4, 2, 0}, {6, 2, 0}}, 2), 1.0);
+    EXPECT_EQ(shut_since({{1, 0, 0}, {2, 2, 0}, {4, 2, 0}, {5, 2, 2}, {7, 2, 0}, {9, 2, 0}}, 2),
+              -1.0)
+        << "it did not last for the hold";
+    EXPECT_EQ(shut_since({{1, 0, 2}, {2, 2, 2}, {3, 2, 0}, {4, 2, 0}, {6, 2, 0}}, 2), -1.0)
+        << "after the lower edge: a short window";
 }
 
 TEST(Window, PicksAsAsked) {

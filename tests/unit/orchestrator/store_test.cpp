@@ -281,19 +281,30 @@ TEST_F(StoreTest, RowsOfAStaticSceneHaveTheirOwnFactorOfSafety) {
                  alone("mpm_solver", "strong"), alone("lem_tool", "strong")};
     store.write([&](Transaction& t) { t.add_run(run); });
     bring_to_success(store, task_id(run.id, 0), {{"runout", 4.5}, {"flags", json::array()}});
-    bring_to_success(store, task_id(run.id, 1), {{"factor_of_safety", 0.5}});
-    bring_to_success(store, task_id(run.id, 3), {{"factor_of_safety", 1.5}});
+    bring_to_success(store, task_id(run.id, 1),
+                     {{"factor_of_safety", 0.5},
+                      {"stages",
+                       {{{"layers_liquefied", 0}, {"factor_of_safety", 0.5}},
+                        {{"layers_liquefied", 1}, {"factor_of_safety", 0.25}}}}});
+    bring_to_success(store, task_id(run.id, 3),
+                     {{"factor_of_safety", 1.5},
+                      {"stages", {{{"layers_liquefied", 0}, {"factor_of_safety", 1.5}}}}});
     const auto rows = store.results(run.id);
     ASSERT_EQ(rows.size(), 2u) << "a stability analysis beside runouts has no row of its own";
     for (const ResultRow& row : rows) {
         const bool weak = value_of(row, "variant") == "weak";
         EXPECT_EQ(value_of(row, "factor_of_safety"), weak ? 0.5 : 1.5);
+        EXPECT_EQ(value_of(row, "factor_of_safety_liquefied"), weak ? json(0.25) : json());
         EXPECT_EQ(value_of(row, "runout").is_null(), !weak);
         EXPECT_TRUE(value_of(row, "transfer_time").is_null());
         EXPECT_TRUE(value_of(row, "transfer_task").is_null());
         EXPECT_EQ(value_of(row, "trigger"), "");
     }
     EXPECT_EQ(store.points_of(run.id), (std::pair<std::int64_t, std::int64_t>{2, 1}));
+    const auto factors = store.factors_of_safety(run.id);
+    EXPECT_EQ(factors.at("weak").intact, 0.5);
+    EXPECT_EQ(factors.at("weak").liquefied, 0.25);
+    EXPECT_EQ(factors.at("strong").liquefied, std::nullopt);
 }
 
 TEST_F(StoreTest, StabilityAnalysesAloneAreTheRowsOfTheirRun) {
