@@ -275,10 +275,10 @@ void add_factors(const Run& run, Table& table) {
     if (!(*least)->variant.empty()) worth += "; the least, " + (*least)->variant;
     if (const std::string end = how_it_ended(**least); end != "well") worth += "; " + end;
     const std::size_t stages = (*least)->result.value("stages", json::array()).size();
-    table.rows.push_back({stages > 1 ? "Factor of safety before any layer liquefies"
-                                     : "Factor of safety",
-                          brief_fact(**least, "/factor_of_safety"),
-                          range_of(all, "/factor_of_safety", false), worth});
+    table.rows.push_back(
+        {stages > 1 ? "Factor of safety before any layer liquefies" : "Factor of safety",
+         brief_fact(**least, "/factor_of_safety"), range_of(all, "/factor_of_safety", false),
+         worth});
     if (stages > 1) {
         const std::string last = "/stages/" + std::to_string(stages - 1) + "/factor_of_safety";
         table.rows.push_back({"Factor of safety with every layer liquefied that may",
