@@ -291,8 +291,25 @@ void add_factors(const Run& run, Table& table) {
                               range_of(all, "/critical_depth", false), ""});
 }
 
+/// Of many, as of samples that change the FEM, together.
 void add_fems(const Run& run, Table& table) {
-    for (const PhaseFolder* each : phases_named(run, phases::fem.program)) {
+    constexpr std::size_t most_fems = 6;
+    const auto fems = phases_named(run, phases::fem.program);
+    if (fems.size() > most_fems) {
+        std::string worth =
+            "largest displacement " + range_of(fems, "/largest_displacement", false) + " m";
+        std::vector<const PhaseFolder*> odd;
+        for (const PhaseFolder* each : fems)
+            if (how_it_ended(*each) != "well") odd.push_back(each);
+        if (!odd.empty())
+            worth += "; " + std::to_string(odd.size()) + " not simply well, the first (" +
+                     odd.front()->variant + "): " + how_it_ended(*odd.front());
+        table.rows.push_back(
+            {"Finite elements end [s], " + std::to_string(fems.size()) + " of them", "-",
+             range_of(fems, "/end_time", false), worth});
+        return;
+    }
+    for (const PhaseFolder* each : fems) {
         const std::string of = each->variant.empty() ? "" : " (" + each->variant + ")";
         const std::string end = how_it_ended(*each);
         table.rows.push_back(

@@ -11,6 +11,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/scene/scene.hpp"
+#include "services/report/chapters/chapters.hpp"
 #include "services/report/chart/page.hpp"
 #include "services/report/chart/png.hpp"
 #include "services/report/figures/mesh_figures.hpp"
@@ -145,6 +146,21 @@ TEST_F(WetRun, IsMeasuredWhereItsTelemetryCrosses) {
     EXPECT_EQ(m.at("plateau_begin:softened").value, 16);
     EXPECT_EQ(m.at("plateau_ratio").value, 7);
     EXPECT_EQ(m.at("plateau_ratio").error, "between 7 and 7 by the runouts of either");
+}
+
+TEST_F(WetRun, TellsTheEndsOfManyFemsInOneRow) {
+    flag_all();
+    for (const char* name : {"fem_a", "fem_b", "fem_c", "fem_d", "fem_e", "fem_f"})
+        fs::copy(folder_ / "tasks/fem", folder_ / "tasks" / name, fs::copy_options::recursive);
+    edit_result("fem_f", {{"end_time", 25.0}, {"ended", "complete"}, {"flags", {}}});
+    const Front front = front_of(read_run(folder_));
+    std::vector<std::vector<std::string>> ends;
+    for (const auto& row : front.found.rows)
+        if (row[0].starts_with("Finite elements end")) ends.push_back(row);
+    ASSERT_EQ(ends.size(), 1u);
+    EXPECT_EQ(ends[0][0], "Finite elements end [s], 7 of them");
+    EXPECT_EQ(ends[0][2], "20.5 to 25 (7 of 7)");
+    EXPECT_NE(ends[0][3].find("6 not simply well, the first"), std::string::npos) << ends[0][3];
 }
 
 TEST_F(WetRun, SaysWhatNothingWasTransferredOf) {
