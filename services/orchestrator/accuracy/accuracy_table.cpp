@@ -339,8 +339,7 @@ std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder
     const std::vector<Task> tasks = store.tasks_of(run);
     for (const Task& each : tasks)
         if (each.transfer_time) table.transfer_time = each.transfer_time;
-    const auto measured =
-        measured_variants(tasks, store.without_transfer(run), table.plan.quantity, data);
+    const auto measured = measured_variants(tasks, table.plan.quantity, data);
     for (const Setting& each : settings_of(table.plan, scene))
         table.rows.push_back(row_of(table.plan, each, measured));
     judge(table, scene);

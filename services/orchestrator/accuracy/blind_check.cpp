@@ -120,8 +120,7 @@ std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data
     std::vector<fault::Fault> none;  // the study was checked when it was accepted
     BlindCheck check;
     check.plan = read_blind_check(study->at("check"), scene, draws_of(*study), none);
-    const auto measured = measured_variants(store.tasks_of(run), store.without_transfer(run),
-                                            check.plan.quantity, data);
+    const auto measured = measured_variants(store.tasks_of(run), check.plan.quantity, data);
     std::vector<std::string> variants;
     for (const json& each : study->at("variants")) {
         variants.push_back(each.at("name"));

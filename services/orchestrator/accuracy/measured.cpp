@@ -97,7 +97,6 @@ std::optional<double> value_at(const json& lines, const std::string& field, doub
 }
 
 std::map<std::string, Measured> measured_variants(const std::vector<Task>& tasks,
-                                                  const std::vector<WithoutTransfer>& without,
                                                   const Quantity& quantity,
                                                   const DataFolder& data) {
     const std::string last = phases_of(quantity.reach).back().program;
@@ -106,9 +105,6 @@ std::map<std::string, Measured> measured_variants(const std::vector<Task>& tasks
     std::map<std::string, Measured> found;
     for (const Task& each : tasks)
         if (each.phase == last) found[each.variant] = measured(each, by_id, quantity, data);
-    for (const WithoutTransfer& each : without)
-        found.try_emplace(each.variant,
-                          Measured{.reason = "nothing was transferred: " + each.reason});
     return found;
 }
 

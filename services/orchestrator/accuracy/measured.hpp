@@ -27,9 +27,8 @@ struct Measured {
     std::string reason = {};  ///< why there is no value
 };
 
-/// By variant. tasks, without: of the run.
+/// By variant. tasks: of the run.
 std::map<std::string, Measured> measured_variants(const std::vector<Task>& tasks,
-                                                  const std::vector<WithoutTransfer>& without,
                                                   const Quantity& quantity, const DataFolder& data);
 
 /// The value of a field at a time, between two lines of telemetry linearly; nothing: the telemetry
