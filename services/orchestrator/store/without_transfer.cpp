@@ -14,6 +14,10 @@ using nlohmann::json;
 
 namespace {
 
+/// Of a trigger, and not of what draws more samples.
+const std::string watches_a_fem =
+    "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) IS NULL";
+
 /// A FEM that has ended, and what its triggers came to.
 struct EndedFem {
     std::string task;
@@ -45,8 +49,8 @@ std::map<std::string, EndedFem> ended_fems(Connection& database, const std::stri
         });
     database.query(
         "SELECT fem_task, name, state, reason, coalesce(json_extract(result, '$.was_met'), 1) FROM "
-        "triggers WHERE run=? AND coalesce(json_extract(spec, '$.percentile'), json_extract(spec, "
-        "'$.target')) IS NULL ORDER BY rowid",
+        "triggers WHERE run=? AND " +
+            watches_a_fem + " ORDER BY rowid",
         {run}, [&](const Row& row) {
             const auto of = by_task.find(row.text(0));
             if (of == by_task.end() || !of->second->came_through) return;
@@ -108,21 +112,26 @@ std::vector<WithoutTransfer> Store::without_transfer(const std::string& run) con
     return found;
 }
 
-/// Only of what is over, and only where something has expired: a list of runs is asked for often.
+/// Of what is over. By counts: a list of runs is asked for often, and plans of many samples are long.
 void Store::tell_without_transfer(Connection& database, std::vector<Run>& runs) {
     for (Run& each : runs) {
         if (!each.finished) continue;
-        bool expired = false;
-        database.query("SELECT 1 FROM triggers WHERE run=? AND state='expired' LIMIT 1", {each.id},
-                       [&](const Row&) { expired = true; });
-        if (!expired) continue;
-        const auto found = found_in(database, each.id);
-        if (found.empty()) continue;
-        std::string text = "no transfer";
-        if (!found.front().variant.empty())
-            text += " of " + found.front().variant +
-                    (found.size() == 1 ? "" : " and " + std::to_string(found.size() - 1) + " more");
-        each.message += (each.message.empty() ? "" : "; ") + text + ": " + found.front().reason;
+        database.query(
+            "SELECT count(DISTINCT fem_task), (SELECT count(*) FROM tasks WHERE run=?1 AND "
+            "phase=?2), name, reason, min(rowid) FROM triggers WHERE run=?1 AND state='expired' "
+            "AND " +
+                watches_a_fem +
+                " AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE "
+                "child.parent=triggers.fem_task)",
+            {each.id, phases::fem.program}, [&](const Row& row) {
+                const std::int64_t without = row.integer(0), fems = row.integer(1);
+                if (without == 0) return;
+                each.message += (each.message.empty() ? "" : "; ") + std::string("no transfer") +
+                                (fems == 1 ? ""
+                                           : " from " + std::to_string(without) + " of " +
+                                                 std::to_string(fems) + " FEMs") +
+                                ": " + row.text(2) + ": " + row.text(3);
+            });
     }
 }
 
