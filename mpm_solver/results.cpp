@@ -124,6 +124,16 @@ json shaking_json(const GroundMotion& ground, double time) {
             {"ground_displacement", ground.displacement(time)}};
 }
 
+/// A scale above the energy released is that of a fall of centimetres (energy_scale).
+bool stood(const scene::Mpm& mpm, const Simulation& simulation) {
+    const Row& first = simulation.records().history.front();
+    const Row& last = simulation.last_row();
+    const Energy now{.gravitational = last.gravitational_energy, .shaking = last.shaking_work};
+    return released(simulation.start().energy, now) < simulation.scale_of_energy() &&
+           std::abs(last.runout - first.runout) < mpm.cell_size &&
+           std::abs(last.runout_largest - first.runout_largest) < mpm.cell_size;
+}
+
 Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
     const Row& row = simulation.last_row();
     const double scale = simulation.scale_of_energy();
@@ -132,6 +142,7 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             .moving = simulation.moving(),
             .kinetic_share = share(row.kinetic_mobile),
             .numerical_share = share(row.energy_numerical),
+            .stood = stood(mpm, simulation),
             .correction_share = share(row.overlap_energy),
             .volume_ratio = row.volume_ratio,
             .overlap = row.overlap,

@@ -47,12 +47,28 @@ Flag overlap_work(const Ending& ending) {
             "/mpm/overlap_correction/rate"};
 }
 
+/// Of soil that stands: settling releases next to nothing, and the scheme's part of that says nothing
+/// of a runout.
+Flag share_of_settling(const Ending& ending) {
+    return {"numerical_share", Severity::warning,
+            "the soil stands: it fell by a few centimetres on the mean and its fronts stayed "
+            "within a cell; the scheme " +
+                std::string(ending.numerical_share > 0.0 ? "took " : "made ") +
+                text_of(100.0 * std::abs(ending.numerical_share)) +
+                " % of what so small a movement is measured by",
+            "/mpm"};
+}
+
 }  // namespace
 
 std::vector<Flag> doubts_of(const Ending& ending) {
     std::vector<Flag> doubts;
     if (ending.moving) doubts.push_back(still_moving(ending));
-    if (!(std::abs(ending.numerical_share) <= largest_numerical_share)) {
+    const bool much = !(std::abs(ending.numerical_share) <= largest_numerical_share);
+    const bool stands = ending.stood && !ending.moving && std::isfinite(ending.numerical_share);
+    if (much && stands) {
+        doubts.push_back(share_of_settling(ending));
+    } else if (much) {
         doubts.push_back(
             {"numerical_share", Severity::questionable,
              "the scheme " + std::string(ending.numerical_share > 0.0 ? "took " : "made ") +

@@ -39,7 +39,8 @@ struct Ending {
     std::optional<std::string> moving;  ///< why the soil is not at rest; empty: it is
     double kinetic_share;               ///< of the energy scale, see energy_scale [-]
     double numerical_share;             ///< of the same [-]
-    double correction_share;            ///< of the same, put in by the overlap correction [-]
+    bool stood;  ///< less was released than that scale is at least, and no front moved by a cell
+    double correction_share;  ///< of the same, put in by the overlap correction [-]
     double volume_ratio;
     double overlap;
     double deposit_depth;  ///< mean over what lies beyond the toe; 0: nothing does [m]

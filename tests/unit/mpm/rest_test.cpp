@@ -160,6 +160,7 @@ Ending sound() {
             .moving = {},
             .kinetic_share = 0.001,
             .numerical_share = 0.02,
+            .stood = false,
             .correction_share = 0.04,
             .volume_ratio = 1.02,
             .overlap = 0.01,
@@ -195,6 +196,15 @@ TEST(Doubts, AreNoneOfASoundRunAndOneForEachLimitPassed) {
         ending.numerical_share = share;
         EXPECT_EQ(codes(ending), Codes{"numerical_share"}) << share;
     }
+    ending = sound();
+    ending.stood = true;
+    EXPECT_EQ(codes(ending), Codes{});
+    ending.numerical_share = -0.5;
+    ASSERT_EQ(doubts_of(ending).size(), 1u);
+    EXPECT_EQ(doubts_of(ending)[0].severity, fault::Severity::warning) << "no runout hangs on it";
+    EXPECT_THAT(doubts_of(ending)[0].message, HasSubstr("the scheme made 50 % of what so small"));
+    ending.numerical_share = std::nan("");
+    EXPECT_EQ(doubts_of(ending)[0].severity, fault::Severity::questionable);
     for (const double ratio : {0.79, 1.31}) {
         ending = sound();
         ending.volume_ratio = ratio;
