@@ -281,6 +281,12 @@ test("a variant that nothing was transferred of stands above the figure, with th
     const other = api.add_run({ ...twelve_variants, name: "with" }, { began: Date.now() - 60000, breaks: [] });
     await open_run(other.id);
     await until("no list", async () => page.locator("#runout-without").isHidden());
+    assert.ok(await page.isVisible("#runout-plot"));
+    const none = api.add_run({ ...twelve_variants, name: "none", variants: [], transfer_times: [], without: [{ ...without[0], variant: "" }] }, { began: Date.now() - 60000, breaks: [] });
+    await open_run(none.id);
+    await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);
+    assert.match(await text_of("#runout-without"), /^Nothing was transferred \(not reached\): /);
+    assert.ok(await page.isHidden("#runout-plot") && await page.isHidden("#runout-table"), "empty axes say nothing");
 });
 
 test("figures are saved as SVG that needs no style sheet, and as PNG", async () => {

@@ -103,6 +103,8 @@ export class Results {
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
         by_id("runout-without").hidden = !without?.length;
+        const nothing = rows.length === 0 && without?.length > 0; // empty axes would say no more
+        by_id("runout-plot").hidden = by_id("runout-table").parentElement.hidden = nothing;
         mirror(by_id("runout-without"), without ?? [], ({ variant }) => variant, () => element("li"), (item, { variant, state, reason }) =>
             set_text(item, `Nothing was transferred${variant ? ` of ${variant}` : ""} (${state.replaceAll("_", " ")}): ${reason}`));
         return this.rows;
