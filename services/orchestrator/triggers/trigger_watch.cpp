@@ -249,11 +249,15 @@ criteria::Line TriggerWatch::line_for(const Fem& fem, const criteria::Criterion&
     return criteria::line_for(criterion.expression(), line, beside);
 }
 
-std::string TriggerWatch::why_never(const Fem& fem, const Armed& armed,
-                                    const criteria::Criterion& criterion) {
+/// What was true at the end and only not for long enough has begun: that is no sign of a dam that
+/// stands.
+void TriggerWatch::expire_unmet(const Fem& fem, Armed& armed,
+                                const criteria::Criterion& criterion) {
     std::optional<criteria::Line> last;
     if (!fem.lines.empty()) last = line_for(fem, criterion, fem.lines.back());
-    return never_met(criterion, armed.trigger.spec.value("hold_s", 0.0), last);
+    const bool begun = criterion.state() == criteria::Criterion::State::holding;
+    expire(armed, never_met(criterion, armed.trigger.spec.value("hold_s", 0.0), last),
+           begun ? WasMet::yes : WasMet::no);
 }
 
 void TriggerWatch::take_line(const Fem& fem, Armed& armed, const telemetry::Line& line) {
@@ -305,7 +309,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, When& when) {
     if (state == State::met) {
         take_first_from(fem, armed, when.criterion.met_at());
     } else if (fem.ended) {
-        expire(armed, why_never(fem, armed, when.criterion), WasMet::no);
+        expire_unmet(fem, armed, when.criterion);
     }
 }
 
@@ -314,7 +318,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
     const criteria::Criterion& lower = between.window.lower();
     const criteria::Criterion& upper = between.window.upper();
     if (lower.state() != State::met) {
-        if (fem.ended) expire(armed, why_never(fem, armed, lower), WasMet::no);
+        if (fem.ended) expire_unmet(fem, armed, lower);
         return;
     }
     if (const auto& since = between.window.shut_since()) {

@@ -71,9 +71,6 @@ class TriggerWatch {
     void take_line(const Fem& fem, Armed& armed, const telemetry::Line& line);
     static criteria::Line line_for(const Fem& fem, const criteria::Criterion& criterion,
                                    const telemetry::Line& line);
-    /// Why a condition was not met when the FEM had ended.
-    static std::string why_never(const Fem& fem, const Armed& armed,
-                                 const criteria::Criterion& criterion);
     void look_for_stability(Fem& fem);
     void settle(Fem& fem, Armed& armed);
     void settle_work(Fem& fem, Armed& armed, Manual& manual);
@@ -85,9 +82,11 @@ class TriggerWatch {
     void ask_for_snapshot(Fem& fem);
     Firing firing_of(const Fem& fem, const Armed& armed, const Snapshot& snapshot,
                      double wanted) const;
-    /// Whether the condition was met, and only a snapshot or a window was missing.
+    /// Whether the condition was met, and only a snapshot, a window or the rest of its hold was missing.
     enum class WasMet { no, yes };
     void expire(Armed& armed, const std::string& why, WasMet was_met);
+    /// The FEM has ended, and the condition was not met.
+    void expire_unmet(const Fem& fem, Armed& armed, const criteria::Criterion& criterion);
     void move(Armed& armed, TriggerEvent event, nlohmann::json detail);
 
     Store& store_;
