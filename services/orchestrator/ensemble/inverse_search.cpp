@@ -9,22 +9,35 @@ namespace breach::orchestrator {
 
 using nlohmann::json;
 
+namespace {
+
+bool is_none_where_nothing_flows(const std::string& quantity) {
+    return quantity == "runout_beyond_toe" || quantity == "area_beyond_toe";
+}
+
+}  // namespace
+
 std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json& scene) {
     if (!ensemble.entry.contains("target")) return std::nullopt;
     std::vector<fault::Fault> none;  // the study was checked when it was accepted
     const UncertaintyPlan plan = read_uncertainty(ensemble.entry, scene, none);
     InverseSearch search{
         .target = read_target(ensemble.entry, plan, Reach::chain, none), .steps = {}, .advice = {}};
+    const std::string& quantity = search.target.question.quantity;
     const std::string& vary = plan.parameters.at(search.target.parameter).name;
     for (const double value : search.target.values) {
         InverseStep step{.value = value, .results = {}};
         for (const SampleRow& each : ensemble.samples) {
             if (each.drawn.at(vary) != value) continue;
             step.open |= each.fate == Fate::open && !ensemble.run.finished;
-            const auto result = result_of(each, search.target.question.quantity);
+            if (each.fate == Fate::no_transfer && is_none_where_nothing_flows(quantity)) {
+                step.results.push_back(0.0);
+                ++step.stood;
+            }
+            const auto result = result_of(each, quantity);
             if (!result) continue;
             step.results.push_back(*result);
-            if (is_lower_bound(each, search.target.question.quantity)) ++step.moving;
+            if (is_lower_bound(each, quantity)) ++step.moving;
         }
         search.steps.push_back(std::move(step));
     }

@@ -17,6 +17,9 @@ std::string in_unit(double value, const std::string& unit = "") {
     return text + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
+/// Between neighbours that are as near as the tolerance, of the target: such a result may jump.
+constexpr double large_step = 0.25;
+
 /// A step that has a result, on the scale that is halved.
 struct Point {
     double at;
@@ -24,6 +27,7 @@ struct Point {
     double result;
     std::size_t lattices;
     std::size_t moving;
+    std::size_t stood;
 };
 
 struct Scale {
@@ -37,7 +41,7 @@ std::vector<Point> points_of(std::span<const InverseStep> steps, const Scale& sc
     for (const InverseStep& each : steps)
         if (!each.results.empty())
             points.push_back({scale.of(each.value), each.value, repeats_of(each.results).mean,
-                              each.results.size(), each.moving});
+                              each.results.size(), each.moving, each.stood});
     std::ranges::sort(points, {}, &Point::at);
     return points;
 }
@@ -47,6 +51,7 @@ struct Noise {
     double deviation = 0.0;
     std::size_t freedom = 0;
     double of_a_mean(std::size_t lattices) const {
+        if (freedom == 0) return 0.0;
         return student_factor(confidence, freedom) * deviation /
                std::sqrt(static_cast<double>(lattices));
     }
@@ -56,7 +61,7 @@ Noise noise_of(std::span<const InverseStep> steps) {
     Noise noise;
     double squares = 0.0;
     for (const InverseStep& each : steps) {
-        if (each.results.size() < 2) continue;
+        if (each.results.size() < 2 || each.stood > 0) continue;
         const Repeats repeats = repeats_of(each.results);
         squares += *repeats.deviation * *repeats.deviation * static_cast<double>(repeats.count - 1);
         noise.freedom += repeats.count - 1;
@@ -121,25 +126,35 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
                        " results beside it are lower bounds, for their soil still moved: it is " +
                        (advice.bound == Bound::at_least ? "at least" : "at most") + " this value");
     }
+    if (a.stood + b.stood > 0)
+        add_remark(advice.remark, "at " + in_unit((a.stood > 0 ? a : b).value) +
+                                      " nothing was transferred, for no trigger's condition was "
+                                      "met: the result is taken as 0 there");
+    const double scatter = noise.of_a_mean(std::min(a.lattices, b.lattices));
+    if (const double step = std::abs(b.result - a.result);
+        step > scatter && step > large_step * std::abs(question.target))
+        add_remark(advice.remark, "from " + in_unit(a.value) + " to " + in_unit(b.value) +
+                                      " it goes from " + in_unit(a.result, question.unit) + " to " +
+                                      in_unit(b.result, question.unit) +
+                                      " at once: no run gave the target itself");
     if (noise.freedom == 0) {
         add_remark(advice.remark,
                    "each value was run on one lattice of points: its scatter is not known, and "
                    "so no interval");
         return;
     }
-    const double half = noise.of_a_mean(std::min(a.lattices, b.lattices));
     const auto edge = [&](std::size_t inside, int direction) {
         // The inner end of the band lies in the bracket itself, where the step is outside the band.
-        const Point root{scale.of(value), value, question.target, 0, 0};
+        const Point root{scale.of(value), value, question.target, 0, 0, 0};
         std::vector<Point> way = points;
         way.insert(way.begin() + static_cast<std::ptrdiff_t>(bracket) + 1, root);
-        return scale.back(edge_of_band(way, inside, direction, question.target, half));
+        return scale.back(edge_of_band(way, inside, direction, question.target, scatter));
     };
     advice.found->low = edge(bracket + 1, -1);
     advice.found->high = edge(bracket + 1, +1);
     advice.has_interval = true;
     const bool at_end = advice.found->low <= question.low || advice.found->high >= question.high;
-    if (at_end && half > 0.0)
+    if (at_end && scatter > 0.0)
         add_remark(advice.remark,
                    "the interval reaches an end of the range, and may go on beyond it");
 }
@@ -172,7 +187,7 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     const Point& b = points[bracket + 1];
     const double width = b.at - a.at;
     const double range = question.logarithmic ? 1.0 : question.high - question.low;
-    const double told = noise.freedom > 0 ? noise.of_a_mean(std::min(a.lattices, b.lattices)) : 0.0;
+    const double told = noise.of_a_mean(std::min(a.lattices, b.lattices));
     const bool wide = width > question.tolerance * range && std::abs(b.result - a.result) > told;
     if (wide && steps.size() < question.most_values) {
         advice.run_next.push_back(in_six_digits(scale.back(0.5 * (a.at + b.at))));

@@ -17,6 +17,7 @@ struct InverseStep {
     std::vector<double> results;  ///< of the lattices that have one
     bool open = false;            ///< some still run
     std::size_t moving = 0;       ///< of the results: lower bounds, their soil still moved
+    std::size_t stood = 0;        ///< of the results: nothing was let go, they are 0
 };
 
 struct InverseQuestion {
@@ -48,7 +49,7 @@ struct InverseAdvice {
 /// t s / sqrt(lattices) of the target, s the noise pooled over the steps and t Student's factor of
 /// 90 % (services/orchestrator/records/repeats.hpp). It says nothing of the other parameters, which
 /// stay at their medians, nor of the model. Assumed: the result rises or falls all the way between
-/// the ends.
+/// the ends. Where nothing was let go the result is 0, and jumps beside it: noise is of the others.
 InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const InverseStep> steps);
 
 }  // namespace breach::orchestrator

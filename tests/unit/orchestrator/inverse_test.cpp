@@ -89,6 +89,22 @@ TEST(Inverse, NineOfTenIntervalsCoverTheValueThatTheNoiseHides) {
     EXPECT_LT(steps, 8u * seeds) << "what noise hides is not halved on";
 }
 
+TEST(Inverse, WhereTheDamStandsTheResultIsNoneAndKnowsNoNoise) {
+    const std::vector<InverseStep> steps{{.value = 0.4, .results = {300, 302}},
+                                         {.value = 0.69, .results = {216, 220}},
+                                         {.value = 0.695, .results = {0, 0}, .stood = 2},
+                                         {.value = 2.5, .results = {0, 0}, .stood = 2}};
+    const InverseAdvice advice = advise_inverse(question, steps);
+    ASSERT_TRUE(advice.found) << advice.refused;
+    EXPECT_GT(advice.found->value, 0.69);
+    EXPECT_LT(advice.found->value, 0.695);
+    EXPECT_NEAR(*advice.noise, std::sqrt((2.0 + 8.0) / 2.0), 1e-12) << "of the first two alone";
+    EXPECT_EQ(advice.remark,
+              "at 0.695 nothing was transferred, for no trigger's condition was met: the result is "
+              "taken as 0 there; from 0.69 to 0.695 it goes from 218 m to 0 m at once: no run gave "
+              "the target itself");
+}
+
 TEST(Inverse, LowerBoundsBesideTheTargetMakeItABoundAsWell) {
     // It falls with the value: what would run on reaches the target at a larger one.
     std::vector<InverseStep> steps{{.value = 0.4, .results = {300, 302}},
