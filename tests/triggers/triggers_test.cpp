@@ -2,6 +2,7 @@
 // fake MPM's runout is 10 + t_T^2).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <thread>
@@ -110,6 +111,11 @@ TEST(Trigger, CrossedAndUncrossedInsideTheHoldDoesNotFire) {
     EXPECT_EQ(missing.at("reason"), "criterion_1: " + reason);
     EXPECT_EQ(service.get("/v1/runs/" + run).body.at("message"),
               "no transfer: criterion_1: " + reason);
+    const std::string csv = service.get("/v1/runs/" + run + "/results?format=csv").text;
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 2) << "a line for it, without numbers: " << csv;
+    EXPECT_NE(csv.find(",\"not_reached\","), std::string::npos) << csv;
+    EXPECT_EQ(service.get("/v1/runs/" + run + "/results?format=csv&state=failed").text,
+              csv.substr(0, csv.find('\n') + 1));
 }
 
 TEST(Trigger, AWindowThatIsNoneDoesNotFireAndSaysSo) {

@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -201,6 +202,22 @@ ResultFilter wanted_results(const Call& call) {
     return filter;
 }
 
+/// What a person who reads the CSV alone would miss: a line for each, without numbers.
+void add_without_transfer(const Store& store, const std::string& run,
+                          std::vector<ResultRow>& rows) {
+    for (const WithoutTransfer& each : store.without_transfer(run)) {
+        ResultRow row;
+        for (const ResultColumn& column : result_columns()) {
+            const std::string_view name = column.name;
+            row.push_back(name == "variant"  ? json(each.variant)
+                          : name == "state"  ? json(each.state)
+                          : name == "reason" ? json(each.reason)
+                                             : json());
+        }
+        rows.push_back(std::move(row));
+    }
+}
+
 void results(const Service& service, Call& call) {
     call.allow_parameters({"format", "from", "limit", "state", "flag", "table"});
     wanted_run(service, call.parts[0]);
@@ -213,6 +230,11 @@ void results(const Service& service, Call& call) {
     const ResultTable& table = wanted == "runs" ? runs : means;
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
+        const bool part =
+            std::ranges::any_of(std::array{"from", "limit", "state", "flag"},
+                                [&](const char* each) { return call.parameter(each).has_value(); });
+        if (wanted == "runs" && !part)
+            add_without_transfer(service.store, call.parts[0], runs.rows);
         call.response.set_content(as_csv(table.rows, table.columns), "text/csv; charset=utf-8");
         return;
     }
