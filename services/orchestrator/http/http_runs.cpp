@@ -1,7 +1,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -223,17 +222,15 @@ void results(const Service& service, Call& call) {
     wanted_run(service, call.parts[0]);
     const std::string wanted = call.parameter("table").value_or("runs");
     if (wanted != "runs" && wanted != "means") throw bad_request("table must be runs or means");
+    const ResultFilter filter = wanted_results(call);
     ResultTable runs{"sweep_results", result_columns(),
-                     service.store.results(call.parts[0], wanted_results(call))};
+                     service.store.results(call.parts[0], filter)};
     ResultTable means{"sweep_means", mean_columns(), service.store.means(call.parts[0])};
     tell_runout_errors(service.store, service.data, call.parts[0], runs.rows, means.rows);
     const ResultTable& table = wanted == "runs" ? runs : means;
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
-        const bool part =
-            std::ranges::any_of(std::array{"from", "limit", "state", "flag"},
-                                [&](const char* each) { return call.parameter(each).has_value(); });
-        if (wanted == "runs" && !part)
+        if (wanted == "runs" && filter.takes_all())
             add_without_transfer(service.store, call.parts[0], runs.rows);
         call.response.set_content(as_csv(table.rows, table.columns), "text/csv; charset=utf-8");
         return;

@@ -169,6 +169,8 @@ struct ResultFilter {
     std::optional<std::string> flag;  ///< a code that they carry
     std::size_t from = 0;
     std::size_t most = static_cast<std::size_t>(1) << 30;
+
+    bool takes_all() const { return !state && !flag && from == 0 && most == ResultFilter{}.most; }
 };
 
 /// Which runs a list shows: newest first, after the place where the last page ended.

@@ -26,9 +26,9 @@ std::string sweep_state() {
            makes_a_row("t") +
            ") THEN 'planning' WHEN EXISTS (SELECT 1 FROM triggers AS g WHERE g.run=r.id AND "
            "g.state IN ('armed', 'holding') AND (g.kind='bisect' AND (SELECT count(*) FROM firings "
-           "WHERE firings.trigger=g.id) > json_extract(g.spec, '$.seeds') OR "
-           "coalesce(json_extract(g.spec, '$.percentile'), json_extract(g.spec, '$.target')) IS "
-           "NOT NULL AND (SELECT last_task FROM runs WHERE runs.id=r.id) > (SELECT "
+           "WHERE firings.trigger=g.id) > json_extract(g.spec, '$.seeds') OR " +
+           draws_samples("g.spec") +
+           " AND (SELECT last_task FROM runs WHERE runs.id=r.id) > (SELECT "
            "json_extract(detail, '$.tasks') FROM events WHERE events.run=r.id AND "
            "json_extract(detail, '$.event')='submit' ORDER BY seq LIMIT 1))) THEN 'refining' ELSE "
            "r.state END";
@@ -517,8 +517,7 @@ ResultRow result_from(const Row& row, std::span<const ResultColumn> columns) {
 std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter& filter) const {
     std::string sql = "SELECT " + selected_result_columns() + " FROM sweep_results WHERE ";
     std::vector<Value> values{run, as_value(filter.most), as_value(filter.from)};
-    const bool all = filter.from == 0 && filter.most == ResultFilter{}.most;
-    if (all && !filter.state && !filter.flag) {
+    if (filter.takes_all()) {
         sql += "run=?1 ORDER BY variant_place, transfer_time";
         values = {run};
     } else if (!filter.state && !filter.flag) {

@@ -3,6 +3,7 @@
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/store/views.hpp"
 
 namespace breach::orchestrator {
 
@@ -192,13 +193,11 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
 std::vector<Trigger> Store::open_triggers() const {
     std::vector<Trigger> found;
     read([&](Connection& database) {
-        database.query(
-            std::string(trigger_columns) +
-                "WHERE state IN ('armed', 'holding') AND "
-                "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) "
-                "IS NULL AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task AND "
-                "tasks.state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
-            {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+        database.query(std::string(trigger_columns) +
+                           "WHERE state IN ('armed', 'holding') AND NOT (" + draws_samples("spec") +
+                           ") AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task AND "
+                           "tasks.state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
+                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;
 }
@@ -206,11 +205,9 @@ std::vector<Trigger> Store::open_triggers() const {
 std::vector<Trigger> Store::open_batches() const {
     std::vector<Trigger> found;
     read([&](Connection& database) {
-        database.query(
-            std::string(trigger_columns) +
-                "WHERE state IN ('armed', 'holding') AND coalesce(json_extract(spec, "
-                "'$.percentile'), json_extract(spec, '$.target')) IS NOT NULL ORDER BY id",
-            {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
+        database.query(std::string(trigger_columns) + "WHERE state IN ('armed', 'holding') AND " +
+                           draws_samples("spec") + " ORDER BY id",
+                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;
 }

@@ -205,6 +205,11 @@ void make_views(Connection& database) {
     }
 }
 
+std::string draws_samples(const std::string& spec) {
+    return "coalesce(json_extract(" + spec + ", '$.percentile'), json_extract(" + spec +
+           ", '$.target')) IS NOT NULL";
+}
+
 std::string factor_liquefied(const std::string& result) {
     return "CASE WHEN json_extract(" + result + ", '$.stages[#-1].layers_liquefied') > 0 THEN " +
            "json_extract(" + result + ", '$.stages[#-1].factor_of_safety') END";

@@ -7,16 +7,13 @@
 #include "core/words/number.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/store/views.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
 
 namespace {
-
-/// Of a trigger, and not of what draws more samples.
-const std::string watches_a_fem =
-    "coalesce(json_extract(spec, '$.percentile'), json_extract(spec, '$.target')) IS NULL";
 
 /// A FEM that has ended, and what its triggers came to.
 struct EndedFem {
@@ -49,8 +46,8 @@ std::map<std::string, EndedFem> ended_fems(Connection& database, const std::stri
         });
     database.query(
         "SELECT fem_task, name, state, reason, coalesce(json_extract(result, '$.was_met'), 1) FROM "
-        "triggers WHERE run=? AND " +
-            watches_a_fem + " ORDER BY rowid",
+        "triggers WHERE run=? AND NOT (" +
+            draws_samples("spec") + ") ORDER BY rowid",
         {run}, [&](const Row& row) {
             const auto of = by_task.find(row.text(0));
             if (of == by_task.end() || !of->second->came_through) return;
@@ -119,9 +116,9 @@ void Store::tell_without_transfer(Connection& database, std::vector<Run>& runs) 
         database.query(
             "SELECT count(DISTINCT fem_task), (SELECT count(*) FROM tasks WHERE run=?1 AND "
             "phase=?2), name, reason, min(rowid) FROM triggers WHERE run=?1 AND state='expired' "
-            "AND " +
-                watches_a_fem +
-                " AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE "
+            "AND NOT (" +
+                draws_samples("spec") +
+                ") AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE "
                 "child.parent=triggers.fem_task)",
             {each.id, phases::fem.program}, [&](const Row& row) {
                 const std::int64_t without = row.integer(0), fems = row.integer(1);

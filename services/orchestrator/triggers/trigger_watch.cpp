@@ -417,11 +417,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
     const TriggerEvent event = advice.plateau ? TriggerEvent::fire : TriggerEvent::expire;
     json detail{{"result", result}};
     if (!advice.plateau) detail["why"] = "no transfer time gave a runout above zero";
-    store_.write([&](Transaction& transaction) {
-        transaction.keep_trigger_result(armed.trigger.id, result);
-        transaction.move_trigger(armed.trigger, event, detail);
-    });
-    armed.trigger.state = *next(armed.trigger.state, event);
+    move(armed, event, detail, result);
 }
 
 // ---------------------------------------------------------------- firing
@@ -489,17 +485,14 @@ void TriggerWatch::ask_for_snapshot(Fem& fem) {
 }
 
 void TriggerWatch::expire(Armed& armed, const std::string& why, WasMet was_met) {
-    const json result{{"was_met", was_met == WasMet::yes}};
-    store_.write([&](Transaction& transaction) {
-        transaction.keep_trigger_result(armed.trigger.id, result);
-        transaction.move_trigger(armed.trigger, TriggerEvent::expire, {{"why", why}});
-    });
-    armed.trigger.state = *next(armed.trigger.state, TriggerEvent::expire);
+    move(armed, TriggerEvent::expire, {{"why", why}}, {{"was_met", was_met == WasMet::yes}});
 }
 
-void TriggerWatch::move(Armed& armed, TriggerEvent event, json detail) {
-    store_.write(
-        [&](Transaction& transaction) { transaction.move_trigger(armed.trigger, event, detail); });
+void TriggerWatch::move(Armed& armed, TriggerEvent event, json detail, const json& result) {
+    store_.write([&](Transaction& transaction) {
+        if (!result.is_null()) transaction.keep_trigger_result(armed.trigger.id, result);
+        transaction.move_trigger(armed.trigger, event, detail);
+    });
     armed.trigger.state = *next(armed.trigger.state, event);
 }
 

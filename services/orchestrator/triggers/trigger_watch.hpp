@@ -87,7 +87,9 @@ class TriggerWatch {
     void expire(Armed& armed, const std::string& why, WasMet was_met);
     /// The FEM has ended, and the condition was not met.
     void expire_unmet(const Fem& fem, Armed& armed, const criteria::Criterion& criterion);
-    void move(Armed& armed, TriggerEvent event, nlohmann::json detail);
+    /// result: kept with it; null: what there is stays.
+    void move(Armed& armed, TriggerEvent event, nlohmann::json detail,
+              const nlohmann::json& result = nullptr);
 
     Store& store_;
     const DataFolder& data_;
