@@ -87,11 +87,9 @@ void add(Service& service, Call& call) {
     const std::string& run = call.parts[0];
     wanted_run(service, run);
     const TriggerPlan plan = checked(service, run, call.json_body());
-    const json study = service.store.study_of(run).value();
-    if (study.value("draws", 1) > 1 && study.value("draws_of", "") == name_of(Redrawn::fem))
-        throw bad_request(
-            "each draw of the run has a FEM of its own, and a trigger fires at another time in "
-            "each: there would be no mean at a transfer time");
+    const Draws draws = draws_of(service.store.study_of(run).value());
+    if (const std::string refusal(refusal_of_triggers(draws)); !refusal.empty())
+        throw bad_request(refusal);
     for (const Trigger& each : service.store.triggers_of(run)) {
         if (each.name == plan.name)
             throw Problem{409, "/problems/name-taken", "Name taken",

@@ -108,7 +108,14 @@ const json& entries_of_no_draws() {
 }
 
 Draws draws_of(const json& study) {
-    return {study.at("first_draw"), study.at("draws"), redrawn_named(study.value("draws_of", ""))};
+    return {study.value("first_draw", std::size_t{0}), study.value("draws", std::size_t{1}),
+            redrawn_named(study.value("draws_of", ""))};
+}
+
+std::string_view refusal_of_triggers(const Draws& draws) {
+    if (draws.of != Redrawn::fem || draws.count == 1) return "";
+    return "each draw has a FEM of its own, and a trigger fires at another time in each: there "
+           "would be no mean at a transfer time";
 }
 
 json changed(json scene, const std::vector<std::string>& overrides) {

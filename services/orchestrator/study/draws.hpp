@@ -30,8 +30,11 @@ struct Draws {
 /// Draws of what the quantity or the runout does not come from. `where`: the object that has them.
 void check_draws(const Draws& draws, Reach reach, const std::string& where,
                  std::vector<fault::Fault>& faults);
-/// The study's own entries, which the schema has found sound.
+/// The study's own entries, which the schema has found sound; of a stored study, which may be older
+/// than they are.
 Draws draws_of(const nlohmann::json& study);
+/// Why such draws have transfer times and no triggers; empty: they may have triggers.
+std::string_view refusal_of_triggers(const Draws& draws);
 /// These entries where nothing is drawn.
 const nlohmann::json& entries_of_no_draws();
 

@@ -224,10 +224,9 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, con
     }
     const bool waits = std::ranges::any_of(
         document["triggers"], [](const json& each) { return each.value("kind", "") != "at_time"; });
-    if (draws.of == Redrawn::fem && waits && !document.contains("check"))
-        faults.push_back({"/draws_of",
-                          "each draw has a FEM of its own, and triggers fire at another time in "
-                          "each: there would be no mean at a transfer time",
+    const std::string refusal(refusal_of_triggers(draws));
+    if (!refusal.empty() && waits && !document.contains("check"))
+        faults.push_back({"/draws_of", refusal,
                           "give \"transfer_times\", or leave \"draws_of\" out: draws of the "
                           "points share one FEM and its triggers"});
     if (own.empty())

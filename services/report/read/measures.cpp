@@ -262,15 +262,22 @@ WindowEdges window_of(const Run& run, const Telemetry& fem) {
     if (spec.is_null() && run.scene.contains("transfer")) {
         spec = run.scene.at("transfer").value("window", json());
     }
-    WindowEdges edges;
-    if (!spec.is_object()) return edges;
+    if (!spec.is_object()) return {};
     const auto condition = [&](const char* edge) {
         return criteria::parse(spec.at(edge).get<std::string>(), criteria::Kind::condition,
                                std::string("/window/") + edge);
     };
-    edges.lower = fem.first_time(condition("lower"));
-    if (edges.lower && spec.contains("upper")) edges.upper = fem.first_time(condition("upper"));
-    return edges;
+    criteria::Window window(condition("lower"), condition("upper"), spec.value("hold_s", 0.0));
+    fem.show_to(window);
+    const auto time_of = [](const std::optional<criteria::Line>& line) {
+        return line ? std::optional(line->time) : std::nullopt;
+    };
+    const auto edge = [&](const criteria::Criterion& criterion) {
+        const bool met = criterion.state() == criteria::Criterion::State::met;
+        return met ? time_of(criterion.crossing()) : std::nullopt;
+    };
+    const auto shut = time_of(window.shut_since());
+    return {edge(window.lower()), shut ? shut : edge(window.upper())};
 }
 
 WindowEdges window_in(const Measures& measures) {

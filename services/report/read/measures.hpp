@@ -28,9 +28,9 @@ const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
 /// Telemetry of a FEM; conditions may ask for the critical depth of the run's stability analysis.
 Telemetry telemetry_of(const Run& run, const PhaseFolder& fem);
 
-/// The edges of the transfer window [s] by the study's first window trigger, or /transfer/window of
-/// the scene; an edge that telemetry never meets is missing. A mesh that is too distorted (upper)
-/// before the failure is developed (lower) leaves no window.
+/// The edges of the transfer window [s] as the study's first window trigger finds them, or
+/// /transfer/window of the scene; an edge that telemetry never meets is missing. A mesh that is too
+/// distorted (upper) since before the failure is developed (lower) leaves no window.
 struct WindowEdges {
     std::optional<double> lower, upper;
 

@@ -38,4 +38,11 @@ std::optional<double> Telemetry::first_time(const std::string& condition) const 
     return first_time(criteria::parse(condition, criteria::Kind::condition, "/report"));
 }
 
+void Telemetry::show_to(criteria::Window& window) const {
+    for (const telemetry::Line& line : lines_) {
+        window.take_lower(criteria::line_for(window.lower().expression(), line, beside_));
+        window.take_upper(criteria::line_for(window.upper().expression(), line, beside_));
+    }
+}
+
 }  // namespace breach::report

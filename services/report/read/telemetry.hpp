@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/criteria/expression.hpp"
+#include "core/criteria/window.hpp"
 #include "core/telemetry/lines.hpp"
 #include "services/report/chart/chart.hpp"
 
@@ -27,6 +27,8 @@ class Telemetry {
     /// The first time at which the condition is true [s]; nothing when it never is.
     std::optional<double> first_time(const criteria::Expression& condition) const;
     std::optional<double> first_time(const std::string& condition) const;
+    /// Every line, so that the window knows its edges.
+    void show_to(criteria::Window& window) const;
 
     const std::vector<telemetry::Line>& lines() const { return lines_; }
 

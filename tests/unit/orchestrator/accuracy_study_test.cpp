@@ -223,7 +223,7 @@ TEST(Draws, OfTheFemHaveOneEachAndOtherLattices) {
               read.variants[0].scene["transfer"]["point_shift"]);
     json waits = study;
     waits["triggers"] = {{{"kind", "criterion"}, {"when", "crest_displacement > 1"}}};
-    EXPECT_NE(refusal(waits, "/draws_of").cause.find("triggers fire at another time"),
+    EXPECT_NE(refusal(waits, "/draws_of").cause.find("a trigger fires at another time"),
               std::string::npos);
     waits["triggers"] = {{{"kind", "at_time"}, {"times", {0.25}}}};
     EXPECT_NO_THROW(read_study(waits.dump()));

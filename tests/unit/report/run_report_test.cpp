@@ -228,6 +228,16 @@ TEST_F(WetRun, KnowsTheCriticalDepthThatItsTriggersAskFor) {
     EXPECT_EQ(m.at("window_upper").value, 18);
 }
 
+TEST_F(WetRun, FindsTheWindowAsItsTriggerDoes) {
+    std::ofstream(folder_ / "study.json") << R"({"triggers": [{"kind": "window", "hold_s": 1.5,
+        "lower": "time < 2 or time >= 15", "upper": "time < 14 or time >= 19"}]})";
+    const WindowEdges window =
+        window_in(measures_of(read_run(folder_), paper_for("mochikoshi-small")));
+    EXPECT_EQ(window.lower, 15) << "0 to 1 s did not last";
+    EXPECT_EQ(window.upper, 19) << "what was over before the lower edge shuts nothing";
+    EXPECT_FALSE(window.is_none());
+}
+
 TEST_F(WetRun, SaysThatThereIsNoWindowWhereTheMeshIsDistortedFirst) {
     std::ofstream(folder_ / "study.json") << R"({"triggers": [{"kind": "window",
         "lower": "time >= 18", "upper": "time >= 12"}]})";
