@@ -131,7 +131,7 @@ const Row& Simulation::look() {
          .energy_numerical = numerical,
          .energy_numerical_share = scale > 0.0 ? numerical / scale : 0.0,
          .volume_ratio = start_.mobile_volume > 0.0 ? volume / start_.mobile_volume : 1.0,
-         .overlap = overlap_.measure(body_),
+         .overlap = overlap_.measure(body_, view_.mobile),
          .overlap_energy = body_.tally.pushed_in,
          .fastest = body_.tally.fastest});
     const Row& row = last_row();

@@ -80,7 +80,7 @@ void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& fill) const
     }
 }
 
-double OverlapMeter::measure(const Body& body) const {
+double OverlapMeter::measure(const Body& body, const std::vector<std::uint8_t>& mobile) const {
     std::vector<double> fill;
     fill_nodes(body, fill);
     const Points& points = body.points;
@@ -88,11 +88,12 @@ double OverlapMeter::measure(const Body& body) const {
     double excess = 0.0;
     for_each_weight(body, {0, points.size()},
                     [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
-                        if (N > 0.0)
+                        if (N > 0.0 && mobile[points.region[p]])
                             excess += points.V[p] * N * std::max(fill[i * rows + j] - 1.0, 0.0);
                     });
     double volume = 0.0;
-    for (const double V : points.V) volume += V;
+    for (std::size_t p = 0; p < points.size(); ++p)
+        if (mobile[points.region[p]]) volume += points.V[p];
     return volume > 0.0 ? excess / volume : 0.0;
 }
 

@@ -15,9 +15,9 @@ class OverlapMeter {
   public:
     explicit OverlapMeter(const Body& body, double thickness);
 
-    /// Volume-weighted mean over the points' cells of max(0, fill - 1), fill_i = sum_p V_p N_i /
-    /// capacity_i [-].
-    double measure(const Body& body) const;
+    /// Volume-weighted mean over the mobile points of max(0, fill - 1) of their nodes, fill_i =
+    /// sum_p V_p N_i / capacity_i of all points [-]. mobile: [regions].
+    double measure(const Body& body, const std::vector<std::uint8_t>& mobile) const;
 
     /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
     void mark(Body& body, double tolerance);

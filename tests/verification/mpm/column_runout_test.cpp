@@ -34,7 +34,7 @@ End run(const scene::Scene& scene, double toe, double seconds) {
     advance(body, scene, seconds);
     const Energy end = energy_of(body);
     const End result{runout_of(body.points, {1}, toe), volume_of(body.points, {1}) / volume,
-                     OverlapMeter(body, 1.0).measure(body), numerical_share(start, end)};
+                     OverlapMeter(body, 1.0).measure(body, {1}), numerical_share(start, end)};
     std::printf("    x99 %.2f m, largest %.2f m, volume ratio %.3f, overlap %.3f, numerical %.3f\n",
                 toe + result.runout.all, toe + result.runout.largest, result.volume_ratio,
                 result.overlap, result.numerical_share);

@@ -42,13 +42,13 @@ Box rest(double rate) {
     OverlapMeter meter(body, scene.thickness);
     const Energy start = energy_of(body);
     Box box{};
-    box.overlap_before = meter.measure(body);
+    box.overlap_before = meter.measure(body, {1});
     const double y = centre_of_mass(body.points).y();
     int steps = 0;
     advance(body, scene, 3.0, [&](double) {
         if (rate > 0.0 && steps++ % steps_between_marks == 0) meter.mark(body, 0.1);
     });
-    box.overlap = meter.measure(body);
+    box.overlap = meter.measure(body, {1});
     const double allowed = y / squeeze / 1.1 - y;  // fill 1.1 from fill 1 / 0.85
     box.rise = (centre_of_mass(body.points).y() - y) / allowed;
     box.pushed_in = body.tally.pushed_in;
