@@ -200,7 +200,7 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
         console.out << means;
         if (!wish.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
         if (wish.means && means.empty()) console.notes << "the study has no draws\n";
-        console.notes << as_list_without_transfer(answer);
+        console.notes << as_list_without_transfer(answer) << as_list_of_same_results(answer);
     }
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";

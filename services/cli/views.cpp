@@ -345,6 +345,18 @@ std::string as_list_without_transfer(const json& answer) {
     return text;
 }
 
+std::string as_list_of_same_results(const json& answer) {
+    std::string text;
+    for (const json& group : answer.value("same_results", json::array())) {
+        std::string names;
+        for (const json& each : group)
+            names += (names.empty() ? "" : ", ") + each.get<std::string>();
+        text += "the same to the last digit: " + names +
+                "; what tells them apart has no part in this run\n";
+    }
+    return text;
+}
+
 std::string as_mean_table(const json& answer) {
     const json means = answer.value("means", json::array());
     if (means.empty()) return "";

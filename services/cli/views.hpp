@@ -30,6 +30,8 @@ std::string as_task_page(const nlohmann::json& task);
 std::string as_result_table(const nlohmann::json& answer);
 /// What has no row in it: variants that nothing was transferred of, and why; empty: there are none.
 std::string as_list_without_transfer(const nlohmann::json& answer);
+/// A line for each group of variants with the same results.
+std::string as_list_of_same_results(const nlohmann::json& answer);
 /// The means of the same answer, with their standard deviations and what is missing in them; empty:
 /// the study has no draws.
 std::string as_mean_table(const nlohmann::json& answer);

@@ -395,7 +395,7 @@ Json transfer_of(const Context& all) {
         names.push_back(each.part.name);
         largest = std::max(largest, each.sigma_v0_kPa);
     }
-    Json transfer{{"points_per_cell", 9}, {"mapping", mapping}};
+    Json transfer{{"points_per_cell", 16}, {"mapping", mapping}};
     transfer["phreatic_line"] = points(all.outline.phreatic);
     if (names.empty()) return transfer;
     const double step =
@@ -440,7 +440,7 @@ Json runout_of(const Context& all) {
                           {end + 0.2 * h, nanometres(-depth)},
                           {end + 0.4 * h, 0.0},
                           {right, 0.0}};
-    mpm["fill_points"] = 3;
+    mpm["fill_points"] = 4;
     if (!all.with_fem) mpm["fill_stress"] = "overburden";
     mpm["overlap_correction"] = {{"rate", 5}};
     mpm["softening_length"] = rounded(H / 15.0);

@@ -384,7 +384,7 @@ export class FakeApi {
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
         if (rest[0] === "uncertainty" && run.study.uncertainty) return json(response, run.answer ??= run.uncertainty());
         if (rest[0] === "envelopes" && run.study.uncertainty) return json(response, run.envelopes ??= envelopes_of(run));
-        if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means(), without_transfer: run.study.without ?? [] });
+        if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means(), without_transfer: run.study.without ?? [], same_results: run.study.same ?? [] });
         if (rest[0] === "telemetry") {
             const from = Number(url.searchParams.get("from") ?? 0);
             if (url.searchParams.has("variant")) return problem(response, 400, 'unknown query parameter "variant"');

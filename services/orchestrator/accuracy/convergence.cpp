@@ -51,6 +51,8 @@ std::string_view name_of(Course course) {
             return "oscillating";
         case Course::not_falling:
             return "not_falling";
+        case Course::no_effect:
+            return "no_effect";
         case Course::below_noise:
             break;
     }
@@ -167,7 +169,9 @@ Convergence convergence_of(std::span<const Rung> rungs) {
     // Coarse rungs scatter more than fine ones: they say nothing about what tells these apart.
     const auto ending = rungs.last(std::min<std::size_t>(rungs.size(), 3));
     const auto noise = pooled_noise(ending);
-    if (is_noise(middle, fine, noise)) {
+    if (*found.spread == 0.0 && fine.value.mean != 0.0) {
+        found.course = Course::no_effect;
+    } else if (is_noise(middle, fine, noise)) {
         found.course = Course::below_noise;
         error = hidden_error(ending, *noise);
     } else if (rungs.size() >= 3) {

@@ -33,6 +33,7 @@ enum class Course {
     oscillating,  ///< up and down: a spread, no order
     not_falling,  ///< the differences do not get smaller with the size: no order
     below_noise,  ///< the last difference is within the noise of the repeats: no order
+    no_effect,    ///< all rungs give the same to the last digit
 };
 std::string_view name_of(Course course);
 

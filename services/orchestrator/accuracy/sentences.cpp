@@ -146,6 +146,9 @@ std::string course_in_words(const Convergence& convergence, const AccuracyPlan& 
                 "the differences of the three finest rungs do not fall towards a limit: no "
                 "order";
             break;
+        case Course::no_effect:
+            return "all rungs give the same to the last digit: what the ladder changes has no part "
+                   "in the quantity";
         case Course::below_noise:
             words =
                 "the two finest rungs differ by no more than the noise of the repeats: no "

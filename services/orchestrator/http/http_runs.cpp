@@ -13,6 +13,7 @@
 #include "services/orchestrator/http/http_submission.hpp"
 #include "services/orchestrator/http/results_file.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
+#include "services/orchestrator/records/same_results.hpp"
 #include "services/orchestrator/study/budget.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
 
@@ -217,6 +218,15 @@ void add_without_transfer(const Store& store, const std::string& run,
     }
 }
 
+/// Of the study's own variants, not of their draws.
+json same_results_of(const Store& store, const std::string& run) {
+    std::vector<std::string> variants;
+    for (const json& each : store.study_of(run).value().value("variants", json::array()))
+        variants.push_back(each.at("name"));
+    if (variants.size() < 2) return json::array();
+    return same_results(store.results(run, {}), variants);
+}
+
 void results(const Service& service, Call& call) {
     call.allow_parameters({"format", "from", "limit", "state", "flag", "table"});
     wanted_run(service, call.parts[0]);
@@ -256,7 +266,8 @@ void results(const Service& service, Call& call) {
     const json head{{"run", call.parts[0]},
                     {"columns", described(runs.columns)},
                     {"mean_columns", described(means.columns)},
-                    {"without_transfer", std::move(without)}};
+                    {"without_transfer", std::move(without)},
+                    {"same_results", same_results_of(service.store, call.parts[0])}};
     reply_with_text(call.response,
                     opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
                         ",\"means\":" + as_json_text(means.rows, means.columns) + "}");

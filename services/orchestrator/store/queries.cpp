@@ -260,6 +260,18 @@ std::vector<Task> Store::tasks_of(const std::string& run, const std::string& aft
     return found;
 }
 
+std::optional<Task> Store::stability_of(const std::string& run, const std::string& variant) const {
+    std::optional<Task> found;
+    read([&](Connection& database) {
+        database.query(std::string(task_columns) +
+                           "WHERE run=? AND phase=? ORDER BY variant=? DESC, variant='' DESC, id "
+                           "LIMIT 1",
+                       {run, phases::lem.program, variant},
+                       [&](const Row& row) { found = task_from(row); });
+    });
+    return found;
+}
+
 std::vector<Task> Store::computed_tasks_of(const std::string& run, std::size_t most) const {
     std::vector<Task> found;
     read([&](Connection& database) {

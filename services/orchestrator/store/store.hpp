@@ -70,6 +70,9 @@ class Store {
     std::map<std::string, std::int64_t> tasks_by_state() const;
     std::map<std::string, std::int64_t> attempts_by_state() const;
     std::vector<Task> tasks_of(const std::string& run) const;
+    /// The stability analysis of this variant or of all; else, of a FEM that serves variants with
+    /// several, the first.
+    std::optional<Task> stability_of(const std::string& run, const std::string& variant) const;
     /// A page of them: those after the id `after`, in the order of their ids.
     std::vector<Task> tasks_of(const std::string& run, const std::string& after,
                                std::size_t most) const;

@@ -107,7 +107,7 @@ class Planner {
             if (each.program != std::string_view(phases::lem.program) || study_.stability)
                 recipes_of_variant_[each.program] = recipe(each.program, scene);
         const std::size_t fem = add_first(tasks_, phases::fem.program, std::move(wishes));
-        if (study_.stability) add_first(tasks_, phases::lem.program, {});
+        if (study_.stability) add_first(tasks_, phases::lem.program, {}, sharing_of_stability());
         for (const double time : study_.transfer_times) plan_transfer(tasks_, fem, time);
         plan_transfer(open_, add_first(open_, phases::fem.program, {}), std::nullopt);
     }
@@ -162,6 +162,20 @@ class Planner {
                  *variant_, Sharing::never);
     }
 
+    /// One analysis for all variants, or one for each: of one that served some, the others' rows would
+    /// not know. Equal ones are computed once all the same, by the cache.
+    Sharing sharing_of_stability() {
+        const auto of = [&](const Variant& each) {
+            return recipe_of(phases::lem.program, each.scene, numerics_.at(phases::lem.program))
+                .hash;
+        };
+        if (!stability_serves_all_)
+            stability_serves_all_ = std::ranges::all_of(study_.variants, [&](const Variant& each) {
+                return of(each) == of(study_.variants.front());
+            });
+        return *stability_serves_all_ ? Sharing::wanted : Sharing::never;
+    }
+
     std::string recipe(const std::string& phase, const json& scene) {
         Recipe made = recipe_of(phase, scene, numerics_.at(phase));
         std::string hash = made.hash;
@@ -172,6 +186,7 @@ class Planner {
     const Study& study_;
     const Numerics& numerics_;
     const Variant* variant_ = nullptr;
+    std::optional<bool> stability_serves_all_;
     std::map<std::string, std::string> recipes_of_variant_;
     std::map<std::string, Recipe> recipes_;
     TaskList tasks_;

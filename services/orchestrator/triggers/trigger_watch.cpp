@@ -222,12 +222,10 @@ void TriggerWatch::read_on(Fem& fem) {
 void TriggerWatch::look_for_stability(Fem& fem) {
     const auto asks = [](const Armed& each) { return asks_for_critical_depth(each.work); };
     if (!std::ranges::any_of(fem.armed, asks)) return;
-    constexpr std::size_t first_tasks = 8;  // a run's single tasks are made before its transfers
-    const std::vector<Task> tasks = store_.tasks_of(fem.task.run, "", first_tasks);
-    const auto lem = std::ranges::find(tasks, phases::lem.program, &Task::phase);
-    if (lem != tasks.end() && !is_final(lem->state)) return;
+    const std::optional<Task> lem = store_.stability_of(fem.task.run, fem.task.variant);
+    if (lem && !is_final(lem->state)) return;
     double depth = std::numeric_limits<double>::quiet_NaN();
-    if (lem != tasks.end() && lem->result && lem->result->contains("critical_depth")) {
+    if (lem && lem->result && lem->result->contains("critical_depth")) {
         depth = lem->result->at("critical_depth");
     }
     fem.critical_depth = depth;

@@ -174,6 +174,10 @@ const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
     for (const PhaseFolder* each : phases_named(run, phase)) {
         if (each->variant == variant || each->variant.empty()) return each;
     }
+    for (const PhaseFolder* each : runouts_of(run, variant)) {
+        while (each && each->phase != phase) each = source_of(run, *each);
+        if (each) return each;
+    }
     return phase_named(run, phase);
 }
 

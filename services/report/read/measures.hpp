@@ -21,8 +21,9 @@ struct Measure {
 };
 using Measures = std::map<std::string, Measure>;
 
-/// The phase whose results a variant uses: its own, the one that serves all, or the first (one that
-/// serves some is called by the first of them); null when the run has none.
+/// The phase whose results a variant uses: its own, the one that serves all, the one that its runouts
+/// came from (what serves some is called by the first of them), or the first; null when the run has
+/// none.
 const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
                                     const std::string& variant);
 /// Telemetry of a FEM; conditions may ask for the critical depth of the run's stability analysis.

@@ -183,6 +183,7 @@ Run read_run(const fs::path& folder) {
         if (results.is_object()) {
             run.means = results.value("means", json::array());
             run.without_transfer = results.value("without_transfer", json::array());
+            run.same_results = results.value("same_results", json::array());
         }
         run.uncertainty = read_if_there(folder / "uncertainty.json");
         run.envelopes = read_if_there(folder / "envelopes.json");

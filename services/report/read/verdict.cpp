@@ -178,6 +178,18 @@ void add_what_is_not_known(const Run& run, Verdict& verdict) {
     verdict.doubts.push_back(text);
 }
 
+void add_what_changes_nothing(const Run& run, Verdict& verdict) {
+    for (const json& group : run.same_results) {
+        std::string names;
+        for (const json& each : group)
+            names += (names.empty() ? "" : ", ") + each.get<std::string>();
+        verdict.doubts.push_back(
+            "The variants " + names +
+            " have the same results to the last digit: what tells them apart "
+            "has no part in this run, which is no sign that it does not matter.");
+    }
+}
+
 /// Variants without a runout: that of a dam which may stand is none, that of one which failed is
 /// not known.
 void add_what_was_not_let_go(const Run& run, Verdict& verdict) {
@@ -339,6 +351,7 @@ Verdict verdict_of(const Run& run) {
     }
     add_what_is_not_known(run, verdict);
     add_what_was_not_let_go(run, verdict);
+    add_what_changes_nothing(run, verdict);
     verdict.word = word_for(run, verdict);
     if (verdict.doubts.empty() && verdict.notes.empty()) {
         verdict.notes.emplace_back("No phase of this run raised a flag.");

@@ -81,7 +81,7 @@ export class Results {
 
     /// Returns the rows, for those who want to draw other things of them.
     async show(run) {
-        const { rows, means, without_transfer: without } = await api.read_results(run.id);
+        const { rows, means, without_transfer: without, same_results: same } = await api.read_results(run.id);
         if (this.run?.id !== run.id) {
             this.of_mean = null;
             by_id("runout-draws").value = "means";
@@ -102,11 +102,14 @@ export class Results {
             : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
-        by_id("runout-without").hidden = !without?.length;
+        by_id("runout-without").hidden = !without?.length && !same?.length;
         const nothing = rows.length === 0 && without?.length > 0; // empty axes would say no more
         by_id("runout-plot").hidden = by_id("runout-table").parentElement.hidden = nothing;
-        mirror(by_id("runout-without"), without ?? [], ({ variant }) => variant, () => element("li"), (item, { variant, state, reason }) =>
-            set_text(item, `Nothing was transferred${variant ? ` of ${variant}` : ""} (${state.replaceAll("_", " ")}): ${reason}`));
+        const remarks = [
+            ...(without ?? []).map(({ variant, state, reason }) => `Nothing was transferred${variant ? ` of ${variant}` : ""} (${state.replaceAll("_", " ")}): ${reason}`),
+            ...(same ?? []).map((names) => `The same to the last digit: ${names.join(", ")}. What tells them apart has no part in this run.`),
+        ];
+        mirror(by_id("runout-without"), remarks, (text) => text, () => element("li"), (item, text) => set_text(item, text));
         return this.rows;
     }
 

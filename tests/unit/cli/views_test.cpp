@@ -103,6 +103,12 @@ TEST(ResultTable, NamesBelowItWhatNothingWasTransferredOf) {
     EXPECT_EQ(as_list_without_transfer({{"rows", json::array()}}), "");
 }
 
+TEST(ResultTable, NamesBelowItVariantsThatCameToTheSame) {
+    EXPECT_EQ(as_list_of_same_results(json::parse(R"({"same_results": [["a", "b"]]})")),
+              "the same to the last digit: a, b; what tells them apart has no part in this run\n");
+    EXPECT_EQ(as_list_of_same_results({{"rows", json::array()}}), "");
+}
+
 TEST(MeanTable, TellsScatterAndWhatIsMissing) {
     const json answer = json::parse(R"({"means": [
         {"transfer_time": 0.5, "variant": "", "state": "partial", "draws": 3, "draws_done": 2, "runout": 12.5,

@@ -63,6 +63,9 @@ TEST(Accuracy, ASettingIsOffByWhatItsBaseIsOffOnTheOtherLadders) {
     const json& base = answer.at("rows")[3];
     EXPECT_EQ(base.at("variants"), answer.at("rows")[1].at("variants")) << "one scene, run once";
     EXPECT_NEAR(base.at("error").get<double>(), 0.0, 1e-12) << "cfl changes nothing here";
+    EXPECT_EQ(answer.at("ladders")[1].at("course"), "no_effect");
+    EXPECT_NE(answer.at("ladders")[1].at("message").get<std::string>().find("has no part"),
+              std::string::npos);
     EXPECT_NEAR(base.at("error_of_a_run").get<double>(), of_cells, 1e-6);
     EXPECT_NEAR(answer.at("rows")[2].at("error_of_a_run").get<double>(), index, 1e-6)
         << "the finest is off by its grid convergence index";

@@ -289,6 +289,19 @@ json study_with_variants() {
     return study;
 }
 
+TEST(Graph, EveryVariantHasAStabilityAnalysisThatItsRowsKnow) {
+    const auto analyses = [](const json& study) {
+        std::vector<std::string> labels;
+        for (const TaskPlan& each : plan_tasks(read_study(study.dump()), numerics).tasks)
+            if (each.phase == "lem_tool") labels.push_back(each.label);
+        return labels;
+    };
+    json study = study_with_variants();
+    EXPECT_EQ(analyses(study), (std::vector<std::string>{"lem_as_is", "lem_short", "lem_light"}));
+    study["variants"].erase(2);
+    EXPECT_EQ(analyses(study), std::vector<std::string>{"lem"}) << "one serves all";
+}
+
 /// All that a task's row is made from.
 std::vector<std::string> rows_of(const std::vector<TaskPlan>& tasks) {
     std::vector<std::string> rows;
