@@ -279,10 +279,12 @@ bool Dispatcher::leave_to_the_cache(const Task& task) {
     return true;
 }
 
-/// What is being computed now, for another run, is not computed a second time beside it.
+/// What is being computed now, for another run or another variant, is not computed a second time
+/// beside it.
 bool Dispatcher::waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const {
     const auto may_be_equal = [&](const Task& other) {
-        return task.recipe && other.recipe == task.recipe && other.run != task.run;
+        const bool same_input = other.parent == task.parent && other.input == task.input;
+        return task.recipe && other.recipe == task.recipe && (other.run != task.run || same_input);
     };
     if (std::ranges::any_of(chosen, may_be_equal)) {
         bell_.ring();  // once that has been started the store knows

@@ -212,8 +212,9 @@ TEST(Variants, ShareWhatDoesNotDiffer) {
                           {{"name", "weak"}, {"overrides", {"/materials/slope_soil/law/c_kPa=9"}}}};
     const json run = service.wait_for_end(service.submit(wanted));
     ASSERT_EQ(run.at("state"), "succeeded") << run.at("message");
-    // long and short: one FEM, one LEM, two transfers; weak: the same again; and 3 x 2 runouts
-    EXPECT_EQ(run.at("tasks").size(), 2u * 4u + 6u);
+    // long and short: one FEM, two transfers; weak: the same again; and each its LEM and two runouts
+    EXPECT_EQ(run.at("tasks").size(), 2u * 3u + 3u * 3u);
+    EXPECT_EQ(task_labelled(run, "lem_short").at("state"), "cached") << "it is that of long";
     EXPECT_EQ(task_labelled(run, "mpm_0.250000_short").at("variant"), "short");
     const json rows = service.table(run.at("id"));
     ASSERT_EQ(rows.size(), 6u);
