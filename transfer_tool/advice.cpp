@@ -110,10 +110,7 @@ Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& tel
     Advice advice;
     advice.begin = telemetry.front().time;
     advice.end = telemetry.back().time;
-    for (const telemetry::Line& line : telemetry) {
-        window.take_lower(line_for(window.lower().expression(), line));
-        window.take_upper(line_for(window.upper().expression(), line));
-    }
+    for (const telemetry::Line& line : telemetry) window.take(line);
     for (const Criterion* each : {&window.lower(), &window.upper()})
         for (const std::string& field : missing_fields(each->expression(), telemetry))
             advice.missing.push_back(field);

@@ -28,6 +28,11 @@ void Window::take_upper(const Line& line) {
     if (span_.crossing()->time <= lower_.crossing()->time) shut_since_ = span_.crossing();
 }
 
+void Window::take(const telemetry::Line& line, const std::map<std::string, double>& beside) {
+    take_lower(line_for(lower_.expression(), line, beside));
+    take_upper(line_for(upper_.expression(), line, beside));
+}
+
 std::optional<double> picked(Pick pick, double lower, double upper, std::span<const double> times) {
     constexpr double slack = 1e-6;  // names of snapshots carry six decimals
     const double half_way = 0.5 * (lower + upper);

@@ -20,6 +20,8 @@ class Window {
     void take_lower(const Line& line) { lower_.take(line); }
     /// After take_lower of the same line. The upper edge counts only once the lower one is reached.
     void take_upper(const Line& line);
+    /// Both, of a line as telemetry has it. beside: numbers that stand for every line.
+    void take(const telemetry::Line& line, const std::map<std::string, double>& beside = {});
     const Criterion& lower() const { return lower_; }
     const Criterion& upper() const { return upper_; }
     /// Since when the mesh was too distorted, where that was before the failure had developed and

@@ -218,13 +218,15 @@ void add_without_transfer(const Store& store, const std::string& run,
     }
 }
 
-/// Of the study's own variants, not of their draws.
-json same_results_of(const Store& store, const std::string& run) {
+/// Of the study's own variants, not of their draws. `rows`: what the filter left.
+json same_results_of(const Store& store, const std::string& run, const ResultFilter& filter,
+                     const std::vector<ResultRow>& rows) {
     std::vector<std::string> variants;
     for (const json& each : store.study_of(run).value().value("variants", json::array()))
         variants.push_back(each.at("name"));
     if (variants.size() < 2) return json::array();
-    return same_results(store.results(run, {}), variants);
+    if (filter.takes_all()) return same_results(rows, variants);
+    return same_results(store.results(run), variants);
 }
 
 void results(const Service& service, Call& call) {
@@ -263,11 +265,12 @@ void results(const Service& service, Call& call) {
                            {"state", each.state},
                            {"stood", each.stood},
                            {"reason", each.reason}});
-    const json head{{"run", call.parts[0]},
-                    {"columns", described(runs.columns)},
-                    {"mean_columns", described(means.columns)},
-                    {"without_transfer", std::move(without)},
-                    {"same_results", same_results_of(service.store, call.parts[0])}};
+    const json head{
+        {"run", call.parts[0]},
+        {"columns", described(runs.columns)},
+        {"mean_columns", described(means.columns)},
+        {"without_transfer", std::move(without)},
+        {"same_results", same_results_of(service.store, call.parts[0], filter, runs.rows)}};
     reply_with_text(call.response,
                     opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
                         ",\"means\":" + as_json_text(means.rows, means.columns) + "}");

@@ -165,14 +165,14 @@ class Planner {
     /// One analysis for all variants, or one for each: of one that served some, the others' rows would
     /// not know. Equal ones are computed once all the same, by the cache.
     Sharing sharing_of_stability() {
-        const auto of = [&](const Variant& each) {
-            return recipe_of(phases::lem.program, each.scene, numerics_.at(phases::lem.program))
-                .hash;
-        };
-        if (!stability_serves_all_)
-            stability_serves_all_ = std::ranges::all_of(study_.variants, [&](const Variant& each) {
-                return of(each) == of(study_.variants.front());
-            });
+        if (!stability_serves_all_) {
+            const auto of = [&](const Variant& each) {
+                return recipe(phases::lem.program, each.scene);
+            };
+            const std::string first = of(study_.variants.front());
+            stability_serves_all_ = std::ranges::all_of(
+                study_.variants, [&](const Variant& each) { return of(each) == first; });
+        }
         return *stability_serves_all_ ? Sharing::wanted : Sharing::never;
     }
 

@@ -169,15 +169,20 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+/// The phase of this name that a runout came from; null when none is known.
+static const PhaseFolder* phase_behind(const Run& run, const PhaseFolder* runout,
+                                       const std::string& phase) {
+    while (runout && runout->phase != phase) runout = source_of(run, *runout);
+    return runout;
+}
+
 const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
                                     const std::string& variant) {
     for (const PhaseFolder* each : phases_named(run, phase)) {
         if (each->variant == variant || each->variant.empty()) return each;
     }
-    for (const PhaseFolder* each : runouts_of(run, variant)) {
-        while (each && each->phase != phase) each = source_of(run, *each);
-        if (each) return each;
-    }
+    for (const PhaseFolder* each : runouts_of(run, variant))
+        if (const PhaseFolder* behind = phase_behind(run, each, phase)) return behind;
     return phase_named(run, phase);
 }
 
@@ -192,9 +197,8 @@ const PhaseFolder* farthest_runout(const Run& run) {
 const PhaseFolder* phase_shown(const Run& run, const std::string& phase) {
     const PhaseFolder* farthest = farthest_runout(run);
     if (!farthest) return phase_named(run, phase);
-    const PhaseFolder* each = farthest;
-    while (each && each->phase != phase) each = source_of(run, *each);
-    return each ? each : phase_of_variant(run, phase, farthest->variant);
+    const PhaseFolder* behind = phase_behind(run, farthest, phase);
+    return behind ? behind : phase_of_variant(run, phase, farthest->variant);
 }
 
 std::string which_of_several(const Run& run, const PhaseFolder& shown, const std::string& plural) {

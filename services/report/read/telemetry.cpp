@@ -39,10 +39,7 @@ std::optional<double> Telemetry::first_time(const std::string& condition) const 
 }
 
 void Telemetry::show_to(criteria::Window& window) const {
-    for (const telemetry::Line& line : lines_) {
-        window.take_lower(criteria::line_for(window.lower().expression(), line, beside_));
-        window.take_upper(criteria::line_for(window.upper().expression(), line, beside_));
-    }
+    for (const telemetry::Line& line : lines_) window.take(line, beside_);
 }
 
 }  // namespace breach::report

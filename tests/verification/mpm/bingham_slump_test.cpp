@@ -67,11 +67,8 @@ class ThinLayer {
 };
 
 Reach reach_of(const Points& points) {
-    std::vector<std::pair<double, double>> x_and_mass;
-    for (std::size_t p = 0; p < points.size(); ++p)
-        x_and_mass.emplace_back(points.x[p], points.m[p]);
-    std::ranges::sort(x_and_mass);
-    return {percentile(x_and_mass, 0.5), percentile(x_and_mass, 0.99)};
+    const Runout runout = runout_of(points, {1}, 0.0);
+    return {runout.beyond_50, runout.all};
 }
 
 void slumps_as_lubrication_says(scene::Kernel kernel) {
