@@ -19,6 +19,20 @@ constexpr double growth_to_share = 0.03;  // of the strain from peak to residual
 /// r exp(-(r / l)^2): none at the point itself, most at 0.7 l (Galavi & Schweiger 2010).
 double weight(double r, double length) { return r * std::exp(-(r / length) * (r / length)); }
 
+/// How far a kernel spreads what a point has: the mean square of the way to the nodes, in one direction
+/// and over all places in a cell [cells2].
+double spread_of(KernelKind kernel, double gimp_half_size) {
+    if (kernel == KernelKind::b_spline) return 1.0 / 4.0;
+    const double half = kernel == KernelKind::gimp ? gimp_half_size : 0.0;
+    return 1.0 / 6.0 + half * half / 3.0;
+}
+
+/// Length of the weights among the nodes: the ways there and back spread, too, which on coarse cells made
+/// a band a tenth too wide.
+double among_nodes(double length, double spread) {
+    return std::sqrt(length * length - 2.0 * spread);
+}
+
 }  // namespace
 
 template <class Kernel>
@@ -52,15 +66,16 @@ NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zon
     for (std::size_t z = 0; z < zones.size(); ++z) {
         const Zone& zone = zones[z];
         if (zone.nonlocal_length == 0.0) continue;
-        const auto farthest =
-            static_cast<std::int32_t>(std::ceil(reach * zone.nonlocal_length * grid.per_h));
+        const double length = grid.h * among_nodes(zone.nonlocal_length * grid.per_h,
+                                                   spread_of(kernel, gimp_half_size));
+        const auto farthest = static_cast<std::int32_t>(std::ceil(reach * length * grid.per_h));
         for (std::int32_t c = -farthest; c <= farthest; ++c) {
             Column column{.columns = c, .rows = 0, .weights = {}};
             for (std::int32_t r = -farthest; r <= farthest; ++r) {
                 const double distance = grid.h * std::hypot(c, r);
-                if (distance >= reach * zone.nonlocal_length) continue;
+                if (distance >= reach * length) continue;
                 if (column.weights.empty()) column.rows = r;
-                column.weights.push_back(weight(distance, zone.nonlocal_length));
+                column.weights.push_back(weight(distance, length));
             }
             if (!column.weights.empty()) neighbourhoods_[z].push_back(std::move(column));
         }

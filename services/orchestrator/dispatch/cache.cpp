@@ -31,7 +31,7 @@ void drop_placed_outputs(const DataFolder& data, const Task& task) {
     fs::remove(data.reused(task));
 }
 
-Cache::Cache(Store& store, const DataFolder& data, std::function<void(const std::string&)> examined)
+Cache::Cache(Store& store, const DataFolder& data, std::function<void(LookedUp)> examined)
     : store_(store), data_(data), examined_(std::move(examined)), queue_([this](const Task& task) {
           serve(task);
           return Handled::done;
@@ -39,24 +39,32 @@ Cache::Cache(Store& store, const DataFolder& data, std::function<void(const std:
 
 bool Cache::may_answer(const Task& task) const { return task.recipe && store_.has_candidate(task); }
 
+bool Cache::has_changed_since(const LookedUp& earlier, const Task& task) const {
+    return store_.answers_to(*task.recipe, earlier.input_sha256, most_candidates).size() !=
+           earlier.answers;
+}
+
 void Cache::examine(Task task) { queue_.add(std::move(task)); }
 
 void Cache::serve(const Task& task) {
+    LookedUp found{.task = task.id, .input_sha256 = {}};
     try {
-        look_up(task);
+        look_up(task, found);
     } catch (const std::exception& error) {
         spdlog::error("cache: {}: {}", task.id, error.what());  // the task simply runs
     }
-    examined_(task.id);
+    examined_(std::move(found));
 }
 
-void Cache::look_up(const Task& task) {
-    std::string input_sha256;
+void Cache::look_up(const Task& task, LookedUp& found) {
     if (!task.input.empty())
-        input_sha256 =
+        found.input_sha256 =
             exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
+    const std::vector<Task> answers =
+        store_.answers_to(*task.recipe, found.input_sha256, most_candidates);
+    found.answers = answers.size();
     std::optional<std::string> refusal;
-    for (const Task& earlier : store_.answers_to(*task.recipe, input_sha256, most_candidates)) {
+    for (const Task& earlier : answers) {
         const auto damage = damage_to(earlier);
         if (damage) {
             if (store_.task(earlier.id)) refusal = damage;  // else its run was removed meanwhile
@@ -66,6 +74,7 @@ void Cache::look_up(const Task& task) {
         spdlog::info("{} ({}): the same as {}", task.id, task.label, earlier.id);
         return;
     }
+    reach(Failpoint::reuse_none);
     if (!refusal) return;
     spdlog::warn("{} ({}): {}", task.id, task.label, *refusal);
     store_.write(

@@ -17,20 +17,29 @@ namespace breach::orchestrator {
 /// taken because the service was killed in between: they may be links to another run's.
 void drop_placed_outputs(const DataFolder& data, const Task& task);
 
+/// Of one look-up: what there was to answer the task with.
+struct LookedUp {
+    std::string task;
+    std::string input_sha256;
+    std::size_t answers = 0;  ///< damaged ones counted
+};
+
 class Cache {
   public:
     /// `examined` is called on the cache's thread with each task that was looked up; its state says
     /// whether it was answered.
-    Cache(Store& store, const DataFolder& data, std::function<void(const std::string&)> examined);
+    Cache(Store& store, const DataFolder& data, std::function<void(LookedUp)> examined);
 
     /// Quick: false when no earlier task can have the answer, so that hashing the input is not
     /// worth while.
     bool may_answer(const Task& task) const;
+    /// Quick: whether there is another number of answers than the look-up found.
+    bool has_changed_since(const LookedUp& earlier, const Task& task) const;
     void examine(Task task);
 
   private:
     void serve(const Task& task);
-    void look_up(const Task& task);
+    void look_up(const Task& task, LookedUp& found);
     /// Why the outputs of `earlier` cannot be used; nothing when they can.
     std::optional<std::string> damage_to(const Task& earlier) const;
     /// False: `earlier` or the task is not what it was any more; nothing of it is left.
@@ -39,7 +48,7 @@ class Cache {
 
     Store& store_;
     const DataFolder& data_;
-    std::function<void(const std::string&)> examined_;
+    std::function<void(LookedUp)> examined_;
     TaskQueue queue_;  // last: its thread stops before what it uses goes
 };
 

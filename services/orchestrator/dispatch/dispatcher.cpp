@@ -75,10 +75,10 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
                      }
                      wake();
                  }),
-      cache_(store, data, [this](const std::string& task) {
+      cache_(store, data, [this](LookedUp found) {
           {
               const std::lock_guard lock(registered_mutex_);
-              looked_up_.push_back(task);
+              looked_up_.push_back(std::move(found));
           }
           wake();
       }) {
@@ -248,7 +248,7 @@ std::vector<Task> Dispatcher::tasks_that_fit() {
     bool held_back = false;
     const auto most = static_cast<std::size_t>(std::max<std::int64_t>(cores, 0)) + look_ahead +
                       in_the_cache_.size() + wait_for_equals_.size();
-    const std::set<std::string> waited = std::exchange(wait_for_equals_, {});
+    wait_for_equals_.clear();
     for (Task& task : store_.tasks_to_start(full, most)) {
         if (leave_to_the_cache(task)) continue;
         if (held_back || is_full(task.phase)) continue;
@@ -256,10 +256,7 @@ std::vector<Task> Dispatcher::tasks_that_fit() {
             wait_for_equals_.insert(task.id);
             continue;
         }
-        if (waited.contains(task.id)) {  // that has ended: its answer is stored, or there is none
-            not_cached_.erase(task.id);
-            if (leave_to_the_cache(task)) continue;
-        }
+        if (leave_to_the_cache(task)) continue;  // an equal one may just have ended
         const bool alone = live_.empty() && chosen.empty();
         const bool fits = task.resources.cores <= cores &&
                           (settings_.memory_mb == 0 || task.resources.memory_mb <= memory);
@@ -273,7 +270,11 @@ std::vector<Task> Dispatcher::tasks_that_fit() {
 
 bool Dispatcher::leave_to_the_cache(const Task& task) {
     if (in_the_cache_.contains(task.id)) return true;
-    if (not_cached_.contains(task.id) || !cache_.may_answer(task)) return false;
+    const auto looked_up = not_cached_.find(task.id);
+    const bool asks = looked_up == not_cached_.end()
+                          ? cache_.may_answer(task)
+                          : cache_.has_changed_since(looked_up->second, task);
+    if (!asks) return false;
     in_the_cache_.insert(task.id);
     cache_.examine(task);
     return true;
@@ -488,35 +489,25 @@ void Dispatcher::settle_children(const std::string& parent_id) {
     for (const std::string& each : skipped) settle_children(each);
 }
 
-/// `ended` may be what others waited for without knowing. Tasks of one run are not equal.
-void Dispatcher::look_up_again(const std::optional<Task>& ended) {
-    if (!ended || !ended->recipe) return;
-    std::erase_if(not_cached_, [&](const auto& each) {
-        return each.second.recipe == ended->recipe && each.second.run != ended->run;
-    });
-}
-
 /// What is not got through, because an exception ends it, is got through by the next reconciling.
 void Dispatcher::settle_after_registrar() {
     std::vector<std::string> tasks;
-    std::vector<std::string> looked_up;
+    std::vector<LookedUp> looked_up;
     {
         const std::lock_guard lock(registered_mutex_);
         tasks.swap(registered_);
         looked_up.swap(looked_up_);
     }
-    for (const std::string& task : looked_up) in_the_cache_.erase(task);
+    for (const LookedUp& each : looked_up) in_the_cache_.erase(each.task);
     for (const std::string& task : tasks) settle_children(task);
-    for (const std::string& task : looked_up) {
-        auto now = store_.task(task);
+    for (const LookedUp& each : looked_up) {
+        const auto now = store_.task(each.task);
         if (now && now->state == TaskState::ready) {
-            not_cached_.emplace(task, std::move(*now));
+            not_cached_.insert_or_assign(each.task, each);
         } else {
-            settle_children(task);
+            settle_children(each.task);
         }
     }
-    for (const std::string& task : tasks)
-        if (!not_cached_.empty()) look_up_again(store_.task(task));
 }
 
 }  // namespace breach::orchestrator

@@ -129,7 +129,6 @@ class Dispatcher {
     /// Releases or skips what waits for this task, and what waits for that.
     void settle_children(const std::string& parent);
     void settle_after_registrar();
-    void look_up_again(const std::optional<Task>& ended);
 
     Store& store_;
     const DataFolder& data_;
@@ -146,13 +145,11 @@ class Dispatcher {
     std::chrono::steady_clock::time_point round_began_{};
 
     std::mutex registered_mutex_;
-    std::vector<std::string> registered_;  ///< tasks that the registrar has finished with
-    std::vector<std::string> looked_up_;   ///< tasks that the cache has finished with
-    std::set<std::string> in_the_cache_;   ///< ready tasks that the cache looks up now
-    /// Ready tasks that must run, as far as is known: each until a task of its recipe succeeds in
-    /// another run.
-    std::map<std::string, Task> not_cached_;
-    std::set<std::string> wait_for_equals_;  ///< ready tasks, in the last round
+    std::vector<std::string> registered_;         ///< tasks that the registrar has finished with
+    std::vector<LookedUp> looked_up_;             ///< tasks that the cache has finished with
+    std::set<std::string> in_the_cache_;          ///< ready tasks that the cache looks up now
+    std::map<std::string, LookedUp> not_cached_;  ///< ready tasks that nothing found answers
+    std::set<std::string> wait_for_equals_;       ///< ready tasks, in the last round
     std::atomic<bool> unsettled_ = false;
     ClockOfDay clock_;
     Histogram queue_wait_{{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 60, 600, 3600}};

@@ -33,6 +33,7 @@ enum class Failpoint {
     sbatch_before,            ///< the job's name is noted, sbatch is not called
     sbatch_after,             ///< it has answered, which is not noted
     reuse_placed,             ///< the cache's files are in the task's folder, which is not stored
+    reuse_none,               ///< the cache looked and found no answer, nobody was told
     removal_rows_gone,        ///< a run's rows are gone, its files are there
     removal_half_way,         ///< some of its files are gone
     removal_files_gone,       ///< all are, which is not noted
@@ -40,7 +41,7 @@ enum class Failpoint {
     upload_after,             ///< it has its name, which is not committed
 };
 
-constexpr std::array<std::string_view, 23> failpoint_names{"store_before_commit",
+constexpr std::array<std::string_view, 24> failpoint_names{"store_before_commit",
                                                            "store_after_commit",
                                                            "claim_before",
                                                            "claim_after",
@@ -58,6 +59,7 @@ constexpr std::array<std::string_view, 23> failpoint_names{"store_before_commit"
                                                            "sbatch_before",
                                                            "sbatch_after",
                                                            "reuse_placed",
+                                                           "reuse_none",
                                                            "removal_rows_gone",
                                                            "removal_half_way",
                                                            "removal_files_gone",

@@ -159,18 +159,19 @@ Widths widths_of(double h, bool nonlocal) {
     return widths;
 }
 
-/// Over three shifts of the lattice and 4, 9 and 16 points per cell. Asked for are 5 %: met with l =
-/// 3.2 cells. The prototype of the design study found 10.3 (10.1 to 11.0), 10.1 (9.9 to 10.4) and
-/// 9.95 (9.92 to 9.98) m for the three sizes of cells with l = 4 m, in steps a fifth of ours.
+/// Over three shifts of the lattice and 4, 9 and 16 points per cell, within the 5 % that are asked
+/// for. The prototype of the design study, which let the ways to the nodes and back widen the band, found
+/// 10.3 (10.1 to 11.0), 10.1 (9.9 to 10.4) and 9.95 (9.92 to 9.98) m for the three sizes of cells with
+/// l = 4 m, in steps a fifth of ours; so did this (2.59 to 2.80, 2.53 to 2.65, 2.52).
 TEST(NonlocalSoftening, BandIsTwoAndAHalfLengthsWideWhateverTheCells) {
     constexpr double wanted = scene::band_in_nonlocal_lengths;
     const auto expect_within = [&](const Widths& widths, double share) {
         EXPECT_GT(widths.least, wanted * (1.0 - share));
         EXPECT_LT(widths.most, wanted * (1.0 + share));
     };
-    expect_within(widths_of(2.5, true), 0.13);   // l = 1.6 cells; 2.59 to 2.80
-    expect_within(widths_of(2.0, true), 0.07);   // 2 cells; 2.53 to 2.65
-    expect_within(widths_of(1.25, true), 0.02);  // 3.2 cells; 2.52
+    expect_within(widths_of(2.5, true), 0.05);   // l = 1.6 cells; 2.42 to 2.61
+    expect_within(widths_of(2.0, true), 0.05);   // 2 cells; 2.41 to 2.54
+    expect_within(widths_of(1.25, true), 0.02);  // 3.2 cells; 2.47
 }
 
 TEST(NonlocalSoftening, BandIsAsWideWhenGrowthIsSharedAfterSomeSteps) {

@@ -79,6 +79,28 @@ TEST(Cache, EqualStudiesAtOnceAreComputedOnce) {
     EXPECT_EQ(sandbox.successes().size(), tasks);
 }
 
+TEST(Cache, AnswersWhatEndedWhileItWasLookedForInVain) {
+    const Sandbox sandbox;
+    const auto hold = sandbox.root() / "hold";
+    std::ofstream(hold) << "\n";
+    // Of each study the runout of 0.5 s is looked for, as that of 0.25 s has its recipe.
+    Service service(sandbox, {"--slots", "1"}, {"BREACHLINE_HOLD=reuse_none:2:" + hold.string()});
+    const std::string first = service.submit(study("mpm_steps=60", {0.25, 0.5}));
+    const auto state = [&](const std::string& run, const char* label) {
+        return task_labelled(service.get("/v1/runs/" + run).body, label)
+            .at("state")
+            .get<std::string>();
+    };
+    ASSERT_TRUE(eventually([&] { return state(first, "mpm_0.500000") == "running"; }));
+    const std::string second = service.submit(study("mpm_steps=60", {0.25, 0.5}));
+    ASSERT_EQ(service.wait_for_end(first).at("state"), "succeeded");
+    ASSERT_TRUE(eventually([&] { return state(second, "mpm_0.250000") == "cached"; }));
+    std::filesystem::remove(hold);
+    const json end = service.wait_for_end(second);
+    EXPECT_EQ(count_in_state(end, "cached"), static_cast<int>(end.at("tasks").size()));
+    EXPECT_EQ(sandbox.successes().size(), end.at("tasks").size());
+}
+
 TEST(Cache, ACancelledTaskLeavesTheWorkToTheEqualOneThatWaited) {
     const Sandbox sandbox;
     Service service(sandbox, {"--slots", "4"});
