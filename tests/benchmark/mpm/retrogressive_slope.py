@@ -4,8 +4,9 @@ floor that holds it (c 20 to 4 kPa over epsilon_q 0 to 10 %, phi 1 degree, E 1 M
 strains scaled by the cell and by the nonlocal one (l = 0.32 m, reference length 0.2 m). A row per run.
 
     retrogressive_slope.py --solver build/release/bin/mpm_solver --output folder [--cells 0.2,0.1,0.05] [--points 2,3]
+                           [--set /mpm/overlap_correction/rate=5 ...]
 
-Runs that the folder holds already are not repeated."""
+Runs that the folder holds already are not repeated, so other settings want another folder."""
 import argparse
 import concurrent.futures
 import csv
@@ -53,7 +54,7 @@ def blocks_in(folder):
     return troughs, stands
 
 
-def run(solver, folder, h, points, nonlocal_length):
+def run(solver, folder, settings, h, points, nonlocal_length):
     name = f"h{h:g}_{points ** 2}_{'nonlocal' if nonlocal_length else 'local'}"
     out = os.path.join(folder, name)
     kept = os.path.join(out, "row.json")
@@ -62,7 +63,8 @@ def run(solver, folder, h, points, nonlocal_length):
     os.makedirs(out, exist_ok=True)
     scene = os.path.join(out, "given.json")
     json.dump(scene_of(h, points, nonlocal_length), open(scene, "w"))
-    done = subprocess.run([solver, scene, "--output", out, "--progress", "none"], capture_output=True, text=True)
+    done = subprocess.run([solver, scene, "--output", out, "--progress", "none", *(word for each in settings for word in ("--set", each))],
+                          capture_output=True, text=True)
     row = {"run": name, "exit": done.returncode}
     if done.returncode:
         row["why"] = done.stderr.strip().split("\n")[-1]
@@ -71,7 +73,7 @@ def run(solver, folder, h, points, nonlocal_length):
         troughs, stands = blocks_in(out)
         row.update(Rd_m=result["runout_beyond_toe"], Rd95_m=result["runout_beyond_toe_95"], stands_to_m=stands, troughs=troughs,
                    kinetic_left=result["energy"]["kinetic"]["share"], numerical=result["energy"]["numerical"]["share"],
-                   particles=result["particles"], steps=result["steps"], cpu_s=result["cpu_seconds"])
+                   put_in=result["energy"]["overlap_correction"]["share"], overlap=result["overlap"], particles=result["particles"], steps=result["steps"], cpu_s=result["cpu_seconds"])
     json.dump(row, open(kept, "w"))
     return row
 
@@ -82,13 +84,14 @@ def main():
     parser.add_argument("--output", required=True)
     parser.add_argument("--cells", default="0.2,0.1,0.05")
     parser.add_argument("--points", default="2,3")
+    parser.add_argument("--set", action="append", default=[], dest="settings")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     cases = [(float(h), int(points), length) for length in (None, LENGTH) for h in options.cells.split(",")
              for points in options.points.split(",") if not length or float(h) <= length / 1.3]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        rows = list(pool.map(lambda case: run(options.solver, options.output, *case), cases))
-    shown = ["run", "Rd_m", "Rd95_m", "stands_to_m", "troughs", "kinetic_left", "numerical", "particles", "steps", "cpu_s", "why"]
+        rows = list(pool.map(lambda case: run(options.solver, options.output, options.settings, *case), cases))
+    shown = ["run", "Rd_m", "Rd95_m", "stands_to_m", "troughs", "kinetic_left", "numerical", "put_in", "overlap", "particles", "steps", "cpu_s", "why"]
     print(" | ".join(f"{name:>18}" if name == "run" else f"{name:>12}" for name in shown))
     for row in rows:
         print(" | ".join(f"{row.get(name, ''):>18}" if name == "run" else f"{row.get(name, ''):>12.5g}"
