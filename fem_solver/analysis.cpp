@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
-#include "core/mechanics/excess_pressure.hpp"
 #include "core/motion/read_motion.hpp"
 #include "core/phases/files.hpp"
 #include "core/words/number.hpp"
@@ -122,6 +121,7 @@ void Analysis::place_stage() {
     if (!fem_.changes_the_body()) return;
     set_stage(session_.scene(), decide_model(session_.scene()),
               static_cast<std::size_t>(position_.stage), model_);
+    watch_.look_at(model_);
     set_skeleton_modulus(beginning_, model_);
     prediction_ = prediction_for(model_);
 }
@@ -550,11 +550,7 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
 /// What has liquefied once does not regain its strength when its pore pressure dips.
 void Analysis::keep_largest_excess_pressure() {
     if (beginning_.p.size() == 0) return;
-    const std::size_t nodes = model_.body.nodes;
-    const std::vector<double> excess =
-        mechanics::nodal_excess_pressure(std::span(model_.mesh.nodes).first(nodes),
-                                         std::span(model_.mesh.quads).first(model_.body.elements),
-                                         {motion_.p.data(), nodes}, {beginning_.p.data(), nodes});
+    const std::vector<double> excess = watch_.excess_pressure(motion_, beginning_);
     if (excess_pressure_max_.empty()) excess_pressure_max_ = excess;
     std::ranges::transform(excess, excess_pressure_max_, excess_pressure_max_.begin(),
                            [](double now, double before) { return std::max(now, before); });

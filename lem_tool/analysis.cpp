@@ -109,16 +109,29 @@ std::string other_methods(const json& facts) {
 /// The critical surface ends where the search was not allowed to go on.
 void flag_edges(process::Session& session, const Strata& strata, const scene::SlipSearch& search,
                 const json& result) {
+    std::vector<std::pair<std::string, const json*>> surfaces{{"the critical surface", &result}};
+    if (result.contains("stages"))
+        for (const json& stage : result.at("stages").get_ref<const json::array_t&>())
+            if (const int layers = stage.at("layers_liquefied"); layers > 0)
+                surfaces.emplace_back("the critical surface with " + std::to_string(layers) +
+                                          (layers == 1 ? " layer" : " layers") + " liquefied",
+                                      &stage);
     const auto look = [&](const std::array<double, 2>& range, const std::string& end) {
-        const double x = result.at(end)[0];
         const double width = strata.right() - strata.left();
         for (const double edge : range) {
             const bool ground_ends = edge <= strata.left() || edge >= strata.right();
-            if (ground_ends || range[0] == range[1] || std::abs(x - edge) > 1e-3 * width) continue;
+            if (ground_ends || range[0] == range[1]) continue;
+            const auto at_edge = [&](const auto& each) {
+                return std::abs(each.second->at(end)[0].template get<double>() - edge) <=
+                       1e-3 * width;
+            };
+            const auto first = std::ranges::find_if(surfaces, at_edge);
+            if (first == surfaces.end()) continue;
             session.flag({"range_edge", fault::Severity::warning,
-                          "the critical surface ends at the edge of this range, x = " +
-                              spelt("%.4g m", edge) +
-                              ": a lower factor of safety may lie beyond; widen it",
+                          first->first + " ends at the edge of this range, x = " +
+                              spelt("%.4g m", edge) + ": a lower factor of safety may lie beyond" +
+                              (first->second == &result ? "" : ", and another critical_depth") +
+                              "; widen it",
                           "/lem/search/" + end});
         }
     };
@@ -248,7 +261,6 @@ process::Outcome run(process::Session& session) {
     if (lem.search) {
         found = found_by_search(scene, model, threads);
         result.update(facts_of(model, *found.critical, slices));
-        flag_edges(session, model.strata, *lem.search, result);
     }
     if (lem.non_circular && !lem.non_circular->given.empty())
         result["given_polyline"] = given_polyline(scene, model);
@@ -265,9 +277,10 @@ process::Outcome run(process::Session& session) {
         for (fault::Flag& each : flags_of_stages(result.at("stages")))
             session.flag(std::move(each));
     }
-    if (lem.sensitivity) add_sensitivity(scene, threads, result);
+    if (lem.search) flag_edges(session, model.strata, *lem.search, result);
+    if (lem.sensitivity) add_sensitivity(session.scene(), threads, result);
     if (lem.probability) {
-        const Samples samples = add_probability(scene, threads, result);
+        const Samples samples = add_probability(session.scene(), threads, result);
         write_table(session, "samples", table_of(samples));
     }
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;

@@ -110,6 +110,16 @@ void walk_paths(const scene::Scene& scene, std::vector<scene::UndrainedRegion>& 
 
 }  // namespace
 
+std::vector<std::vector<std::size_t>> undrained_parts(const scene::Scene& scene) {
+    std::vector<std::vector<std::size_t>> parts;
+    std::size_t next = 0;
+    for (const scene::UndrainedRegion& entry : scene.lem->undrained) {
+        parts.emplace_back(cuts_of(scene, entry.region).size() + 1);
+        for (std::size_t& each : parts.back()) each = next++;
+    }
+    return parts;
+}
+
 scene::Scene limit_scene(const scene::Scene& scene) {
     scene::Scene result = scene;
     walk_paths(scene, result.lem->undrained);

@@ -2,6 +2,8 @@
 // liquefying layer a region of its own.
 #pragma once
 
+#include <vector>
+
 #include "core/scene/scene.hpp"
 
 namespace breach::lem {
@@ -11,5 +13,8 @@ namespace breach::lem {
 /// /lem/liquefaction divides by levels are cut there, and the entries of /lem name the parts.
 /// Throws BadInput when a layer's levels leave nothing of its region.
 scene::Scene limit_scene(const scene::Scene& scene);
+
+/// For each entry of the scene's /lem/undrained, the entries of limit_scene that took its place.
+std::vector<std::vector<std::size_t>> undrained_parts(const scene::Scene& scene);
 
 }  // namespace breach::lem

@@ -43,22 +43,6 @@ void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soil
     soil.profile.reset();
 }
 
-/// Each region's phreatic line: its own, or /lem/water unless that is for other regions only.
-void assign_lines(const scene::Lem& lem, std::vector<Soil>& soils) {
-    std::size_t line = 0;
-    if (lem.water) {
-        if (lem.water->regions.empty()) {
-            for (Soil& soil : soils) soil.line = line;
-        }
-        for (const std::size_t region : lem.water->regions) soils[region].line = line;
-        ++line;
-    }
-    for (const scene::Water& each : lem.piezometric_lines) {
-        for (const std::size_t region : each.regions) soils[region].line = line;
-        ++line;
-    }
-}
-
 }  // namespace
 
 Model make_model(const scene::Scene& scene) {
@@ -72,7 +56,8 @@ Model make_model(const scene::Scene& scene) {
             give(profile->peak, model.soils.back());
         model.residual.push_back(profile ? profile->residual : std::nullopt);
     }
-    assign_lines(lem, model.soils);
+    const auto lines = lines_of_regions(scene);
+    for (std::size_t i = 0; i < lines.size(); ++i) model.soils[i].line = lines[i];
     for (const scene::PorePressureRatio& each : lem.pore_pressure_ratios) {
         model.soils[each.region].r_u = each.r_u;
     }

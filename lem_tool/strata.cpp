@@ -206,8 +206,21 @@ double surcharge_on(const scene::Lem& lem, double middle) {
           "bottom of the model, without overhang"}});
 }
 
-void add_strip(const scene::Scene& scene, double from, double to, const Extent& extent,
-               Strata& strata) {
+/// What a piece presses on soil that it has not consolidated: its weight less the pressure of the water
+/// that stands in it, which such soil feels as it did before. `lower` is the piece's lower border.
+void add_effective(const Piece& piece, const Line& lower, double gamma, const PorePressure* water,
+                   double middle, Line& sum) {
+    const auto add = [&](const Line& top, double per_metre) {
+        sum.level += per_metre * (top.level - lower.level);
+        sum.slope += per_metre * (top.slope - lower.slope);
+    };
+    add(piece.top, gamma);
+    if (!water || water->top.at(middle) <= lower.at(middle)) return;
+    add(water->top.at(middle) < piece.top.at(middle) ? water->top : piece.top, -water->gamma);
+}
+
+void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::size_t>>& lines,
+               double from, double to, const Extent& extent, Strata& strata) {
     const double middle = 0.5 * (from + to);
     std::vector<Piece> pieces;
     for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
@@ -244,12 +257,12 @@ void add_strip(const scene::Scene& scene, double from, double to, const Extent& 
         const double gamma = soil.density * scene.gravity;
         strata.layers.push_back({piece.top, piece.region, gamma, weight, fast});
         const Line& lower = i + 1 < pieces.size() ? pieces[i + 1].top : piece.bottom;
-        const auto add_to = [&](Line& sum) {
-            sum.level += gamma * (piece.top.level - lower.level);
-            sum.slope += gamma * (piece.top.slope - lower.slope);
-        };
-        add_to(weight);
-        if (std::ranges::count(lem.unconsolidated, piece.region) > 0) add_to(fast);
+        weight.level += gamma * (piece.top.level - lower.level);
+        weight.slope += gamma * (piece.top.slope - lower.slope);
+        if (std::ranges::count(lem.unconsolidated, piece.region) == 0) continue;
+        const auto line = lines[piece.region];
+        add_effective(piece, lower, gamma,
+                      line ? &strata.pressures[strip.pressures + *line] : nullptr, middle, fast);
     }
     strip.last = strata.layers.size();
     strata.strips.push_back(strip);
@@ -309,6 +322,20 @@ Thrust thrust(double gamma_w, double water, double low, double high) {
     return {force, water - depth};
 }
 
+std::vector<std::optional<std::size_t>> lines_of_regions(const scene::Scene& scene) {
+    const scene::Lem& lem = scene::lem_of(scene);
+    std::vector<std::optional<std::size_t>> lines(scene.section.regions.size());
+    std::size_t line = 0;
+    const auto give = [&](const scene::Water& water) {
+        for (const std::size_t region : water.regions) lines[region] = line;
+        ++line;
+    };
+    if (lem.water && lem.water->regions.empty()) std::ranges::fill(lines, line);
+    if (lem.water) give(*lem.water);
+    for (const scene::Water& each : lem.piezometric_lines) give(each);
+    return lines;
+}
+
 Strata make_strata(const scene::Scene& scene) {
     Extent extent{};
     const std::vector<double> borders = strip_borders(scene, extent);
@@ -316,8 +343,9 @@ Strata make_strata(const scene::Scene& scene) {
     const scene::Lem& lem = scene::lem_of(scene);
     if (lem.water) strata.gamma_w = lem.water->density * scene.gravity;
     strata.lines = (lem.water ? 1 : 0) + lem.piezometric_lines.size();
+    const auto lines = lines_of_regions(scene);
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
-        add_strip(scene, borders[i], borders[i + 1], extent, strata);
+        add_strip(scene, lines, borders[i], borders[i + 1], extent, strata);
     }
     strata.crack = crack_of(scene);
     add_loads(scene, extent, strata);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/scene/scene.hpp"
@@ -23,7 +24,7 @@ struct Layer {
     std::size_t region;   ///< index into the section's regions
     double gamma;         ///< unit weight [N/m3]
     Line weight_above;    ///< weight per area of everything above `top` [Pa]
-    Line unconsolidated;  ///< the share of it that has not consolidated what lies below [Pa]
+    Line unconsolidated;  ///< effective share of what has not consolidated the soil below [Pa]
 };
 
 struct Strip {
@@ -98,6 +99,10 @@ Thrust thrust(double gamma_w, double water, double low, double high);
 /// overhang, a cavity, two separate bodies): limit equilibrium with vertical slices has no answer
 /// there.
 Strata make_strata(const scene::Scene& scene);
+
+/// Each region's phreatic line, its own, or /lem/water unless that is for other regions only: an index
+/// from Strip::pressures on.
+std::vector<std::optional<std::size_t>> lines_of_regions(const scene::Scene& scene);
 
 /// Index of the strip that holds x, the left one on a border; x is clamped to the model.
 std::size_t strip_at(const Strata& strata, double x);

@@ -8,6 +8,7 @@
 #include "core/numerics/blocks.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/hypercube.hpp"
+#include "lem_tool/limit_scene.hpp"
 
 namespace breach::lem {
 
@@ -24,8 +25,19 @@ void scale(scene::UndrainedStrength& strength, double factor) {
     strength.factor *= factor;
 }
 
-/// Changes one parameter of the scene by a factor.
-void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double factor) {
+/// The scene as it was asked for, whose entries parameters name, and as it is analysed.
+struct Varied {
+    explicit Varied(const scene::Scene& scene)
+        : asked(scene), limit(limit_scene(scene)), undrained(undrained_parts(scene)) {}
+
+    const scene::Scene& asked;
+    scene::Scene limit;
+    std::vector<std::vector<std::size_t>> undrained;  ///< of `limit`, for each of `asked`
+};
+
+/// Changes one parameter by a factor, in a copy of the scene that is analysed.
+void vary(const Varied& of_scene, scene::Scene& scene, Parameter parameter, std::size_t of,
+          double factor) {
     switch (parameter) {
         case Parameter::cohesion:
             *materials::strength_entries(scene.materials[of].law).c *= factor;
@@ -40,7 +52,8 @@ void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double facto
             scene.materials[of].density *= factor;
             break;
         case Parameter::undrained_strength:
-            scale(scene.lem->undrained[of].strength, factor);
+            for (const std::size_t part : of_scene.undrained[of])
+                scale(scene.lem->undrained[part].strength, factor);
             break;
         case Parameter::residual_strength:
             scale(scene.lem->liquefaction[of].strength, factor);
@@ -51,10 +64,8 @@ void vary(scene::Scene& scene, Parameter parameter, std::size_t of, double facto
     }
 }
 
-std::string name_of(const scene::Scene& scene, Parameter parameter, std::size_t of) {
-    const auto region = [&](const std::vector<scene::UndrainedRegion>& list) {
-        return scene.section.regions[list[of].region].name;
-    };
+std::string name_of(const Varied& of_scene, Parameter parameter, std::size_t of) {
+    const scene::Scene& scene = of_scene.limit;
     switch (parameter) {
         case Parameter::cohesion:
             return "cohesion of " + scene.materials[of].name;
@@ -63,9 +74,11 @@ std::string name_of(const scene::Scene& scene, Parameter parameter, std::size_t 
         case Parameter::density:
             return "density of " + scene.materials[of].name;
         case Parameter::undrained_strength:
-            return "undrained_strength of " + region(scene.lem->undrained);
+            return "undrained_strength of " +
+                   of_scene.asked.section.regions[of_scene.asked.lem->undrained[of].region].name;
         case Parameter::residual_strength:
-            return "residual_strength of " + region(scene.lem->liquefaction);
+            return "residual_strength of " +
+                   scene.section.regions[scene.lem->liquefaction[of].region].name;
         case Parameter::seismic_coefficient:
             break;
     }
@@ -123,7 +136,8 @@ struct Strength {
 };
 
 /// Every strength parameter of the scene that is not zero.
-std::vector<Strength> strengths_of(const scene::Scene& scene, std::size_t layers) {
+std::vector<Strength> strengths_of(const Varied& of_scene, std::size_t layers) {
+    const scene::Scene& scene = of_scene.limit;
     std::vector<Strength> strengths;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const materials::Law& law = scene.materials[i].law;
@@ -132,7 +146,7 @@ std::vector<Strength> strengths_of(const scene::Scene& scene, std::size_t layers
         if (strength->c > 0.0) strengths.push_back({Parameter::cohesion, i});
         if (strength->tan_phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
     }
-    for (std::size_t i = 0; i < scene.lem->undrained.size(); ++i) {
+    for (std::size_t i = 0; i < of_scene.undrained.size(); ++i) {
         strengths.push_back({Parameter::undrained_strength, i});
     }
     for (std::size_t i = 0; i < layers; ++i) strengths.push_back({Parameter::residual_strength, i});
@@ -172,19 +186,21 @@ json statistics_of(const std::vector<double>& factors) {
 }  // namespace
 
 void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
+    const Varied of_scene(scene);
     const scene::Sensitivity& asked = *scene.lem->sensitivity;
-    const Variations variations(scene, asked.surface, asked.layers_liquefied, threads);
-    const std::vector<Strength> strengths = strengths_of(scene, asked.layers_liquefied);
+    const Variations variations(of_scene.limit, asked.surface, asked.layers_liquefied, threads);
+    const std::vector<Strength> strengths = strengths_of(of_scene, asked.layers_liquefied);
     std::vector<double> factors(2 * strengths.size());
     numerics::run_blocks(factors.size(), threads, [&](std::size_t n) {
-        scene::Scene varied = scene;
+        scene::Scene varied = of_scene.limit;
         const Strength& strength = strengths[n / 2];
-        vary(varied, strength.parameter, strength.of, 1.0 + (n % 2 ? asked.change : -asked.change));
+        vary(of_scene, varied, strength.parameter, strength.of,
+             1.0 + (n % 2 ? asked.change : -asked.change));
         factors[n] = variations.factor_of(varied);
     });
     json list = json::array();
     for (std::size_t i = 0; i < strengths.size(); ++i) {
-        list.push_back({{"parameter", name_of(scene, strengths[i].parameter, strengths[i].of)},
+        list.push_back({{"parameter", name_of(of_scene, strengths[i].parameter, strengths[i].of)},
                         {"lower", or_null(factors[2 * i])},
                         {"higher", or_null(factors[2 * i + 1])}});
     }
@@ -196,22 +212,23 @@ void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
 
 Samples add_probability(const scene::Scene& scene, int threads, json& result) {
     constexpr std::size_t block = 32;
+    const Varied of_scene(scene);
     const scene::Probability& asked = *scene.lem->probability;
-    const Variations variations(scene, asked.surface, asked.layers_liquefied, threads);
+    const Variations variations(of_scene.limit, asked.surface, asked.layers_liquefied, threads);
     const auto count = static_cast<std::size_t>(asked.samples);
     Samples samples{{}, {}, std::vector<double>(count)};
     for (std::size_t v = 0; v < asked.variables.size(); ++v) {
         const scene::RandomVariable& variable = asked.variables[v];
-        samples.names.push_back(name_of(scene, variable.parameter, variable.of));
+        samples.names.push_back(name_of(of_scene, variable.parameter, variable.of));
         std::vector<double> column = hypercube_column(count, asked.seed, v);
         for (double& x : column) x = factor_at(variable, x);
         samples.factors.push_back(std::move(column));
     }
     numerics::run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {
         for (std::size_t i = n * block; i < std::min(count, (n + 1) * block); ++i) {
-            scene::Scene varied = scene;
+            scene::Scene varied = of_scene.limit;
             for (std::size_t v = 0; v < asked.variables.size(); ++v) {
-                vary(varied, asked.variables[v].parameter, asked.variables[v].of,
+                vary(of_scene, varied, asked.variables[v].parameter, asked.variables[v].of,
                      samples.factors[v][i]);
             }
             samples.factor_of_safety[i] = variations.factor_of(varied);

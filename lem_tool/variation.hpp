@@ -9,6 +9,8 @@
 
 namespace breach::lem {
 
+// Both take the scene as it was asked for, not limit_scene's.
+
 /// Adds "sensitivity": F with each strength parameter lower and higher by the scene's share.
 void add_sensitivity(const scene::Scene& scene, int threads, nlohmann::json& result);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
@@ -162,7 +163,7 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["runout_beyond_toe_95"] = row.runout_beyond_toe_95;
     result["runout_beyond_toe_50"] = row.runout_beyond_toe_50;
     result["runout_largest"] = row.runout_largest;
-    result["runout_front"] = row.runout_front;
+    result["runout_front"] = row.runout_front == nowhere ? json() : json(row.runout_front);
     result["area_beyond_toe"] = row.area_beyond_toe;
     result["gauges"] = gauges_json(simulation);
     result["envelope"] = envelope_json(simulation, mpm.arrival_depth);
@@ -192,6 +193,8 @@ void write_history(const Session& session, const Simulation& simulation) {
         .kind = "mpm_history", .version = 1, .reals = {}, .integers = {}, .texts = {}, .units = {}};
     const Records& records = simulation.records();
     store(records.history, "", archive);
+    std::ranges::replace(archive.reals.at("runout_front"), nowhere,
+                         std::numeric_limits<double>::quiet_NaN());
     store(simulation.gauges(), records.gauges, "", archive);
     store(records.profiles, simulation.view(), "", archive);
     publish(records.envelope, simulation.view(), without_grains(simulation.profile()), archive);

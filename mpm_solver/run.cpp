@@ -57,6 +57,7 @@ void report(Session& session, const Simulation& simulation) {
     const Row& row = simulation.last_row();
     json line{{"phase", phases::mpm.program}};
     for_each_column(row, [&](const char* name, const char*, double value) { line[name] = value; });
+    if (row.runout_front == nowhere) line["runout_front"] = nullptr;
     line["step"] = static_cast<std::int64_t>(row.step);
     line["front"] = session.scene().mpm->runout.toe.x() + row.runout_beyond_toe;
     for (std::size_t k = 0; k < simulation.gauges().size(); ++k) {

@@ -12,8 +12,6 @@
 namespace breach::transfer {
 namespace {
 
-using criteria::Criterion;
-
 /// What docs/design/case.md names as signs, in the order of a failure's course.
 struct KnownSign {
     const char* name;
@@ -53,11 +51,10 @@ Sign sign_of(const std::string& name, const std::string& condition,
     return sign;
 }
 
-std::optional<Edge> edge_of(const Criterion& criterion) {
-    if (criterion.state() != Criterion::State::met) return std::nullopt;
-    Edge edge{criterion.expression().text, criterion.crossing()->time, {}};
-    for (std::size_t i = 0; i < criterion.expression().fields.size(); ++i)
-        edge.values[criterion.expression().fields[i]] = criterion.crossing()->values[i];
+Edge edge_of(const criteria::Expression& condition, const criteria::Line& line) {
+    Edge edge{condition.text, line.time, {}};
+    for (std::size_t i = 0; i < condition.fields.size(); ++i)
+        edge.values[condition.fields[i]] = line.values[i];
     return edge;
 }
 
@@ -111,18 +108,19 @@ Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& tel
     advice.begin = telemetry.front().time;
     advice.end = telemetry.back().time;
     for (const telemetry::Line& line : telemetry) window.take(line);
-    for (const Criterion* each : {&window.lower(), &window.upper()})
-        for (const std::string& field : missing_fields(each->expression(), telemetry))
+    const criteria::Expression& lower = window.lower().expression();
+    for (const criteria::Expression* each : {&lower, &window.upper()})
+        for (const std::string& field : missing_fields(*each, telemetry))
             advice.missing.push_back(field);
     for (const KnownSign& each : known_signs)
         advice.signs.push_back(sign_of(each.name, each.condition, telemetry));
-    advice.lower = edge_of(window.lower());
-    if (!advice.lower) return advice;
+    if (window.lower().state() != criteria::Criterion::State::met) return advice;
+    advice.lower = edge_of(lower, *window.lower().crossing());
     if (window.shut_since()) {
         advice.shut_since = window.shut_since()->time;
         return advice;
     }
-    advice.upper = edge_of(window.upper());
+    if (const auto upper = window.upper_edge()) advice.upper = edge_of(window.upper(), *upper);
     const double from = advice.lower->time;
     const double to = advice.until();
     advice.half_way = 0.5 * (from + to);

@@ -58,8 +58,7 @@ process::Plan plan_advice(const scene::Scene& scene) {
     const criteria::Window window = window_of(scene);
     return {{"lower edge", process::Use::on, window.lower().expression().text,
              "/transfer/window/lower"},
-            {"upper edge", process::Use::on, window.upper().expression().text,
-             "/transfer/window/upper"}};
+            {"upper edge", process::Use::on, window.upper().text, "/transfer/window/upper"}};
 }
 
 }  // namespace

@@ -150,15 +150,20 @@ std::int32_t SoilMap::at(std::size_t element, const Vec2& xi) const {
     return rule.soil;
 }
 
+std::optional<Collapse::Soil> SoilMap::state_at(std::size_t element, const Vec2& xi) const {
+    const bool by_state = rules_[mesh_.region_of_element[element]].collapses &&
+                          soils_[at(element, xi)].strength.has_value();
+    return by_state ? collapse_.at(element, xi) : std::nullopt;
+}
+
 materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& xi) const {
     const auto& profile = soils_[at(element, xi)].strength;
     if (!profile) return {};
+    if (const auto soil = state_at(element, xi)) {
+        const auto& [peak, critical] = soil->strength;
+        return {soil->collapsed ? critical : peak, 0.0, critical, 0.0};
+    }
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
-    if (rule.collapses)
-        if (const auto soil = collapse_.at(element, xi)) {
-            const auto& [peak, critical] = soil->strength;
-            return {soil->collapsed ? critical : peak, 0.0, critical, 0.0};
-        }
     const Vec2 place = undeformed_corners(mesh_, element) * shape_functions(xi);
     const bool flows = rule.liquefies && liquefied_->holds(place);
     return materials::strength_of_point(
@@ -200,6 +205,13 @@ void assign_soils(const SoilMap& map, Points& points) {
         for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
             s.region[p] = map.at(e, points.xi[p]);
     assign_strengths(map, points);
+}
+
+void start_at_state(const SoilMap& map, Points& points) {
+    for (std::size_t e = 0; e + 1 < points.first.size(); ++e)
+        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
+            if (const auto soil = map.state_at(e, points.xi[p]); soil && !soil->collapsed)
+                points.state.epsilon_q_plastic[p] = 0.0;
 }
 
 std::optional<CollapseReport> SoilMap::collapse_report(const Points& points) const {

@@ -43,6 +43,8 @@ class SoilMap {
     /// where the soil has none. A liquefied one has its residual strength. Wet NorSand has the
     /// strengths of its state, and its residual one where it has collapsed.
     materials::PointStrength strength_at(std::size_t element, const Vec2& xi) const;
+    /// NorSand's state at such a point, where its strengths come from that.
+    std::optional<Collapse::Soil> state_at(std::size_t element, const Vec2& xi) const;
     /// Nothing when the scene names no soil that liquefies by its pore pressure.
     const std::optional<LiquefiedZone>& liquefied() const { return liquefied_; }
     /// Of NorSand soil that /transfer/liquefied names.
@@ -78,6 +80,10 @@ exchange::StressMeasure measure_for(const materials::Law& law, scene::Transferre
 
 /// Gives every point its soil: state.region, and the lists of regions that it refers to.
 void assign_soils(const SoilMap& map, Points& points);
+
+/// A peak that comes from NorSand's present state is the strength of soil strained as far as it is:
+/// until it has collapsed it softens by the strain from here on. After start_softening.
+void start_at_state(const SoilMap& map, Points& points);
 
 /// Effective to total stress, sigma' - u I, where the soil's points carry the total one.
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,

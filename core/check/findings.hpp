@@ -28,6 +28,12 @@ void check_stability(const scene::Scene& scene, Findings& findings);
 void check_stages(const scene::Scene& scene, Findings& findings);
 /// /fem: supports, the edges that base and free-field columns need, the crest.
 void check_supports(const scene::Scene& scene, Findings& findings);
+/// A water table is drawn over the section and reaches some soil; false: it is refused.
+bool check_table(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
+                 const std::string& pointer, Findings& findings);
+/// Beyond its ends a line goes on level, and stands above ground there: water that nobody drew.
+void doubt_ends(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
+                const std::string& pointer, Findings& findings);
 /// /fem/water: what is wet, what wet soil needs, boundaries of pressure, the liquefaction watch.
 void check_water(const scene::Scene& scene, Findings& findings);
 /// /fem/motion: the file and what is in it.

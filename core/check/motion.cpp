@@ -97,6 +97,15 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
                  text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
 }
 
+motion::Series acceleration_of(const Recording& shaking) {
+    motion::Series series = shaking.series;
+    if (shaking.quantity == Quantity::acceleration) return series;
+    for (std::size_t i = series.values.size(); i-- > 1;)
+        series.values[i] = (series.values[i] - series.values[i - 1]) / series.dt;
+    series.values.front() = 0.0;
+    return series;
+}
+
 }  // namespace
 
 void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& findings) {
@@ -116,7 +125,7 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
     for (fault::Flag& each : doubts.flags) findings.warnings.push_back(std::move(each));
     if (!doubts.faults.empty()) return;
     check_steps(fem, shaking.series, findings);
-    if (shaking.quantity == Quantity::acceleration) check_length(fem, shaking.series, findings);
+    check_length(fem, acceleration_of(shaking), findings);
 }
 
 motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording) {

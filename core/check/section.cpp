@@ -155,4 +155,23 @@ std::vector<double> abscissae(const scene::Scene& scene) {
     return xs;
 }
 
+Levels ground_over(const scene::Scene& scene, double from, double to) {
+    const scene::Box box = extent(scene);
+    const double near = 1e-6 * (box.high.x() - box.low.x());
+    std::vector<double> xs = abscissae(scene);
+    xs.push_back(from);
+    xs.push_back(to);
+    Levels levels;
+    for (const double at : xs) {
+        if (at < from || at > to) continue;
+        for (const double x : {at - near, at + near}) {  // both heads of a vertical face
+            const std::vector<Stratum> strata = strata_at(scene, x);
+            if (strata.empty()) continue;
+            levels.lowest = std::min(levels.lowest, strata.front().top);
+            levels.highest = std::max(levels.highest, strata.front().top);
+        }
+    }
+    return levels;
+}
+
 }  // namespace breach::check

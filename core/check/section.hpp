@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,5 +64,12 @@ std::vector<Stratum> strata_at(const scene::Scene& scene, double x);
 
 /// Abscissae between which all borders are straight, ascending.
 std::vector<double> abscissae(const scene::Scene& scene);
+
+/// The ground's levels over a range, lowest and highest; infinite where there is none.
+struct Levels {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+};
+Levels ground_over(const scene::Scene& scene, double from, double to);
 
 }  // namespace breach::check

@@ -44,31 +44,6 @@ bool check_slices(const scene::Scene& scene, Findings& findings) {
     return true;
 }
 
-/// The ground's levels over a range, lowest and highest.
-struct Levels {
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -std::numeric_limits<double>::infinity();
-};
-
-Levels ground_over(const scene::Scene& scene, double from, double to) {
-    const scene::Box box = extent(scene);
-    const double near = 1e-6 * (box.high.x() - box.low.x());
-    std::vector<double> xs = abscissae(scene);
-    xs.push_back(from);
-    xs.push_back(to);
-    Levels levels;
-    for (const double at : xs) {
-        if (at < from || at > to) continue;
-        for (const double x : {at - near, at + near}) {  // both heads of a vertical face
-            const std::vector<Stratum> strata = strata_at(scene, x);
-            if (strata.empty()) continue;
-            levels.lowest = std::min(levels.lowest, strata.front().top);
-            levels.highest = std::max(levels.highest, strata.front().top);
-        }
-    }
-    return levels;
-}
-
 /// A range of x of which some lies over the section.
 bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                  const std::string& pointer, Findings& findings) {
@@ -171,6 +146,42 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+double bottom_of(const scene::Scene& scene, const scene::UndrainedRegion& layer) {
+    const double lowest = scene::bounding_box(scene.section.regions[layer.region].polygon).low.y();
+    return layer.levels ? std::max(lowest, (*layer.levels)[0]) : lowest;
+}
+
+/// Depths of the stages are counted from the top of the first layer downwards, and so is what triggers
+/// compare them with.
+void check_order(const scene::Scene& scene, Findings& findings) {
+    const auto& layers = scene.lem->liquefaction;
+    const auto& regions = scene.section.regions;
+    for (const scene::UndrainedRegion& each : layers)
+        if (regions[each.region].polygon.empty()) return;
+    const scene::Box box = extent(scene);
+    const double height = box.high.y() - box.low.y();
+    for (std::size_t i = 1; i < layers.size(); ++i) {
+        const double rise = bottom_of(scene, layers[i]) - bottom_of(scene, layers[i - 1]);
+        if (rise <= 1e-9 * height) continue;
+        refuse(findings, "/lem/liquefaction/" + std::to_string(i),
+               "reaches " + metres(rise) + " less deep than the layer before it",
+               "list the layers from the top down: stage n liquefies the first n of them, and "
+               "depths are counted from the top of the first");
+        return;
+    }
+    if (layers.empty() || !scene.fem || !scene.fem->liquefaction) return;
+    const scene::UndrainedRegion& first = layers.front();
+    const double highest = scene::bounding_box(regions[first.region].polygon).high.y();
+    const double top = first.levels ? std::min(highest, (*first.levels)[1]) : highest;
+    const double zero = scene.fem->liquefaction->level;
+    if (std::abs(zero - top) > 0.05 * height)
+        warn(findings, "depths_differ", "/fem/liquefaction/level",
+             "counts depths from " + metres(zero) +
+                 ", critical_depth from the top of the first layer of /lem/liquefaction, " +
+                 metres(top) +
+                 ": a trigger that compares them fires at another depth than it says");
+}
+
 /// Some entry of /lem says where water stands in it.
 bool may_be_wet(const scene::Lem& lem, std::size_t region) {
     const auto reaches = [&](const scene::Water& line) {
@@ -214,6 +225,17 @@ void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+void check_tables(const scene::Scene& scene, Findings& findings) {
+    const scene::Lem& lem = *scene.lem;
+    if (lem.water && !lem.water->line.empty() &&
+        check_table(scene, lem.water->line, "/lem/water/line", findings))
+        doubt_ends(scene, lem.water->line, "/lem/water/line", findings);
+    for (std::size_t i = 0; i < lem.piezometric_lines.size(); ++i)
+        if (!lem.piezometric_lines[i].line.empty())
+            check_table(scene, lem.piezometric_lines[i].line,
+                        "/lem/piezometric_lines/" + std::to_string(i) + "/line", findings);
+}
+
 void check_strength(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     std::set<std::size_t> open;
@@ -235,6 +257,8 @@ void check_stability(const scene::Scene& scene, Findings& findings) {
     check_strength(scene, findings);
     check_undrained_strengths(scene, findings);
     check_layers(scene, findings);
+    check_order(scene, findings);
+    check_tables(scene, findings);
     check_loads(scene, findings);
     if (!check_slices(scene, findings)) return;  // no ground to ask for
     if (lem.search) check_search(scene, *lem.search, findings);

@@ -92,23 +92,7 @@ void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Find
         const auto& line = scene.fem->stages[i].phreatic_line;
         if (!line || line->empty()) continue;
         const std::string pointer = "/fem/stages/" + std::to_string(i) + "/phreatic_line";
-        const scene::Box box = extent(scene);
-        const Depth deepest = deepest_below(scene, *line, level_at);
-        if (is_beside(scene, *line)) {
-            refuse(findings, pointer,
-                   "runs from x = " + metres(line->front().x()) + " to " +
-                       metres(line->back().x()) + ", beside the section",
-                   "the section reaches from " + metres(box.low.x()) + " to " +
-                       metres(box.high.x()) + ": draw the line over it");
-            continue;
-        }
-        if (deepest.below <= 0.0) {
-            refuse(findings, pointer,
-                   "runs below all soil, by at least " + metres(-deepest.below) +
-                       " at x = " + metres(deepest.place.x()),
-                   "raise the line above the section's lowest level, " + metres(box.low.y()));
-            continue;
-        }
+        if (!check_table(scene, *line, pointer, findings)) continue;
         const GroundWater water = *scene.fem->water_in(i);
         check_wet_soil(scene, water, told, findings);
         const std::vector<bool> gone = scene.fem->regions_gone(regions.size(), i);
@@ -127,6 +111,46 @@ void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Find
 
 }  // namespace
 
+bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
+                 const std::string& pointer, Findings& findings) {
+    const scene::Box box = extent(scene);
+    if (is_beside(scene, line)) {
+        refuse(findings, pointer,
+               "runs from x = " + metres(line.front().x()) + " to " + metres(line.back().x()) +
+                   ", beside the section",
+               "the section reaches from " + metres(box.low.x()) + " to " + metres(box.high.x()) +
+                   ": draw the line over it");
+        return false;
+    }
+    const Depth deepest = deepest_below(scene, line, level_at);
+    if (deepest.below > 0.0) return true;
+    refuse(findings, pointer,
+           "runs below all soil, by at least " + metres(-deepest.below) +
+               " at x = " + metres(deepest.place.x()),
+           "raise the line above the section's lowest level, " + metres(box.low.y()));
+    return false;
+}
+
+void doubt_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
+                const std::string& pointer, Findings& findings) {
+    if (line.empty()) return;
+    const scene::Box box = extent(scene);
+    const double shallow = 0.02 * (box.high.y() - box.low.y());
+    const auto look = [&](const Vec2& end, double from, double to) {
+        if (from >= to) return;
+        const double depth = end.y() - ground_over(scene, from, to).lowest;
+        if (depth <= shallow) return;
+        warn(findings, "undrawn_water", pointer,
+             "ends at " + text(end) + " and goes on level from there: water stands up to " +
+                 metres(depth) + " above the ground between x = " + text(from) + " and " +
+                 metres(to) +
+                 ", and holds the slope; draw the line on to the section's edge, along the ground "
+                 "where no water stands");
+    };
+    look(line.front(), box.low.x(), std::min(line.front().x(), box.high.x()));
+    look(line.back(), std::max(line.back().x(), box.low.x()), box.high.x());
+}
+
 void check_water(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem->water || scene.fem->water->line.empty()) return;
     const GroundWater& water = *scene.fem->water;
@@ -142,6 +166,7 @@ void check_water(const scene::Scene& scene, Findings& findings) {
     }
     std::vector<std::size_t> told;
     check_wet_soil(scene, water, told, findings);
+    doubt_ends(scene, water.line, "/fem/water/line", findings);
     check_lines(scene, told, findings);
     if (scene.fem->liquefaction) check_watch(scene, findings);
 }

@@ -22,7 +22,10 @@ Criterion::Criterion(Expression condition, double hold)
     : evaluation_(std::move(condition)), hold_(hold) {}
 
 Criterion::State Criterion::take(const Line& line) {
-    if (state_ == State::met) return state_;
+    return state_ == State::met ? state_ : follow(line);
+}
+
+Criterion::State Criterion::follow(const Line& line) {
     if (evaluation_(line.time, line.values) != 1.0) {
         state_ = State::armed;
         crossing_.reset();
@@ -31,8 +34,8 @@ Criterion::State Criterion::take(const Line& line) {
     if (!crossing_) crossing_ = line;
     const double slack = 1e-9 * (hold_ + line.time);  // decimal times are not binary ones
     const bool held = line.time - crossing_->time >= hold_ - slack;
+    if (held && state_ != State::met) met_at_ = line.time;
     state_ = held ? State::met : State::holding;
-    if (held) met_at_ = line.time;
     return state_;
 }
 

@@ -35,6 +35,8 @@ class Criterion {
 
     /// Takes the next line; what is met stays met.
     State take(const Line& line);
+    /// The same, but what is met is so only for as long as the condition is true.
+    State follow(const Line& line);
 
     State state() const { return state_; }
     const Expression& expression() const { return evaluation_.expression(); }

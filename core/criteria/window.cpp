@@ -1,7 +1,6 @@
 #include "core/criteria/window.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "core/words/words.hpp"
 
@@ -13,19 +12,38 @@ static constexpr auto words_of(Pick) {
         {{first, "first"}, {midpoint, "midpoint"}, {last_before, "last_before"}});
 }
 
+constexpr double slack = 1e-6;  // names of snapshots carry six decimals [s]
+
 std::optional<Pick> pick_named(std::string_view name) { return words::find<Pick>(name); }
 
 Window::Window(Expression lower, Expression upper, double hold)
-    : lower_(std::move(lower), hold),
-      upper_(upper, hold),
-      span_(std::move(upper), std::numeric_limits<double>::max()) {}
+    : lower_(std::move(lower), hold), upper_(std::move(upper), hold) {}
 
+/// While the lower condition is in its hold it may be broken yet: then what was found is of no edge.
 void Window::take_upper(const Line& line) {
     using State = Criterion::State;
-    if (upper_.state() == State::met) return;
-    span_.take(line);
-    if (lower_.state() != State::met || upper_.take(line) != State::met) return;
-    if (span_.crossing()->time <= lower_.crossing()->time) shut_since_ = span_.crossing();
+    last_time_ = line.time;
+    if (lower_.state() == State::met && began_) return;
+    const bool held = upper_.follow(line) == State::met;
+    if (lower_.state() == State::armed)
+        began_.reset();
+    else if (held && !began_)
+        began_ = upper_.crossing();
+}
+
+std::optional<Line> Window::upper_edge() const {
+    const bool known = lower_.state() == Criterion::State::met && began_;
+    return known && began_->time > lower_.crossing()->time ? began_ : std::nullopt;
+}
+
+std::optional<Line> Window::shut_since() const {
+    const bool known = lower_.state() == Criterion::State::met && began_;
+    return known && began_->time <= lower_.crossing()->time ? began_ : std::nullopt;
+}
+
+bool Window::is_open_at(double t) const {
+    const std::optional<Line>& running = began_ ? began_ : upper_.crossing();
+    return running ? t < running->time - slack : t <= last_time_ + slack;
 }
 
 void Window::take(const telemetry::Line& line, const std::map<std::string, double>& beside) {
@@ -34,7 +52,6 @@ void Window::take(const telemetry::Line& line, const std::map<std::string, doubl
 }
 
 std::optional<double> picked(Pick pick, double lower, double upper, std::span<const double> times) {
-    constexpr double slack = 1e-6;  // names of snapshots carry six decimals
     const double half_way = 0.5 * (lower + upper);
     std::optional<double> best;
     for (const double t : times) {

@@ -2,6 +2,7 @@
 // too distorted (upper edge), and the time to take in it. Sordo et al.: half-way between.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "core/criteria/criterion.hpp"
@@ -13,25 +14,35 @@ enum class Pick { first, midpoint, last_before };
 /// "first", "midpoint", "last_before"; anything else: nothing.
 std::optional<Pick> pick_named(std::string_view name);
 
+/// The lower edge is where the lower condition was first true for its hold. The upper one is the
+/// beginning of the first span of the upper condition that is true there or later and lasts for the
+/// hold, which runs from the span's own beginning: where that is not after the lower edge, there is
+/// no window. A span that is over by then, or did not last, says nothing; nor does one that had not
+/// lasted yet when the telemetry ended.
 class Window {
   public:
     Window(Expression lower, Expression upper, double hold);
 
     void take_lower(const Line& line) { lower_.take(line); }
-    /// After take_lower of the same line. The upper edge counts only once the lower one is reached.
+    /// After take_lower of the same line.
     void take_upper(const Line& line);
     /// Both, of a line as telemetry has it. beside: numbers that stand for every line.
     void take(const telemetry::Line& line, const std::map<std::string, double>& beside = {});
     const Criterion& lower() const { return lower_; }
-    const Criterion& upper() const { return upper_; }
-    /// Since when the mesh was too distorted, where that was before the failure had developed and
-    /// lasted until it counted: there is no window. Known once the upper edge is met.
-    const std::optional<Line>& shut_since() const { return shut_since_; }
+    const Expression& upper() const { return upper_.expression(); }
+    /// The line of the upper edge. Nothing: it is not known yet, or there is no window.
+    std::optional<Line> upper_edge() const;
+    /// Since when the mesh was too distorted, where that was so when the failure had developed: there
+    /// is no window. Known as soon as the lower edge is: the holds are equally long.
+    std::optional<Line> shut_since() const;
+    /// Whether the lines so far show that the upper edge comes after t [s], whatever follows. Asked of
+    /// times from the lower edge on, once that is known.
+    bool is_open_at(double t) const;
 
   private:
     Criterion lower_, upper_;
-    Criterion span_;  ///< of the upper condition, before the lower edge too; never met itself
-    std::optional<Line> shut_since_;
+    std::optional<Line> began_;  ///< the span that is the upper edge or shuts the window
+    double last_time_ = std::numeric_limits<double>::lowest();  ///< of the lines [s]
 };
 
 /// The snapshot to take in [lower, upper]; `times` ascend [s]. first: the first not before the

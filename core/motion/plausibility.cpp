@@ -136,6 +136,15 @@ Doubts doubts_about(const Recording& motion, const std::string& pointer) {
     if (motion.quantity == Quantity::velocity) {
         find.judge(peaks.velocity, velocity, "a peak velocity of " + text(peaks.velocity, " m/s"),
                    slip_of_velocity);
+        for (const auto& [end, left] : {std::pair{"beginning", series.values.front()},
+                                        std::pair{"end", series.values.back()}}) {
+            const double share = std::abs(left) / peaks.velocity;
+            if (share <= much_left) continue;
+            find.flag("drifting_motion", "the velocity at its " + std::string(end) + " is " +
+                                             text(left, " m/s") + ", " + text(100.0 * share, " %") +
+                                             " of its peak, and 0 beyond: a jolt that nobody "
+                                             "recorded; let it begin and end at rest");
+        }
         return std::move(find.doubts);
     }
     const double g = peaks.acceleration / standard_gravity;

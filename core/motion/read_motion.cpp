@@ -262,7 +262,7 @@ void write_csv(std::ostream& out, const Recording& motion, const std::string& re
     const Series& series = motion.series;
     for (std::size_t i = 0; i < series.values.size(); ++i) {
         char row[64];
-        std::snprintf(row, sizeof row, "%.6g,%.8f\n", series.dt * static_cast<double>(i),
+        std::snprintf(row, sizeof row, "%.10g,%.8f\n", series.dt * static_cast<double>(i),
                       series.values[i] / unit);
         out << row;
     }

@@ -8,11 +8,14 @@
 namespace breach::fem {
 namespace {
 
-/// Elements that share a node with `element`, without itself, in ascending order.
-std::vector<std::size_t> neighbours_of(const Mesh& mesh, std::size_t element) {
+/// Elements of the body that are there and share a node with `element`, without itself, in ascending
+/// order.
+std::vector<std::size_t> neighbours_of(const Model& model, std::size_t element) {
+    const Mesh& mesh = model.mesh;
     const Quad& own = mesh.quads[element];
     std::vector<std::size_t> found;
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
+        if (model.is_absent(e)) continue;
         const bool touches = std::ranges::any_of(mesh.quads[e], [&](std::int32_t node) {
             return std::ranges::find(own, node) != own.end();
         });
@@ -37,7 +40,7 @@ Entanglement entanglement_of(const scene::Section& section, const Model& model, 
     const FailureSurfaces surfaces = watch.failure_surfaces(epsilon_q);
     double sum = 0.0, volume = 0.0;
     bool on_surface = surfaces.holds[e];
-    for (const std::size_t n : neighbours_of(watch.body(), e)) {
+    for (const std::size_t n : neighbours_of(model, e)) {
         sum += model.volume[n] * epsilon_q[n];
         volume += model.volume[n];
         on_surface = on_surface || surfaces.holds[n];

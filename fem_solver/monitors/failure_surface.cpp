@@ -140,6 +140,9 @@ CutOff cut_off_by(const Mesh& mesh, const Ground& ground, const std::vector<bool
                   const std::vector<bool>& of_threshold, double least_area) {
     CutOff cut{0, 0, std::vector<bool>(mesh.quads.size(), false)};
     std::vector<bool> seen = bands;
+    for (std::size_t e = 0; e < ground.absent.size(); ++e) {
+        if (ground.absent[e]) seen[e] = true;
+    }
     double largest_area = 0.0;
     for (std::size_t first = 0; first < seen.size(); ++first) {
         if (seen[first]) continue;
@@ -167,9 +170,8 @@ CutOff cut_off_by(const Mesh& mesh, const Ground& ground, const std::vector<bool
     return cut;
 }
 
-}  // namespace
-
-Ground ground_of(const Mesh& mesh) {
+/// Of a mesh all of which is there.
+Ground ground_of_whole(const Mesh& mesh) {
     const Edges edges = edges_of(mesh);
     const auto border = border_of(edges);
     const std::int32_t last = upper_corner(mesh, border, Side::left);
@@ -195,6 +197,91 @@ Ground ground_of(const Mesh& mesh) {
         ground.end.push_back(along);
     }
     return ground;
+}
+
+/// Edge of an element, from its corner k to the next.
+struct Face {
+    std::size_t element, k;
+
+    std::int32_t from(const Mesh& mesh) const { return mesh.quads[element][k]; }
+    std::int32_t to(const Mesh& mesh) const { return mesh.quads[element][(k + 1) % 4]; }
+    std::size_t number() const { return 4 * element + k; }
+};
+
+/// The border edge after this one, around the soil on its left.
+Face after(const Mesh& mesh, const Ground& ground, Face face) {
+    const std::int32_t node = face.to(mesh);
+    face.k = (face.k + 1) % 4;
+    for (std::int32_t next; (next = ground.beside[face.element][face.k]) >= 0;) {
+        const Quad& quad = mesh.quads[next];
+        face = {static_cast<std::size_t>(next),
+                static_cast<std::size_t>(std::ranges::find(quad, node) - quad.begin())};
+    }
+    return face;
+}
+
+/// The ground's edges, chain by chain, each from right to left. Those of holes have no first one.
+std::vector<std::vector<Face>> chains_of(const Mesh& mesh, const Ground& ground) {
+    std::vector<Face> faces;
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        for (std::size_t k = 0; k < 4 && !ground.absent[e]; ++k) {
+            if (ground.beside[e][k] == Ground::air) faces.push_back({e, k});
+        }
+    }
+    const auto is_ground = [&](const Face& face) {
+        return ground.beside[face.element][face.k] == Ground::air;
+    };
+    std::vector<bool> follows(4 * mesh.quads.size(), false);
+    for (const Face& face : faces) follows[after(mesh, ground, face).number()] = true;
+    std::vector<std::vector<Face>> chains;
+    for (const Face& first : faces) {
+        if (follows[first.number()]) continue;
+        chains.emplace_back();
+        for (Face face = first; is_ground(face); face = after(mesh, ground, face)) {
+            chains.back().push_back(face);
+        }
+    }
+    return chains;
+}
+
+/// The ground of what is left of the mesh without `absent`.
+Ground ground_without(std::vector<char> absent, const Mesh& mesh, const Ground& whole) {
+    Ground ground;
+    ground.beside = whole.beside;
+    ground.absent = std::move(absent);
+    for (auto& beside : ground.beside) {
+        for (std::int32_t& next : beside) {
+            if (next >= 0 && ground.absent[next]) next = Ground::air;
+        }
+    }
+    std::vector<std::vector<Face>> chains = chains_of(mesh, ground);
+    for (auto& chain : chains) std::ranges::reverse(chain);
+    const auto left_end = [&](const std::vector<Face>& chain) {
+        return mesh.nodes[chain.front().to(mesh)];
+    };
+    std::ranges::sort(chains, {}, [&](const auto& chain) { return left_end(chain).x(); });
+    double along = 0.0;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        if (c > 0) {
+            const Vec2& before = mesh.nodes[chains[c - 1].back().from(mesh)];
+            along += (left_end(chains[c]) - before).norm();
+        }
+        for (const Face& face : chains[c]) {
+            ground.element.push_back(face.element);
+            ground.begin.push_back(along);
+            along += (mesh.nodes[face.to(mesh)] - mesh.nodes[face.from(mesh)]).norm();
+            ground.end.push_back(along);
+        }
+    }
+    return ground;
+}
+
+}  // namespace
+
+Ground ground_of(const Mesh& mesh, std::vector<char> absent) {
+    Ground whole = ground_of_whole(mesh);
+    if (std::ranges::find(absent, 1) == absent.end()) return whole;
+    return ground_without(std::move(absent), mesh, whole);
 }
 
 FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,

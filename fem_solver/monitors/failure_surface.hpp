@@ -10,7 +10,8 @@
 namespace breach::fem {
 
 /// The ground as a chain of border edges from the upper left to the upper right corner of the
-/// mesh: the element of each edge and the distance along the ground where it begins [m].
+/// mesh: the element of each edge and the distance along the ground where it begins [m]. Soil in
+/// several parts has a chain each, from left to right and as far apart as their ends.
 struct Ground {
     std::vector<std::size_t> element;
     std::vector<double> begin;
@@ -19,11 +20,13 @@ struct Ground {
     std::vector<std::array<std::int32_t, 4>> beside;
     static constexpr std::int32_t air = -1;   ///< the ground
     static constexpr std::int32_t edge = -2;  ///< the rest of the border
+    std::vector<char> absent{};  ///< [elements] not placed yet or removed; empty: all are there
 };
 
 /// The border from the highest node of the left side to the highest of the right side. The mesh is
-/// one body without holes.
-Ground ground_of(const Mesh& mesh);
+/// one body without holes. What borders on absent elements lies in the air and is ground, too,
+/// unless it is the wall of a hole.
+Ground ground_of(const Mesh& mesh, std::vector<char> absent = {});
 
 struct FailureSurfaces {
     std::size_t count = 0;
@@ -37,7 +40,8 @@ struct FailureSurfaces {
 /// along the ground are one. Surfaces with common places are told by the bodies between them, of
 /// least_separation squared or more: each body that the bands cut off from the rest of the border
 /// lies above a surface of its own, and so does each valley within a band that ridges of up to
-/// three times the threshold enclose. A wide band has no such body inside. epsilon_q: [elements].
+/// three times the threshold enclose. A wide band has no such body inside. epsilon_q: [elements],
+/// 0 of absent ones.
 FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
                                     std::span<const double> epsilon_q, double threshold,
                                     double least_separation);

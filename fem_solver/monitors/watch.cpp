@@ -21,12 +21,24 @@ Watch::Watch(const scene::Fem& fem, const Model& model)
     body_.nodes.resize(model.body.nodes);
     body_.quads.resize(model.body.elements);
     body_.region_of_element.resize(model.body.elements);
-    ground_ = ground_of(body_);
-    const auto watched = liquefaction_watch(fem).value;
-    if (!watched) return;
-    window_ = {watched->regions, watched->x, watched->level, watched->r_u};
-    least_stress_ = watched->least_stress;
-    nodes_ = nodes_in(body_, window_);
+    if (const auto watched = liquefaction_watch(fem).value) {
+        window_ = {watched->regions, watched->x, watched->level, watched->r_u};
+        least_stress_ = watched->least_stress;
+    }
+    look_at(model);
+}
+
+void Watch::look_at(const Model& model) {
+    std::vector<char> absent(body_.quads.size(), 0);
+    present_ = {body_.nodes, {}, {}};
+    for (std::size_t e = 0; e < absent.size(); ++e) {
+        absent[e] = model.is_absent(e) ? 1 : 0;
+        if (absent[e]) continue;
+        present_.quads.push_back(body_.quads[e]);
+        present_.region_of_element.push_back(body_.region_of_element[e]);
+    }
+    ground_ = ground_of(body_, std::move(absent));
+    nodes_ = nodes_in(present_, window_);
 }
 
 FailureSurfaces Watch::failure_surfaces(std::span<const double> epsilon_q) const {
@@ -41,7 +53,7 @@ double slip_across(const Model& model, const Motion& motion, const FailureSurfac
     Vec2 of_slide = Vec2::Zero(), of_rest = Vec2::Zero();
     double slide = 0.0, rest = 0.0;
     for (std::size_t e = 0; e < model.body.elements; ++e) {
-        if (surfaces.holds[e]) continue;
+        if (surfaces.holds[e] || model.is_absent(e)) continue;
         const Dofs8 u = gather(model.mesh.quads[e], motion.u);
         const Vec2 moved = model.volume[e] * Eigen::Map<const Corners>(u.data()).rowwise().mean();
         (surfaces.slides[e] ? of_slide : of_rest) += moved;
@@ -53,6 +65,12 @@ double slip_across(const Model& model, const Motion& motion, const FailureSurfac
 
 }  // namespace
 
+std::vector<double> Watch::excess_pressure(const Motion& motion, const Beginning& beginning) const {
+    const std::size_t nodes = present_.nodes.size();
+    return mechanics::nodal_excess_pressure(present_.nodes, present_.quads,
+                                            {motion.p.data(), nodes}, {beginning.p.data(), nodes});
+}
+
 void Watch::read(const Model& model, const Motion& motion, const Beginning& beginning,
                  Reading& reading) const {
     const FailureSurfaces surfaces = failure_surfaces(epsilon_q_of_elements(model, motion));
@@ -63,9 +81,8 @@ void Watch::read(const Model& model, const Motion& motion, const Beginning& begi
 
 void Watch::read_water(const Model& model, const Motion& motion, const Beginning& beginning,
                        Reading& reading) const {
-    const std::size_t nodes = model.body.nodes;
     double mass = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < nodes; ++i) {
+    for (std::size_t i = 0; i < model.body.nodes; ++i) {
         if (!model.water.is_unknown[i]) continue;
         const auto n = static_cast<Eigen::Index>(i);
         mass += model.nodal_mass[i];
@@ -73,8 +90,7 @@ void Watch::read_water(const Model& model, const Motion& motion, const Beginning
     }
     reading.excess_pressure_avg = mass > 0.0 ? sum / mass : 0.0;
     if (nodes_.empty()) return;
-    const std::vector<double> excess = mechanics::nodal_excess_pressure(
-        body_.nodes, body_.quads, {motion.p.data(), nodes}, {beginning.p.data(), nodes});
+    const std::vector<double> excess = excess_pressure(motion, beginning);
     const std::vector<double> r_u = pore_pressure_ratio(excess, beginning.sigma_v0, least_stress_);
     for (const std::int32_t i : nodes_) reading.r_u_max = std::max(reading.r_u_max, r_u[i]);
     reading.liquefaction_depth = liquefaction_depth(body_, nodes_, r_u, window_);

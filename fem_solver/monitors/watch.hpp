@@ -15,6 +15,9 @@ class Watch {
   public:
     Watch(const scene::Fem& fem, const Model& model);
 
+    /// From here on the soil that is there now: for stages that change the body.
+    void look_at(const Model& model);
+
     /// Excess pore pressure, r_u and depth of liquefaction, failure surfaces; zeros in dry soil and
     /// before the first dynamic stage.
     void read(const Model& model, const Motion& motion, const Beginning& beginning,
@@ -22,14 +25,18 @@ class Watch {
 
     /// epsilon_q: [elements of the body].
     FailureSurfaces failure_surfaces(std::span<const double> epsilon_q) const;
+    /// u - u_0 at the body's nodes, over the same elements as in a snapshot [Pa].
+    std::vector<double> excess_pressure(const Motion& motion, const Beginning& beginning) const;
     double failure_strain() const { return failure_strain_; }
+    /// With what is absent.
     const Mesh& body() const { return body_; }
 
   private:
     void read_water(const Model& model, const Motion& motion, const Beginning& beginning,
                     Reading& reading) const;
 
-    Mesh body_;  ///< without free-field columns
+    Mesh body_;     ///< without free-field columns
+    Mesh present_;  ///< all its nodes, and the elements that are there
     Ground ground_;
     LiquefactionWindow window_{};
     double least_stress_ = 0.0;

@@ -20,10 +20,11 @@ Eigen::VectorXd base_reaction(const Model& model, const Motion& motion) {
     return missing;
 }
 
-/// Average of -sigma'_yy over the elements at a node, by volume.
+/// Average of -sigma'_yy over the elements at a node that are there, by volume; 0 where none is.
 std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
     std::vector<double> sum(model.body.nodes, 0.0), volume(model.body.nodes, 0.0);
     for (std::size_t e = 0; e < model.body.elements; ++e) {
+        if (model.is_absent(e)) continue;
         for (std::size_t g = 0; g < model.points_per_element; ++g) {
             const double w = model.reference[e].weight[g];
             const double sigma_v = -motion.points[e * model.points_per_element + g].sigma[1];
@@ -33,7 +34,8 @@ std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
             }
         }
     }
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= volume[i];
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        if (volume[i] > 0.0) sum[i] /= volume[i];
     return sum;
 }
 

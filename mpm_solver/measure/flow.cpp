@@ -136,7 +136,7 @@ double front_of(const std::vector<Flow>& profile, const FlowView& view, double d
         return x +
                view.width * (profile[k].depth - depth) / (profile[k].depth - profile[k + 1].depth);
     }
-    return view.low;
+    return nowhere;
 }
 
 void Profiles::add(double time, const std::vector<Flow>& profile) {

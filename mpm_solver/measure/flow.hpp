@@ -54,8 +54,10 @@ std::vector<double> ground_profile(const Points& points, const FlowView& view,
 std::vector<double> surface_profile(const Points& points, const FlowView& view,
                                     std::vector<double> ground);
 
-/// Farthest x where the flow is `depth` deep, between columns by straight lines; `low` when it is
-/// nowhere [m].
+/// Of a front where nothing is deep enough: a number, as checkpoints take no others [m].
+inline constexpr double nowhere = -1e30;
+
+/// Farthest x where the flow is `depth` deep, between columns by straight lines; or `nowhere` [m].
 double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth);
 
 /// Profiles at several times, one after the other.

@@ -16,10 +16,11 @@ namespace {
 
 // CPU seconds and bytes per piece of work: fits to the runs of README.md, in this folder. Another
 // machine is within the factor of two that all ranges have, or `learn` says how far it is off.
-constexpr double start_up = 0.01;                 // a program's own [s]
-constexpr double per_surface_and_slice = 6.8e-8;  // [s]
-constexpr double per_element_step = 2.5e-6;       // iterations included [s]
-constexpr double softening_elements = 1200;       // with more of them bands need more iterations
+constexpr double start_up = 0.01;                  // a program's own [s]
+constexpr double per_surface_and_slice = 6.8e-8;   // [s]
+constexpr double per_polyline_and_slice = 6.5e-7;  // [s]
+constexpr double per_element_step = 2.5e-6;        // iterations included [s]
+constexpr double softening_elements = 1200;        // with more of them bands need more iterations
 constexpr double per_element_step_with_memory = 8e-6;  // PM4Sand with its pore water [s]
 constexpr double per_transferred_point = 4e-6;         // [s]
 constexpr double per_point_step = 5e-8;                // [s]
@@ -32,13 +33,27 @@ constexpr double fold = 2.0, widening_of_means = 1.5;
 
 Range around(double middle) { return {middle / fold, middle * fold}; }
 
-PhaseCost lem_cost(const scene::Lem& lem) {
-    const Searches searches = searches_of(lem);
-    const double surfaces = searches.surfaces * searches.stages;
+/// What stages and samples of /lem leave; that of sensitivities and polylines is small.
+double lem_bytes(const scene::Lem& lem) {
+    constexpr double per_stage = 8e3, per_number = 13.0;
+    double numbers = 0.0;
+    if (lem.probability)
+        numbers = lem.probability->samples *
+                  (1.0 + static_cast<double>(lem.probability->variables.size()));
+    return bytes_beside + per_stage * (1.0 + static_cast<double>(lem.liquefaction.size())) +
+           per_number * numbers;
+}
+
+PhaseCost lem_cost(const scene::Scene& scene) {
+    const scene::Lem& lem = *scene.lem;
+    const Searches searches = searches_of(scene);
+    const double circles = searches.surfaces * searches.stages;
+    const double per_slice =
+        per_surface_and_slice * circles + per_polyline_and_slice * searches.polylines;
     return {phases::lem.program,
-            {{"surfaces", surfaces}},
-            around(start_up + per_surface_and_slice * surfaces * lem.slices),
-            around(bytes_beside + 8e3 * std::min(searches.stages, 100.0)),
+            {{"surfaces", circles + searches.polylines}},
+            around(start_up + per_slice * lem.slices),
+            around(lem_bytes(lem)),
             ""};
 }
 
@@ -194,7 +209,7 @@ std::vector<PhaseCost> cost_of(const scene::Scene& scene, const std::optional<Me
     const MeshCounts meshed = mesh ? *mesh : mesh_of(scene);
     const double points = points_of(scene, meshed.elements);
     std::vector<PhaseCost> costs;
-    if (scene.lem) costs.push_back(lem_cost(*scene.lem));
+    if (scene.lem) costs.push_back(lem_cost(scene));
     if (scene.fem) costs.push_back(fem_cost(scene, meshed, mesh.has_value()));
     if (scene.fem && scene.transfer && scene.mpm) costs.push_back(transfer_cost(points));
     if (scene.mpm) costs.push_back(mpm_cost(scene, points));

@@ -66,18 +66,81 @@ double T_of(const scene::Scene& scene) {
     return std::sqrt(H / (scene.gravity > 0.0 ? scene.gravity : 9.81));
 }
 
-/// Soil of the runout that keeps no friction once it has softened.
+bool is_norsand(const scene::Scene& scene, std::size_t region) {
+    const std::size_t material = scene.section.regions[region].material;
+    return material < scene.materials.size() &&
+           std::holds_alternative<materials::NorSand>(scene.materials[material].law);
+}
+
+bool can_liquefy(const scene::LiquefiedZone& zone, const scene::Soil& soil) {
+    const bool is_layer = std::ranges::any_of(zone.layers, [&](const scene::LiquefiedLayer& each) {
+        return each.material == soil.material;
+    });
+    return std::ranges::count(zone.regions, soil.region) > 0 && (zone.layers.empty() || is_layer);
+}
+
+/// tan phi that the transfer gives to soil which it finds liquefied, where its profile says one.
+std::optional<double> liquefied_friction(const scene::Scene& scene, const scene::Soil& soil) {
+    if (!scene.fem || !scene.transfer || !scene.transfer->liquefied) return std::nullopt;
+    if (!can_liquefy(*scene.transfer->liquefied, soil)) return std::nullopt;
+    const auto& profile = scene.materials[soil.material].strength;
+    if (!profile || !profile->residual) return std::nullopt;
+    if (is_norsand(scene, soil.region)) return 0.0;  // wet points are undrained, by their state
+    const auto* effective = std::get_if<materials::Effective>(&profile->residual->kind);
+    return effective != nullptr ? std::tan(effective->phi) : 0.0;
+}
+
+/// Soil of the runout that keeps no friction once it has softened or liquefied.
 bool can_flow(const scene::Scene& scene) {
     constexpr double hardly_any = 0.02;  // tan phi
     return std::ranges::any_of(scene::soils_of(scene), [&](const scene::Soil& soil) {
         if (soil.material >= scene.materials.size()) return false;
         const materials::Law& law = scene.materials[soil.material].law;
         if (!materials::traits(law).yields) return false;
+        if (const auto liquefied = liquefied_friction(scene, soil))
+            if (*liquefied < hardly_any) return true;
         if (const materials::Softening* softening = materials::softening(law))
             return softening->tan_phi_residual < hardly_any;
         const auto strength = materials::limit_strength(law);
         return strength && strength->tan_phi < hardly_any;
     });
+}
+
+/// The strength that the LEM gives to a material, where it has one to vary.
+std::optional<materials::Strength> limit_strength(const scene::Material& material) {
+    if (const auto& own = material.limit_strength)
+        return materials::Strength{own->c, std::tan(own->phi)};
+    if (scene::lem_takes_profile(material))
+        return materials::strength_at(material.strength->peak, {10.0, 0.0, 1e5});
+    if (!materials::traits(material.law).c_and_phi) return std::nullopt;
+    return materials::limit_strength(material.law);
+}
+
+/// Parameters that /lem/sensitivity varies.
+double strength_parameters(const scene::Scene& scene) {
+    std::size_t count = scene.lem->undrained.size() + scene.lem->sensitivity->layers_liquefied;
+    for (const scene::Material& each : scene.materials) {
+        const auto strength = limit_strength(each);
+        if (!strength) continue;
+        if (strength->c > 0.0) ++count;
+        if (strength->tan_phi > 0.0) ++count;
+    }
+    return static_cast<double>(count);
+}
+
+/// Searches for so many variations, and one for the surface without them.
+double searches_for(scene::VariedSurface surface, double variations, double surfaces) {
+    return 1.0 + (surface == scene::VariedSurface::searched ? variations : variations / surfaces);
+}
+
+/// Surfaces of straight pieces: the given one, and those on the way down from each stage's circle.
+double polylines_of(const scene::Lem& lem) {
+    if (!lem.non_circular) return 0.0;
+    const double given = lem.non_circular->given.empty() ? 0.0 : 1.0;
+    const auto stages = static_cast<double>(lem.liquefaction.size());
+    const double descents = stages > 0.0 ? 2.0 + stages : 1.0;  // that without layers twice
+    // measured: 7,336, 10,401 and 16,784 with 13, 30 and 60 vertices, 6,105 to 8,859 with 13
+    return given + descents * 2100.0 * std::sqrt(lem.non_circular->vertices);
 }
 
 }  // namespace
@@ -150,16 +213,19 @@ double runout_step(const scene::Scene& scene) {
     return mpm.cfl * mpm.cell_size / (fastest + fall + damping);
 }
 
-Searches searches_of(const scene::Lem& lem) {
+Searches searches_of(const scene::Scene& scene) {
+    const scene::Lem& lem = *scene.lem;
     constexpr double refinement = 1.33;  // measured: 18,424 and 17,897 for 24 x 24 x 24
-    Searches all{1.0, 1.0 + static_cast<double>(lem.liquefaction.size())};
+    Searches all{1.0, 1.0 + static_cast<double>(lem.liquefaction.size()), polylines_of(lem)};
     if (lem.search)
         all.surfaces =
             refinement * lem.search->entry_points * lem.search->exit_points * lem.search->depths;
+    if (lem.sensitivity)
+        all.stages +=
+            searches_for(lem.sensitivity->surface, 2.0 * strength_parameters(scene), all.surfaces);
     if (lem.probability)
-        all.stages += lem.probability->surface == scene::VariedSurface::searched
-                          ? lem.probability->samples
-                          : lem.probability->samples / all.surfaces;
+        all.stages +=
+            searches_for(lem.probability->surface, lem.probability->samples, all.surfaces);
     return all;
 }
 

@@ -24,16 +24,20 @@ double snapshots_of(const scene::Fem& fem);
 double points_of(const scene::Scene& scene, double elements);
 
 /// Seconds that the runout is followed, where it ends at rest: 7 sqrt(H / g), and 75 sqrt(H / g) where
-/// soil without friction can flow, at least the earliest rest and at most the longest duration.
+/// soil can flow that keeps no friction once it has softened or liquefied, at least the earliest rest
+/// and at most the longest duration.
 double runout_duration(const scene::Scene& scene);
 /// By the Courant number and the fastest wave of all soils [s].
 double runout_step(const scene::Scene& scene);
 
-/// Surfaces of one search, and how often the LEM searches.
+/// Surfaces of one search, and how often the LEM searches: for itself, for every liquefied layer and
+/// for what varies. Surfaces of straight pieces are analysed by Spencer's method.
 struct Searches {
     double surfaces;
     double stages;
+    double polylines;
 };
-Searches searches_of(const scene::Lem& lem);
+/// Of a scene with /lem.
+Searches searches_of(const scene::Scene& scene);
 
 }  // namespace breach::estimate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 namespace breach::importing {
@@ -32,9 +33,28 @@ std::vector<std::string> fields_of(std::string_view row, char separator) {
     return fields;
 }
 
+/// Where a row has its entries.
 struct Columns {
     std::optional<std::size_t> region, x, y;
+    std::size_t count = 0;  ///< that the header names
 };
+
+/// Positions of the columns that have one of these names.
+std::vector<std::size_t> columns_named(const std::vector<std::string>& header,
+                                       std::initializer_list<std::string_view> names) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < header.size(); ++i)
+        if (std::ranges::find(names, lower(header[i])) != names.end()) found.push_back(i);
+    return found;
+}
+
+/// "y and z"
+std::string listed(const std::vector<std::string>& header,
+                   const std::vector<std::size_t>& columns) {
+    std::string all;
+    for (const std::size_t each : columns) all += (all.empty() ? "" : " and ") + header[each];
+    return as_utf8(std::string_view(all).substr(0, 60));
+}
 
 class Reader {
   public:
@@ -68,20 +88,35 @@ class Reader {
         take_vertex(fields_of(row, separator_));
     }
 
+    /// The column of one of these names; a fault where there are several.
+    std::optional<std::size_t> only(const std::vector<std::string>& header,
+                                    std::initializer_list<std::string_view> names,
+                                    const std::string& meaning, const std::string& remedy) {
+        const std::vector<std::size_t> found = columns_named(header, names);
+        if (found.empty()) return std::nullopt;
+        if (found.size() > 1) {
+            refuse("the header names " + std::to_string(found.size()) + " columns of " + meaning +
+                       ": " + listed(header, found),
+                   remedy);
+            stopped_ = true;
+        }
+        return found.front();
+    }
+
     void take_header(std::string_view row) {
         for (const char each : {'\t', ';', ','})
             if (row.find(each) != std::string_view::npos) {
                 separator_ = each;
                 break;
             }
-        Columns found;
         const std::vector<std::string> names = fields_of(row, separator_);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const std::string name = lower(names[i]);
-            if (name == "region" || name == "layer") found.region = i;
-            if (name == "x") found.x = i;
-            if (name == "y" || name == "z") found.y = i;
-        }
+        const Columns found{
+            .region = only(names, {"region", "layer"}, "regions", "keep one column of regions"),
+            .x = only(names, {"x"}, "x", "keep one, the distance along the section"),
+            .y = only(names, {"y", "z"}, "levels",
+                      "keep one column of levels and call it y; x is the distance along the "
+                      "section"),
+            .count = names.size()};
         columns_ = found;
         const bool whole = found.x && found.y && (found.region || !alone_.empty());
         if (whole) return;
@@ -105,7 +140,20 @@ class Reader {
         return std::nullopt;
     }
 
+    /// Empty ones at its end apart, a row has no more fields than the header names.
+    bool fits_header(const std::vector<std::string>& fields) {
+        std::size_t count = fields.size();
+        while (count > columns_->count && fields[count - 1].empty()) --count;
+        if (count <= columns_->count) return true;
+        refuse("has " + std::to_string(count) + " fields, and the header names " +
+                   std::to_string(columns_->count) + " columns",
+               "write 20.5 for 20,5, or separate the columns by ; or tabs where numbers have "
+               "decimal commas; name what else the rows hold in the header");
+        return false;
+    }
+
     void take_vertex(const std::vector<std::string>& fields) {
+        if (!fits_header(fields)) return;
         std::string layer = alone_;
         if (columns_->region && *columns_->region < fields.size())
             layer = as_utf8(fields[*columns_->region]);

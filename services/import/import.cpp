@@ -62,6 +62,16 @@ std::string scene_name(const Wish& wish) {
     return name;
 }
 
+scene::Box box_of(const std::vector<Soil>& soils) {
+    scene::Box box{soils.front().ring.front(), soils.front().ring.front()};
+    for (const Soil& soil : soils)
+        for (const Vec2& each : soil.ring) {
+            box.low = box.low.cwiseMin(each);
+            box.high = box.high.cwiseMax(each);
+        }
+    return box;
+}
+
 class Import {
   public:
     explicit Import(const Wish& wish)
@@ -137,6 +147,9 @@ class Import {
                        : read_csv(wish_.drawing.bytes, map_, unit.value_or(Unit{"m", 1.0}));
         take(drawing_);
         result_.report["unit"] = drawing_.unit;
+        result_.report["unit_from"] = !wish_.unit.empty()     ? "asked"
+                                      : is_dxf(wish_.drawing) ? "drawing"
+                                                              : "default";
         for (const auto& [layer, found] : drawing_.unknown)
             refuse(at_line(found.origin.line),
                    "layer " + layer + " has no material: " + std::to_string(found.entities) +
@@ -261,17 +274,16 @@ class Import {
         for (Fault& each : read.faults) each.pointer = as_utf8(sent.name) + " " + each.pointer;
         const bool sound = read.faults.empty();
         take(read);
+        if (wish_.unit.empty() && drawing_.unit != read.unit)
+            remark(as_utf8(sent.name) + " was read in " + read.unit +
+                   ", as nothing says otherwise, the drawing in " + drawing_.unit +
+                   "; a unit that is asked for holds for both");
         if (sound) take_line(std::move(read.outlines), role, as_utf8(sent.name));
     }
 
     bool has_sound_size() {
         if (soils_.empty()) return false;
-        scene::Box box{soils_.front().ring.front(), soils_.front().ring.front()};
-        for (const Soil& soil : soils_)
-            for (const Vec2& each : soil.ring) {
-                box.low = box.low.cwiseMin(each);
-                box.high = box.high.cwiseMax(each);
-            }
+        const scene::Box box = box_of(soils_);
         const double length = (box.high - box.low).maxCoeff();
         const std::string size = "the section reaches from " + text(box.low) + " to " +
                                  text(box.high) + ": it is " + metres(length) + " long";
@@ -312,6 +324,7 @@ class Import {
         }
         if (!result_.faults.empty()) return;
         choose_materials(healed.soils);
+        tell_size(healed.soils);
         tell_areas(healed.soils);
         finish(healed.soils);
     }
@@ -350,6 +363,11 @@ class Import {
                    each.material);
             each.material = each.name;
         }
+    }
+
+    void tell_size(const std::vector<Soil>& soils) {
+        const scene::Box box = box_of(soils);
+        result_.report["size"] = as_json(box.high - box.low);
     }
 
     void tell_areas(const std::vector<Soil>& soils) {

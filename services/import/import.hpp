@@ -34,8 +34,10 @@ struct Wish {
 };
 
 struct Imported {
-    nlohmann::json scene;              ///< null when there are faults
-    nlohmann::json report;             ///< unit, tolerance, healed, areas, guessed, remarks
+    nlohmann::json scene;  ///< null when there are faults
+    /// unit, unit_from ("asked", "drawing", "default"), size [length, height, m], tolerance, healed,
+    /// areas, guessed, remarks
+    nlohmann::json report;
     std::vector<fault::Fault> faults;  ///< pointers: "line 12", an option's name, or into the scene
     scene::Scene sketch;  ///< to be drawn: the scene, or the outlines as they were sent
 };

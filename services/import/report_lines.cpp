@@ -1,5 +1,6 @@
 // The report for people.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "services/import/drawing.hpp"
@@ -17,10 +18,27 @@ std::string joined_names(const json& names) {
     return all;
 }
 
+/// "45.7 m", "1250 m"
+std::string extent(double length) {
+    return length < 100.0 ? metres(length) : std::to_string(std::lround(length)) + " m";
+}
+
+/// Which unit was taken and from where, and how large that made the section.
+std::string unit_line(const json& report) {
+    const std::string unit = report.at("unit"), from = report.at("unit_from");
+    const char* why = from == "asked"     ? "as asked"
+                      : from == "drawing" ? "the drawing's $INSUNITS"
+                                          : "metres, as nothing says otherwise";
+    const json& size = report.at("size");
+    return "read in " + unit + " (" + why + "): the section is " + extent(size[0]) + " long and " +
+           extent(size[1]) + " high";
+}
+
 }  // namespace
 
 std::vector<std::string> lines_of(const json& report, std::size_t most) {
     std::vector<std::string> lines;
+    if (report.contains("size")) lines.push_back(unit_line(report));
     const json& healed = report.at("healed");
     std::map<std::string, std::size_t> counts;
     double largest = 0.0;

@@ -181,6 +181,11 @@ class FakeRun {
                 lower: { off: 0.25, on: 0.5 }, upper: { off: 2, on: 1.5 } } : null }));
     }
 
+    transfers() {
+        const fem = this.tasks.find((task) => task.phase === "fem_solver");
+        return this.tasks.filter(({ phase }) => phase === "transfer_tool").map(({ id }) => ({ task: id, fem_task: fem.id }));
+    }
+
     summary() {
         const states = this.tasks.map((task) => this.state_of(task));
         const count = (...wanted) => states.filter((state) => wanted.includes(state)).length;
@@ -382,6 +387,7 @@ export class FakeApi {
         if (["cancel", "pause", "resume", "retry", "pin", "unpin"].includes(rest[0])) return this.command(run, rest[0], response);
         if (rest[0] === "title") return this.rename(run, request, response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
+        if (rest[0] === "transfers") return json(response, { transfers: run.transfers(), next: null });
         if (rest[0] === "uncertainty" && run.study.uncertainty) return json(response, run.answer ??= run.uncertainty());
         if (rest[0] === "envelopes" && run.study.uncertainty) return json(response, run.envelopes ??= envelopes_of(run));
         if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means(), without_transfer: run.study.without ?? [], same_results: run.study.same ?? [] });

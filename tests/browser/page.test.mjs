@@ -740,6 +740,25 @@ test("every number leads to its files, hashes and settings", async () => {
     await page.keyboard.press("Escape");
 });
 
+test("a transfer belongs to the FEM that it was taken from, whatever that is called", async () => {
+    await open_run(variants_run());
+    const found = await page.evaluate(async () => {
+        const { fem_of } = await import("/static/provenance.js");
+        const fem = (id, variant) => ({ id, phase: "fem_solver", variant });
+        const of = (variant, told, tasks = [fem("f1", "a"), fem("f2", "b")]) => fem_of({ tasks }, { id: "t", variant }, new Map(told)) ?? "none";
+        return [of("a", [["t", "f2"]]), of("b", []), of("c", []), of("c", [], [fem("f1", "a")])];
+    });
+    assert.deepEqual(found, ["f2", "f2", "none", "f1"], "as the server tells; of an earlier one by name, or the only one");
+});
+
+test("the axis of the cost says runout again when the next run has no error", async () => {
+    const axis = () => page.locator("#cost-runout svg.plot").getAttribute("aria-label");
+    await open_run(api.add_run(drawn, { began: Date.now() - 60000 }).id);
+    await until("its error", async () => /error estimate of the runout \[m\]/.test(await axis()));
+    await page.evaluate((id) => { location.hash = `#/runs/${id}`; }, variants_run()); // the same page, another run
+    await until("its runout", async () => /runout from the toe \[m\]/.test(await axis()));
+});
+
 test("telemetry of a finished variant is its own; a running one among several says why it is not there", async () => {
     await open_run(variants_run());
     await page.selectOption("#telemetry-source", { label: "MPM from t_T = 2 s, not-softened" });

@@ -1,7 +1,7 @@
 // Stands for fem_solver where the triggers' tests need one that takes its time: 56 steps of 0.05 s
 // simulated and 20 ms real, telemetry written in two halves, snapshots at times, at an interval and
 // on request. While a file `gate` lies in the sandbox (above the folder of the programs), requests
-// are not heard.
+// are not heard; while a file `exit_code` lies there, it ends with that after 1.35 s.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -66,6 +66,13 @@ json line_at(int step) {
             {"kinetic_energy", std::exp(2 * t)}};
 }
 
+/// 0: as it should.
+int code_at(const fs::path& sandbox, int step) {
+    int code = 0;
+    if (dt * step > 1.38) std::ifstream(sandbox / "exit_code") >> code;
+    return code;
+}
+
 bool take_request(const fs::path& sandbox, const fs::path& output) {
     return !fs::exists(sandbox / "gate") && fs::remove(output / "snapshot_request");
 }
@@ -83,6 +90,10 @@ int main(int argc, char** argv) {
     const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
     for (int step = 1; step <= steps; ++step) {
         const double t = dt * step;
+        if (const int code = code_at(sandbox, step)) {
+            std::cerr << "fem_solver: the disk is full\n";
+            return code;
+        }
         const std::string line = line_at(step).dump() + "\n";
         telemetry << line.substr(0, line.size() / 2) << std::flush;  // torn
         pause();

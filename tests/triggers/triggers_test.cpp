@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include "tests/faults/service_under_test.hpp"
@@ -23,6 +24,8 @@ struct Live {
     }
     void close_gate() const { std::ofstream(sandbox.root() / "gate") << "closed"; }
     void open_gate() const { std::filesystem::remove(sandbox.root() / "gate"); }
+    /// Of the FEM, after 1.35 s; 0: it comes to its end.
+    void set_exit_code(int code) const { std::ofstream(sandbox.root() / "exit_code") << code; }
     Sandbox sandbox;
 };
 
@@ -205,6 +208,107 @@ TEST(Trigger, WindowPicksAmongRegularSnapshots) {
         ASSERT_EQ(triggers[i].at("firings").size(), 1u) << triggers[i];
         EXPECT_NEAR(triggers[i].at("firings")[0].at("transfer_time"), expected[i], 0.0501) << i;
     }
+}
+
+/// What a trigger came to, without the times of the machine.
+json outcome_of(const json& trigger) {
+    json outcome{{"state", trigger.at("state")}, {"reason", trigger.at("reason")}};
+    for (const json& each : trigger.at("firings"))
+        for (const char* key : {"transfer_time", "wanted_time", "fem_step", "crossed"})
+            outcome["firings"][key].push_back(each.at(key));
+    return outcome;
+}
+
+TEST(Trigger, AWindowWithAHoldIsTheSameLiveAndFromTheWholeTelemetry) {
+    const Live live;
+    Service service(live.sandbox);
+    const char* distorted = "jacobian_least_avg < 0.97";  // from 0.65 s on
+    const auto window = [](const char* pick, const char* lower, const char* upper, double hold) {
+        return json{{"kind", "window"}, {"lower", lower}, {"upper", upper},
+                    {"hold_s", hold},   {"pick", pick},   {"snapshot_interval_s", 0.1}};
+    };
+    const json triggers{window("first", "time > 0.87", distorted, 0.2),
+                        window("first", "time > 0.47", distorted, 0.5),
+                        window("midpoint", "time > 0.47", distorted, 0.5),
+                        window("first", "time > 0.52", "time > 0.57", 0.2),
+                        window("first", "time > 0.47", "epsilon_q_max > 0.5", 0.2)};
+    const std::string run = service.submit(with_triggers(triggers));
+    service.wait_for_end(run, 60);
+    const json seen_live = triggers_of(service, run);
+    ASSERT_EQ(seen_live.size(), 5u);
+    EXPECT_TRUE(seen_live[0].at("reason").get<std::string>().starts_with(
+        "there is no window: jacobian_least_avg < 0.97 is true since 0.65 s"))
+        << seen_live[0];
+    EXPECT_TRUE(
+        seen_live[3].at("reason").get<std::string>().starts_with("no snapshot lies between 0.55"))
+        << "0.6 s is the upper edge: " << seen_live[3];
+    const std::map<std::size_t, double> expected{{1, 0.5}, {2, 0.6}, {4, 0.5}};
+    for (const auto& [i, time] : expected) {
+        ASSERT_EQ(seen_live[i].at("firings").size(), 1u) << seen_live[i];
+        EXPECT_NEAR(seen_live[i].at("firings")[0].at("transfer_time"), time, 1e-6) << i;
+    }
+    EXPECT_NEAR(seen_live[2].at("firings")[0].at("wanted_time"), 0.575, 1e-6);
+
+    for (const json& each : triggers) {
+        const Answer answer = service.post("/v1/runs/" + run + "/triggers", each.dump());
+        EXPECT_EQ(answer.status, 202) << answer.text;
+    }
+    ASSERT_TRUE(eventually([&] {
+        return std::ranges::all_of(triggers_of(service, run), [](const json& each) {
+            return each.at("state") == "fired" || each.at("state") == "expired";
+        });
+    }));
+    const json replayed = triggers_of(service, run);
+    ASSERT_EQ(replayed.size(), 10u);
+    for (std::size_t i = 0; i < 5; ++i)
+        EXPECT_EQ(outcome_of(replayed[5 + i]), outcome_of(seen_live[i])) << i;
+}
+
+TEST(Trigger, WhatAFemThatWasCutShortLeavesOpenExpiresAndIsDecidedByTheRetry) {
+    const Live live;
+    live.set_exit_code(74);
+    Service service(live.sandbox);
+    const auto window = [](const char* name, const char* upper) {
+        return json{{"kind", "window"}, {"name", name},       {"lower", "time >= 0.5"},
+                    {"upper", upper},   {"pick", "midpoint"}, {"snapshot_interval_s", 0.1}};
+    };
+    const std::string run = service.submit(
+        with_triggers({window("open", "time > 1000"),
+                       window("closed", "time >= 1.2"),
+                       {{"kind", "bisect"}, {"share", 0.75}, {"tolerance_s", 0.1}, {"seeds", 3}}}));
+    service.wait_for_end(run, 60);
+    const json cut_short = triggers_of(service, run);
+    for (const std::size_t i : {0u, 2u}) {
+        EXPECT_EQ(cut_short[i].at("state"), "expired") << cut_short[i];
+        EXPECT_TRUE(cut_short[i].at("reason").get<std::string>().starts_with(
+            "the FEM did not come to its end"))
+            << cut_short[i];
+        EXPECT_TRUE(cut_short[i].at("firings").empty());
+    }
+    EXPECT_EQ(cut_short[1].at("state"), "fired") << "both edges were known: " << cut_short[1];
+
+    live.set_exit_code(0);
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").status, 202);
+    const json triggers = settled(service, run);
+    for (const json& each : triggers) EXPECT_EQ(each.at("state"), "fired") << each;
+    ASSERT_EQ(triggers[0].at("firings").size(), 1u);
+    EXPECT_NEAR(triggers[0].at("firings")[0].at("transfer_time"), 1.65, 0.0501);
+    EXPECT_EQ(outcome_of(triggers[1]), outcome_of(cut_short[1]));
+    EXPECT_EQ(triggers[2].at("result").at("uniform_runs"), 28) << "of 2.8 s, not of 1.3 s";
+}
+
+TEST(Trigger, ABreakdownClosesTheWindowAsTheFemsEndDoes) {
+    const Live live;
+    live.set_exit_code(70);
+    Service service(live.sandbox);
+    const std::string run = service.submit(with_triggers({{{"kind", "window"},
+                                                           {"lower", "time >= 0.5"},
+                                                           {"upper", "time > 1000"},
+                                                           {"snapshot_interval_s", 0.1}}}));
+    service.wait_for_end(run, 60);
+    const json trigger = triggers_of(service, run).at(0);
+    ASSERT_EQ(trigger.at("state"), "fired") << trigger;
+    EXPECT_NEAR(trigger.at("firings")[0].at("transfer_time"), 0.9, 0.0501);
 }
 
 TEST(Trigger, ManualFiresNowAndIsRefusedAfterTheEnd) {

@@ -40,7 +40,9 @@ struct AccuracyRow {
     bool below_noise = false;   ///< the error is not told apart from the noise of the repeats
     bool questionable = false;  ///< a run of it carries a flag that forbids to rely on it
     bool on_front = false;      ///< of error against CPU seconds
-    std::string reason = {};    ///< why there is no value, or no error
+    std::string reason = {};    ///< why a draw has no value, or there is no error
+
+    bool has_all_draws() const { return value && value->count == setting.variants.size(); }
 };
 
 struct LadderSummary {
@@ -50,6 +52,9 @@ struct LadderSummary {
     std::string message;                     ///< the course in a sentence
     /// What the rung is off that is the base; nothing: no rung is the base, or its error is not known
     std::optional<Share> of_base;
+    /// Errors are measured from its finest rung, and what that one is off is not known without sizes
+    bool lacks_sizes = false;
+    bool base_lacks_sizes = false;  ///< such a ladder has the base, too
 };
 
 struct AccuracyTable {
@@ -60,6 +65,13 @@ struct AccuracyTable {
     std::optional<std::size_t> recommended;  ///< row
     std::string recommendation;              ///< in a sentence
 };
+
+/// Its error is known and can be relied on: all its draws have a value, and neither it nor what it is
+/// measured from is questionable.
+inline bool can_be_offered(const AccuracyTable& table, const AccuracyRow& row) {
+    return row.error_of_a_run && row.cost && row.has_all_draws() && !row.questionable &&
+           !table.ladders[row.setting.ladder].reference_is_questionable;
+}
 
 struct BlindMean {
     std::vector<std::string> variants;  ///< one per draw

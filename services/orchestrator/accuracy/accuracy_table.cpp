@@ -16,6 +16,10 @@ using nlohmann::json;
 
 namespace {
 
+void add_reason(AccuracyRow& row, const std::string& more) {
+    row.reason += (row.reason.empty() ? "" : "; ") + more;
+}
+
 std::string worst_reason(const std::vector<Measured>& draws) {
     for (const Measured& each : draws)
         if (!each.reason.empty()) return each.reason;
@@ -61,7 +65,7 @@ AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
     return row;
 }
 
-/// Rungs without a known size are taken as halved; order, limit and index are then not told.
+/// Rungs without a known size are taken as halved; what rests on that is then not told.
 Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
     std::vector<Rung> rungs;
     bool sized = true;
@@ -75,6 +79,7 @@ Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
     if (!sized) {
         found.order = found.limit = found.gci = std::nullopt;
         found.order_by_noise = std::nullopt;
+        if (rests_on_sizes(found.course)) found.error_of_finest = std::nullopt;
     }
     return found;
 }
@@ -99,19 +104,25 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
         if (!row->value) continue;
         if (!ladder.reference) {
             const bool finest = plan.reference.kind == ReferenceKind::finest;
-            row->reason = "there is no reference: " +
-                          (finest ? "the finest rung has no value" : ladder.message);
-        } else if (*ladder.reference == 0.0) {
-            row->reason = "the reference is zero, and errors are relative to it";
-        } else if (plan.reference.kind == ReferenceKind::finest && row == rows.back()) {
+            add_reason(*row, "there is no reference: " +
+                                 (finest ? "the finest rung has no value" : ladder.message));
+            continue;
+        }
+        if (*ladder.reference == 0.0) {
+            add_reason(*row, "the reference is zero, and errors are relative to it");
+            continue;
+        }
+        if (plan.reference.kind == ReferenceKind::finest && row == rows.back()) {
             row->is_reference = true;
-            row->reason = "it is the reference";
+            add_reason(*row, "it is the reference");
         } else {
             const double off = std::abs(row->value->mean - *ladder.reference);
             row->error = off / std::abs(*ladder.reference);
             const auto noise = ladder.convergence.noise;
             row->below_noise = noise && off < smallest_told_difference(*noise, row->value->count);
         }
+        if (ladder.lacks_sizes)
+            add_reason(*row, "what the finest rung is off is not known: give the ladder \"sizes\"");
     }
 }
 
@@ -124,7 +135,19 @@ std::optional<Share> share_of(const AccuracyRow& row, const LadderSummary& ladde
     if (row.is_reference && of_finest) return Share{*of_finest, finest_is_told};
     if (!row.error) return std::nullopt;
     if (reference != ReferenceKind::finest) return Share{*row.error, !row.below_noise};
-    return Share{*row.error + of_finest.value_or(0.0), !row.below_noise || finest_is_told};
+    if (!of_finest) return std::nullopt;
+    return Share{*row.error + *of_finest, !row.below_noise || finest_is_told};
+}
+
+/// Whether the row's share of another ladder is not known for want of that ladder's sizes.
+bool rests_on_unsized(const AccuracyTable& table, AccuracyRow& row) {
+    std::string names;
+    for (std::size_t i = 0; i < table.ladders.size(); ++i)
+        if (i != row.setting.ladder && table.ladders[i].base_lacks_sizes)
+            names += (names.empty() ? "" : ", ") + table.plan.ladders[i].name;
+    if (names.empty()) return false;
+    add_reason(row, "what the base is off on " + names + " is not known without its \"sizes\"");
+    return true;
 }
 
 /// A row is off by its own ladder's error, and by what the base is off on the others: a number from
@@ -132,10 +155,12 @@ std::optional<Share> share_of(const AccuracyRow& row, const LadderSummary& ladde
 void tell_errors_of_runs(AccuracyTable& table) {
     const ReferenceKind reference = table.plan.reference.kind;
     const bool in_it = reference == ReferenceKind::given;
-    for (const AccuracyRow& row : table.rows)
-        if (row.setting.is_base && !in_it)
-            table.ladders[row.setting.ladder].of_base =
-                share_of(row, table.ladders[row.setting.ladder], reference);
+    for (const AccuracyRow& row : table.rows) {
+        if (!row.setting.is_base || in_it) continue;
+        LadderSummary& ladder = table.ladders[row.setting.ladder];
+        ladder.of_base = share_of(row, ladder, reference);
+        ladder.base_lacks_sizes = ladder.lacks_sizes;
+    }
     for (AccuracyRow& row : table.rows) {
         const LadderSummary& own = table.ladders[row.setting.ladder];
         std::vector<Share> shares;
@@ -143,7 +168,7 @@ void tell_errors_of_runs(AccuracyTable& table) {
             if (&each != &own && each.of_base) shares.push_back(*each.of_base);
         row.error_of_other_ladders = sum_of(shares);
         row.of_own_ladder = share_of(row, own, reference);
-        if (!row.of_own_ladder) continue;
+        if (!row.of_own_ladder || rests_on_unsized(table, row)) continue;
         shares.push_back(*row.of_own_ladder);
         row.bias = sum_of(shares);
         row.error_of_a_run = error_of_one_run(*row.bias, *row.value, *own.reference);
@@ -171,7 +196,6 @@ void tell_means(AccuracyTable& table) {
     }
 }
 
-/// Only rows to rely on are offered, of ladders whose reference can be relied on.
 void choose(AccuracyTable& table) {
     std::vector<Offer> offers;
     std::vector<std::size_t> rows;
@@ -179,9 +203,7 @@ void choose(AccuracyTable& table) {
     std::vector<std::size_t> rows_of_means;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const AccuracyRow& row = table.rows[i];
-        if (!row.error_of_a_run || !row.cost || row.questionable ||
-            table.ladders[row.setting.ladder].reference_is_questionable)
-            continue;
+        if (!can_be_offered(table, row)) continue;
         offers.push_back({row.cost->cpu_seconds, *row.error_of_a_run});
         rows.push_back(i);
         if (!row.mean_within_asked) continue;
@@ -241,6 +263,9 @@ void judge(AccuracyTable& table, const json& scene) {
         LadderSummary ladder;
         ladder.convergence = convergence_of_ladder({rows.begin(), rows.end()});
         ladder.reference = reference_of(table.plan.reference, ladder.convergence, *rows.back());
+        ladder.lacks_sizes = table.plan.reference.kind == ReferenceKind::finest &&
+                             table.plan.ladders[i].sizes.empty() &&
+                             rests_on_sizes(ladder.convergence.course);
         ladder.reference_is_questionable =
             table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
         ladder.message = course_in_words(ladder.convergence, table.plan, i);

@@ -59,6 +59,10 @@ std::string_view name_of(Course course) {
     return "below_noise";
 }
 
+bool rests_on_sizes(Course course) {
+    return course != Course::oscillating && course != Course::no_effect;
+}
+
 std::optional<double> observed_order(double ratio_coarse, double ratio_fine, double change_coarse,
                                      double change_fine) {
     const double wanted = change_coarse / change_fine;

@@ -37,6 +37,10 @@ enum class Course {
 };
 std::string_view name_of(Course course);
 
+/// Whether what the finest rung is off by its course rests on how much finer each rung is than the
+/// one before.
+bool rests_on_sizes(Course course);
+
 struct Convergence {
     Course course = Course::too_few;
     std::optional<double> order;  ///< p of value = limit + C size^p

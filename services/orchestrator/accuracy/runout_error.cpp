@@ -164,13 +164,13 @@ Place place_at(const std::string& variant, const json& transfer_time) {
 /// The draws of each variant at each transfer time.
 class Scatter {
   public:
-    Scatter(const Store& store, const std::string& run) {
+    Scatter(const Store& store, const std::string& run, const AllRows& all_rows) {
         const json study = store.study_of(run).value_or(json::object());
         if (study.value("draws", 1) < 2 && study.value("first_draw", 0) == 0) return;
         if (redrawn_named(study.value("draws_of", "")) == Redrawn::fem) noise_ = noise_of_fem;
         for (const json& each : study.at("variants"))
             repeated_.emplace(each.at("name"), repeated_variant(each));
-        for (const ResultRow& row : store.results(run)) {
+        for (const ResultRow& row : all_rows()) {
             if (!value_of(row, "runout").is_number()) continue;
             runouts_[place_of(row)].push_back(value_of(row, "runout"));
             tasks_.emplace(place_of(row), value_of(row, "mpm_task"));
@@ -255,10 +255,11 @@ Estimate of_mean(const std::optional<Estimate>& studied, Estimate scatter) {
 }  // namespace
 
 void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
-                        std::vector<ResultRow>& rows, std::vector<ResultRow>& means) {
+                        std::vector<ResultRow>& rows, std::vector<ResultRow>& means,
+                        const AllRows& all_rows) {
     Studies studies(store, data);
-    const Scatter scatter(store, run);
-    const OverTransferTime over_time(rows);
+    const Scatter scatter(store, run, all_rows);
+    std::optional<OverTransferTime> over_time;
     std::map<std::string, std::optional<Estimate>> by_variant;
     for (ResultRow& row : rows) {
         if (!value_of(row, "runout").is_number()) continue;
@@ -274,7 +275,8 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         std::optional<Estimate> estimate = known->second;
         if (!estimate || !estimate->error) {
             auto noise = scatter.estimate(row);
-            const auto beside = over_time.estimate(row);
+            if (!over_time) over_time.emplace(all_rows());
+            const auto beside = over_time->estimate(row);
             if (noise && beside) {
                 noise->from += "; neighbouring transfer times scatter by " +
                                words::text_of(*beside->error, 2) +

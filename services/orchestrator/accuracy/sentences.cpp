@@ -101,17 +101,24 @@ double error_of_means(const AccuracyTable& table, const AccuracyRow& row) {
                           most_draws_of_a_mean);
 }
 
-/// The row whose means come nearest to what is asked; nothing: no row has an error.
+/// The row whose means come nearest to what is asked; nothing: none can be offered.
 const AccuracyRow* nearest(const AccuracyTable& table) {
     const AccuracyRow* best = nullptr;
     for (const AccuracyRow& each : table.rows) {
-        if (!each.bias || each.questionable ||
-            table.ladders[each.setting.ladder].reference_is_questionable)
-            continue;
+        if (!can_be_offered(table, each)) continue;
         if (best == nullptr || error_of_means(table, each) < error_of_means(table, *best))
             best = &each;
     }
     return best;
+}
+
+/// Ladders that tell nothing for want of their sizes.
+std::string sizes_to_give(const AccuracyTable& table) {
+    std::string names;
+    for (std::size_t i = 0; i < table.ladders.size(); ++i)
+        if (table.ladders[i].lacks_sizes)
+            names += (names.empty() ? "" : ", ") + table.plan.ladders[i].name;
+    return names.empty() ? "" : "; \"sizes\" would tell that of " + names;
 }
 
 std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& row) {
@@ -156,9 +163,7 @@ std::string course_in_words(const Convergence& convergence, const AccuracyPlan& 
             break;
         case Course::monotone:
             if (plan.ladders[ladder].sizes.empty()) {
-                words =
-                    "the three finest rungs fall monotonically; how coarse each is was not "
-                    "given (\"sizes\"): no order";
+                words = "the three finest rungs fall monotonically: no order";
                 break;
             }
             words = order_in_words(convergence) + ", limit " +
@@ -168,6 +173,8 @@ std::string course_in_words(const Convergence& convergence, const AccuracyPlan& 
     }
     if (convergence.spread && convergence.course != Course::monotone)
         words += "; spread " + with_unit(*convergence.spread, plan.quantity);
+    if (plan.ladders[ladder].sizes.empty() && rests_on_sizes(convergence.course))
+        words += "; what the finest is off is not known without \"sizes\": how coarse each rung is";
     return words + noise_in_words(convergence, plan);
 }
 
@@ -188,7 +195,8 @@ std::string recommendation_in_words(const AccuracyTable& table) {
     if (table.recommended) return recommended_in_words(table, table.rows[*table.recommended]);
     const AccuracyRow* best = nearest(table);
     if (best == nullptr)
-        return "No setting can be recommended: no rung that can be relied on has an error yet.";
+        return "No setting can be recommended: no rung that can be relied on has an error yet" +
+               sizes_to_give(table) + ".";
     std::string words = "No setting meets " + asked;
     if (best->value->deviation)
         words += ", nor the mean of " + std::to_string(most_draws_of_a_mean) + " draws";

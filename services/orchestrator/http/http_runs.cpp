@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/words/number.hpp"
@@ -218,15 +219,13 @@ void add_without_transfer(const Store& store, const std::string& run,
     }
 }
 
-/// Of the study's own variants, not of their draws. `rows`: what the filter left.
-json same_results_of(const Store& store, const std::string& run, const ResultFilter& filter,
-                     const std::vector<ResultRow>& rows) {
+/// Of the study's own variants, not of their draws.
+json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
     std::vector<std::string> variants;
     for (const json& each : store.study_of(run).value().value("variants", json::array()))
         variants.push_back(each.at("name"));
     if (variants.size() < 2) return json::array();
-    if (filter.takes_all()) return same_results(rows, variants);
-    return same_results(store.results(run), variants);
+    return same_results(all_rows(), variants);
 }
 
 void results(const Service& service, Call& call) {
@@ -238,7 +237,13 @@ void results(const Service& service, Call& call) {
     ResultTable runs{"sweep_results", result_columns(),
                      service.store.results(call.parts[0], filter)};
     ResultTable means{"sweep_means", mean_columns(), service.store.means(call.parts[0])};
-    tell_runout_errors(service.store, service.data, call.parts[0], runs.rows, means.rows);
+    std::optional<std::vector<ResultRow>> beyond_the_filter;
+    const AllRows all_rows = [&]() -> const std::vector<ResultRow>& {
+        if (filter.takes_all()) return runs.rows;
+        if (!beyond_the_filter) beyond_the_filter = service.store.results(call.parts[0]);
+        return *beyond_the_filter;
+    };
+    tell_runout_errors(service.store, service.data, call.parts[0], runs.rows, means.rows, all_rows);
     const ResultTable& table = wanted == "runs" ? runs : means;
     const std::string format = call.parameter("format").value_or("json");
     if (format == "csv") {
@@ -265,12 +270,11 @@ void results(const Service& service, Call& call) {
                            {"state", each.state},
                            {"stood", each.stood},
                            {"reason", each.reason}});
-    const json head{
-        {"run", call.parts[0]},
-        {"columns", described(runs.columns)},
-        {"mean_columns", described(means.columns)},
-        {"without_transfer", std::move(without)},
-        {"same_results", same_results_of(service.store, call.parts[0], filter, runs.rows)}};
+    const json head{{"run", call.parts[0]},
+                    {"columns", described(runs.columns)},
+                    {"mean_columns", described(means.columns)},
+                    {"without_transfer", std::move(without)},
+                    {"same_results", same_results_of(service.store, call.parts[0], all_rows)}};
     reply_with_text(call.response,
                     opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
                         ",\"means\":" + as_json_text(means.rows, means.columns) + "}");

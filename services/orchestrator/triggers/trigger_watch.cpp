@@ -32,6 +32,20 @@ constexpr auto ask_again_after = std::chrono::seconds(1);
 
 bool has_ended(TaskState state) { return is_final(state) || state == TaskState::finalizing; }
 
+/// It ended, and neither at its end nor by a breakdown, which is a result: the disk was full, it was
+/// killed, or cancelled. What it has written is the beginning of what a retry makes of it.
+bool was_cut_short(const Task& fem) {
+    constexpr auto breakdown = static_cast<std::int64_t>(fault::ExitCode::breakdown);
+    if (fem.state == TaskState::failed) return !fem.fault || fem.fault->exit_code != breakdown;
+    return is_final(fem.state) && !has_output(fem.state);
+}
+
+std::string cut_short_text(const Task& fem) {
+    return "the FEM did not come to its end (" +
+           (fem.fault ? fem.fault->summary : std::string(name_of(fem.state))) +
+           "); a retry of the run arms this trigger again";
+}
+
 bool has_regular_snapshots(const Task& fem, const json& scene) {
     const std::string key = "/fem/snapshot_interval=";
     for (const std::string& each : fem.overrides) {
@@ -42,26 +56,29 @@ bool has_regular_snapshots(const Task& fem, const json& scene) {
 
 constexpr std::string_view critical_depth_field = "critical_depth";
 
-bool asks_for_critical_depth(const criteria::Criterion& criterion) {
-    const auto& fields = criterion.expression().fields;
+bool asks_for_critical_depth(const criteria::Expression& condition) {
+    const auto& fields = condition.fields;
     return std::ranges::find(fields, critical_depth_field) != fields.end();
 }
 
 bool asks_for_critical_depth(const Work& work) {
     if (const auto* when = std::get_if<When>(&work))
-        return asks_for_critical_depth(when->criterion);
+        return asks_for_critical_depth(when->criterion.expression());
     const auto* between = std::get_if<Between>(&work);
-    return between && (asks_for_critical_depth(between->window.lower()) ||
+    return between && (asks_for_critical_depth(between->window.lower().expression()) ||
                        asks_for_critical_depth(between->window.upper()));
 }
 
-/// The values on the crossing line, by name.
-json crossing_of(const criteria::Criterion& criterion) {
-    const criteria::Line& line = *criterion.crossing();
+/// The values on the line on which the condition became true, by name.
+json crossing_of(const criteria::Expression& condition, const criteria::Line& line) {
     json values{{"time", line.time}, {"step", line.step}};
     for (std::size_t i = 0; i < line.values.size(); ++i)
-        values[criterion.expression().fields[i]] = line.values[i];
+        values[condition.fields[i]] = line.values[i];
     return values;
+}
+
+json crossing_of(const criteria::Criterion& criterion) {
+    return crossing_of(criterion.expression(), *criterion.crossing());
 }
 
 std::string in_short(double value) { return words::text_of(value, 4); }
@@ -240,11 +257,11 @@ void TriggerWatch::feed(const Fem& fem, Armed& armed) {
     }
 }
 
-criteria::Line TriggerWatch::line_for(const Fem& fem, const criteria::Criterion& criterion,
+criteria::Line TriggerWatch::line_for(const Fem& fem, const criteria::Expression& condition,
                                       const telemetry::Line& line) {
     std::map<std::string, double> beside;
     if (fem.critical_depth) beside.emplace(critical_depth_field, *fem.critical_depth);
-    return criteria::line_for(criterion.expression(), line, beside);
+    return criteria::line_for(condition, line, beside);
 }
 
 /// What was true at the end and only not for long enough has begun: that is no sign of a dam that
@@ -252,36 +269,37 @@ criteria::Line TriggerWatch::line_for(const Fem& fem, const criteria::Criterion&
 void TriggerWatch::expire_unmet(const Fem& fem, Armed& armed,
                                 const criteria::Criterion& criterion) {
     std::optional<criteria::Line> last;
-    if (!fem.lines.empty()) last = line_for(fem, criterion, fem.lines.back());
+    if (!fem.lines.empty()) last = line_for(fem, criterion.expression(), fem.lines.back());
     const bool begun = criterion.state() == criteria::Criterion::State::holding;
     expire(armed, never_met(criterion, armed.trigger.spec.value("hold_s", 0.0), last),
            begun ? WasMet::yes : WasMet::no);
 }
 
 void TriggerWatch::take_line(const Fem& fem, Armed& armed, const telemetry::Line& line) {
-    const auto on = [&](const criteria::Criterion& criterion) {
-        return line_for(fem, criterion, line);
+    const auto on = [&](const criteria::Expression& condition) {
+        return line_for(fem, condition, line);
     };
-    const auto note = [&](const criteria::Criterion& criterion, bool before) {
-        if (before || criterion.state() != criteria::Criterion::State::met) return;
+    const auto note = [&](const criteria::Expression& condition, const criteria::Line& crossing) {
         armed.noticed_at = epoch_ms();
-        armed.crossed = crossing_of(criterion);
-        armed.crossed_step = criterion.crossing()->step;
+        armed.crossed = crossing_of(condition, crossing);
+        armed.crossed_step = crossing.step;
     };
-    const auto met = [](const criteria::Criterion& criterion) {
-        return criterion.state() == criteria::Criterion::State::met;
+    const auto take = [&](const criteria::Criterion& criterion, const auto& take_on) {
+        using State = criteria::Criterion::State;
+        const bool before = criterion.state() == State::met;
+        take_on(on(criterion.expression()));
+        if (!before && criterion.state() == State::met)
+            note(criterion.expression(), *criterion.crossing());
     };
     if (auto* when = std::get_if<When>(&armed.work)) {
-        const bool before = met(when->criterion);
-        when->criterion.take(on(when->criterion));
-        note(when->criterion, before);
+        take(when->criterion, [&](const criteria::Line& each) { when->criterion.take(each); });
     } else if (auto* between = std::get_if<Between>(&armed.work)) {
         criteria::Window& window = between->window;
-        const bool lower = met(window.lower()), upper = met(window.upper());
-        window.take_lower(on(window.lower()));
-        note(window.lower(), lower);
+        const bool before = window.upper_edge().has_value();
+        take(window.lower(), [&](const criteria::Line& each) { window.take_lower(each); });
         window.take_upper(on(window.upper()));
-        note(window.upper(), upper);
+        const auto upper = window.upper_edge();
+        if (!before && upper) note(window.upper(), *upper);
     }
 }
 
@@ -314,15 +332,15 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, When& when) {
 void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
     using State = criteria::Criterion::State;
     const criteria::Criterion& lower = between.window.lower();
-    const criteria::Criterion& upper = between.window.upper();
+    const criteria::Expression& upper = between.window.upper();
     if (lower.state() != State::met) {
         if (fem.ended) expire_unmet(fem, armed, lower);
         return;
     }
-    if (const auto& since = between.window.shut_since()) {
+    if (const auto since = between.window.shut_since()) {
         expire(armed,
-               "there is no window: " + upper.expression().text + " is true since " +
-                   in_short(since->time) + " s, and " + lower.expression().text + " only from " +
+               "there is no window: " + upper.text + " is true since " + in_short(since->time) +
+                   " s, and " + lower.expression().text + " only from " +
                    in_short(lower.crossing()->time) +
                    " s on; post a trigger with other conditions to the run, or add transfer times "
                    "to it (breach extend)",
@@ -332,21 +350,38 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
     if (armed.trigger.state == TriggerState::armed)
         move(armed, TriggerEvent::cross, {{"crossed", crossing_of(lower)}});
     const double lower_edge = lower.crossing()->time;
-    if (between.pick == criteria::Pick::first) {
-        take_first_from(fem, armed, lower_edge);
+    const bool wants_first = between.pick == criteria::Pick::first;
+    const Snapshot* first = first_from(fem, lower_edge);
+    if (wants_first && first && between.window.is_open_at(first->time)) {
+        // As noted at the lower edge: how much was read of what follows must not matter.
+        armed.crossed = crossing_of(lower);
+        armed.crossed_step = lower.crossing()->step;
+        take(fem, armed, *first, lower_edge);
         return;
     }
-    const bool upper_met = upper.state() == State::met;
-    if (!upper_met && !fem.ended) return;
+    const std::optional<criteria::Line> edge = between.window.upper_edge();
+    if (!edge && !fem.ended) {
+        if (wants_first && !first && !fem.regular) ask_for_snapshot(fem);
+        return;
+    }
+    if (!edge && was_cut_short(fem.task)) {
+        expire(armed, cut_short_text(fem.task), WasMet::yes);
+        return;
+    }
     // Snapshots before the edge were written in earlier steps and are all there. A FEM that never
     // got too distorted closes the window with its end.
     std::vector<double> times;
-    const double limit = upper_met ? upper.crossing()->time : std::numeric_limits<double>::max();
+    const double limit = edge ? edge->time : std::numeric_limits<double>::max();
     for (const Snapshot& each : fem.snapshots) {
         if (each.time < limit - slack) times.push_back(each.time);
     }
-    const double upper_edge = upper_met ? limit : times.empty() ? lower_edge : times.back();
+    const double upper_edge = edge ? limit : times.empty() ? lower_edge : times.back();
     const auto time = criteria::picked(between.pick, lower_edge, upper_edge, times);
+    if (!edge && !first) {
+        expire(armed, "the FEM ended without a snapshot at or after " + spelt(lower_edge) + " s",
+               WasMet::yes);
+        return;
+    }
     if (!time) {
         expire(armed,
                "no snapshot lies between " + spelt(lower_edge) + " s and " + spelt(upper_edge) +
@@ -355,15 +390,21 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Between& between) {
         return;
     }
     armed.crossed = {{"lower", crossing_of(lower)},
-                     {"upper", upper_met ? crossing_of(upper) : json("the FEM's end")}};
+                     {"upper", edge ? crossing_of(upper, *edge) : json("the FEM's end")}};
     if (armed.noticed_at == 0) armed.noticed_at = epoch_ms();
-    const double wanted =
-        between.pick == criteria::Pick::midpoint ? 0.5 * (lower_edge + upper_edge) : *time;
+    const double wanted = wants_first ? lower_edge
+                          : between.pick == criteria::Pick::midpoint
+                              ? 0.5 * (lower_edge + upper_edge)
+                              : *time;
     take(fem, armed, *std::ranges::find(fem.snapshots, *time, &Snapshot::time), wanted);
 }
 
 void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
     if (!fem.ended) return;
+    if (was_cut_short(fem.task)) {
+        move(armed, TriggerEvent::expire, {{"why", cut_short_text(fem.task)}});
+        return;
+    }
     std::vector<double> times;
     std::vector<Snapshot> at;
     for (const Snapshot& each : fem.snapshots) {
@@ -420,10 +461,14 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
 
 // ---------------------------------------------------------------- firing
 
-void TriggerWatch::take_first_from(Fem& fem, Armed& armed, double wanted) {
+const TriggerWatch::Snapshot* TriggerWatch::first_from(const Fem& fem, double wanted) {
     const auto first = std::ranges::find_if(
         fem.snapshots, [&](const Snapshot& each) { return each.time >= wanted - slack; });
-    if (first != fem.snapshots.end()) {
+    return first == fem.snapshots.end() ? nullptr : &*first;
+}
+
+void TriggerWatch::take_first_from(Fem& fem, Armed& armed, double wanted) {
+    if (const Snapshot* first = first_from(fem, wanted)) {
         take(fem, armed, *first, wanted);
     } else if (fem.ended) {
         expire(armed, "the FEM ended without a snapshot at or after " + spelt(wanted) + " s",

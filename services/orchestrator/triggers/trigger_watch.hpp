@@ -7,7 +7,8 @@
 // The snapshot of a firing is the first one not before the time at which the trigger was met. While
 // there is none and the FEM runs, it is asked for one (the file snapshot_request in its output
 // folder), unless it takes regular ones anyway. When the FEM has ended, what exists must serve; a
-// snapshot later than the trigger's within_s makes it expire.
+// snapshot later than the trigger's within_s makes it expire. The end of a FEM that was cut short
+// (it failed, and not by a breakdown) closes no window and begins no bisection: they expire.
 #pragma once
 
 #include <chrono>
@@ -69,7 +70,7 @@ class TriggerWatch {
     void read_on(Fem& fem);
     void feed(const Fem& fem, Armed& armed);
     void take_line(const Fem& fem, Armed& armed, const telemetry::Line& line);
-    static criteria::Line line_for(const Fem& fem, const criteria::Criterion& criterion,
+    static criteria::Line line_for(const Fem& fem, const criteria::Expression& condition,
                                    const telemetry::Line& line);
     void look_for_stability(Fem& fem);
     void settle(Fem& fem, Armed& armed);
@@ -77,6 +78,8 @@ class TriggerWatch {
     void settle_work(Fem& fem, Armed& armed, When& when);
     void settle_work(Fem& fem, Armed& armed, Between& between);
     void settle_work(Fem& fem, Armed& armed, Bisect& bisect);
+    /// Nothing: there is none so far.
+    static const Snapshot* first_from(const Fem& fem, double wanted);
     void take_first_from(Fem& fem, Armed& armed, double wanted);
     void take(Fem& fem, Armed& armed, const Snapshot& snapshot, double wanted);
     void ask_for_snapshot(Fem& fem);

@@ -105,12 +105,41 @@ std::string outside(const InverseQuestion& question, const Point& low, const Poi
            in_unit(question.target, question.unit) + " is not between them";
 }
 
-/// The neighbours between which the result passes the target; the ends enclose it.
+enum class Side { below, at, above };
+
+Side side_of(const Point& point, double target) {
+    if (point.result == target) return Side::at;
+    return point.result < target ? Side::below : Side::above;
+}
+
+std::string at_both_ends(const InverseQuestion& question, const Point& low, const Point& high) {
+    return question.quantity + " is " + in_unit(question.target, question.unit) + " at " +
+           in_unit(low.value) + " and at " + in_unit(high.value) +
+           ": no value between them is told apart";
+}
+
+/// Why no value can be told; empty: the ends enclose it.
+std::string refusal_of(const InverseQuestion& question, const Point& low, const Point& high) {
+    const Side side = side_of(low, question.target);
+    if (side != side_of(high, question.target)) return "";
+    return side == Side::at ? at_both_ends(question, low, high) : outside(question, low, high);
+}
+
+/// The neighbours between which the result passes the target, or comes to it or leaves it where
+/// several give the target itself; the ends are on two sides of it.
 std::size_t bracket_in(const std::vector<Point>& points, double target) {
-    const bool below = points.front().result < target;
+    const Side first = side_of(points.front(), target);
     std::size_t k = 1;
-    while (k + 1 < points.size() && (points[k].result < target) == below) ++k;
+    while (side_of(points[k], target) == first) ++k;
     return k - 1;
+}
+
+/// Whether the result is the target itself at a point and still at the next one in the direction.
+bool stays_at_target(const std::vector<Point>& points, std::size_t here, int direction,
+                     double target) {
+    const auto next = static_cast<std::ptrdiff_t>(here) + direction;
+    return next >= 0 && next < static_cast<std::ptrdiff_t>(points.size()) &&
+           points[here].result == target && points[static_cast<std::size_t>(next)].result == target;
 }
 
 void tell(const InverseQuestion& question, const Scale& scale, const std::vector<Point>& points,
@@ -131,8 +160,9 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
                                       " nothing was transferred, for no trigger's condition was "
                                       "met: the result is taken as 0 there");
     const double scatter = noise.of_a_mean(std::min(a.lattices, b.lattices));
+    const bool have_target = a.result == question.target || b.result == question.target;
     if (const double step = std::abs(b.result - a.result);
-        step > scatter && step > large_step * std::abs(question.target))
+        !have_target && step > scatter && step > large_step * std::abs(question.target))
         add_remark(advice.remark, "from " + in_unit(a.value) + " to " + in_unit(b.value) +
                                       " it goes from " + in_unit(a.result, question.unit) + " to " +
                                       in_unit(b.result, question.unit) +
@@ -144,6 +174,9 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
         return;
     }
     const auto edge = [&](std::size_t inside, int direction) {
+        // What is looked for is the end of a stretch that gives the target itself, not all of it.
+        const std::size_t end = direction < 0 ? bracket : bracket + 1;
+        if (stays_at_target(points, end, direction, question.target)) return value;
         // The inner end of the band lies in the bracket itself, where the step is outside the band.
         const Point root{scale.of(value), value, question.target, 0, 0, 0};
         std::vector<Point> way = points;
@@ -176,12 +209,8 @@ InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const In
     const std::vector<Point> points = points_of(steps, scale);
     const Noise noise = noise_of(steps);
     if (noise.freedom > 0) advice.noise = noise.deviation;
-    const auto side = [&](const Point& point) { return point.result < question.target; };
-    if (side(points.front()) == side(points.back()) && points.front().result != question.target &&
-        points.back().result != question.target) {
-        advice.refused = outside(question, points.front(), points.back());
-        return advice;
-    }
+    advice.refused = refusal_of(question, points.front(), points.back());
+    if (!advice.refused.empty()) return advice;
     const std::size_t bracket = bracket_in(points, question.target);
     const Point& a = points[bracket];
     const Point& b = points[bracket + 1];

@@ -45,11 +45,13 @@ struct InverseAdvice {
 
 /// Both ends first; then the bracket is halved until it is as narrow as the tolerance, or until the
 /// results at its ends differ by no more than the noise of a mean. The value is interpolated between
-/// them. Its interval: all values whose result, interpolated between neighbouring steps, is within
-/// t s / sqrt(lattices) of the target, s the noise pooled over the steps and t Student's factor of
-/// 90 % (services/orchestrator/records/repeats.hpp). It says nothing of the other parameters, which
-/// stay at their medians, nor of the model. Assumed: the result rises or falls all the way between
-/// the ends. Where nothing was let go the result is 0, and jumps beside it: noise is of the others.
+/// them; where a stretch of values gives the target itself, as a runout of 0, it is the end of that
+/// stretch. Its interval: all values whose result, interpolated between neighbouring steps, is within
+/// t s / sqrt(lattices) of the target (of such a stretch its end alone), s the noise pooled over the
+/// steps and t Student's factor of 90 % (services/orchestrator/records/repeats.hpp). It says nothing
+/// of the other parameters, which stay at their medians, nor of the model. Assumed: the result rises
+/// or falls all the way between the ends, but for such a stretch. Where nothing was let go the result
+/// is 0, and jumps beside it: noise is of the others.
 InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const InverseStep> steps);
 
 }  // namespace breach::orchestrator

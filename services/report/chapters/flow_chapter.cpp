@@ -60,18 +60,16 @@ Table gauge_table(const Run& run) {
     return table;
 }
 
-/// Depth of the deposit over x at the end; nothing from an archive without profiles.
+/// Depth of the deposit over x at the end; nothing from an archive without an envelope. The last profile
+/// is the last frame's, which may be long before.
 std::optional<Series> deposit_of(const PhaseFolder& mpm) {
     const auto archive =
         exchange::read_archive(mpm.files / phases::files::history, "mpm_history", 1);
-    const auto x = archive.reals.find("profile.x"), depths = archive.reals.find("profile.depths");
+    const auto x = archive.reals.find("envelope.x");
+    const auto depths = archive.reals.find("envelope.final_depth");
     if (x == archive.reals.end() || depths == archive.reals.end()) return {};
-    const std::size_t columns = x->second.size();
-    if (columns == 0 || depths->second.size() < columns) return {};
-    return Series{
-        of_transfer(mpm) + (still_moves(mpm) ? " (still moving)" : ""),
-        x->second,
-        {depths->second.end() - static_cast<std::ptrdiff_t>(columns), depths->second.end()}};
+    return Series{of_transfer(mpm) + (still_moves(mpm) ? " (still moving)" : ""), x->second,
+                  depths->second};
 }
 
 void add_gauges(const Material& from, Chapter& chapter, Document& document) {
@@ -106,7 +104,7 @@ void add_flow(const Material& from, Document& document) {
         if (auto series = deposit_of(*each)) deposit.chart.series.push_back(std::move(*series));
     }
     if (deposit.chart.series.empty()) {
-        document.left_out.push_back({"deposit profile", "the runouts kept no profiles"});
+        document.left_out.push_back({"deposit profile", "the runouts kept no envelope"});
     } else {
         deposit.chart.marks = {
             {Mark::At::x, runouts.front()->scene.at("mpm").at("runout").at("toe").at(0), "toe"}};

@@ -1,6 +1,7 @@
 // The first page: what was asked, what comes out and how far it is to be believed, within which
 // limits. Its numbers are those of the phases' result.json.
 #include <algorithm>
+#include <map>
 
 #include "core/phases/phases.hpp"
 #include "services/report/chapters/chapters.hpp"
@@ -121,6 +122,10 @@ std::vector<std::string> asked_of(const Run& run, const json& scene) {
 
 // ---------------------------------------------------------------- what comes out
 
+std::string counted(std::size_t count, std::size_t all) {
+    return " (" + std::to_string(count) + " of " + std::to_string(all) + ")";
+}
+
 /// "3 to 12.5 (8 of 9)": least and largest of a fact over the phases that have it; a lower bound
 /// where the largest is one.
 std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::string& pointer,
@@ -137,14 +142,12 @@ std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::s
         if (!least || value(each) < value(least)) least = each;
         if (!largest || value(each) > value(largest)) largest = each;
     }
-    const std::string counted =
-        " (" + std::to_string(count) + " of " + std::to_string(phases.size()) + ")";
-    if (count == 0) return "-" + counted;
+    if (count == 0) return "-" + counted(0, phases.size());
     const auto text = [&](const PhaseFolder* one) {
         const std::string value = rounded(one->result.at(at).get<double>(), 4);
         return grows ? bounded(*one, value) : value;
     };
-    return count == 1 ? text(least) + counted : text(least) + " to " + text(largest) + counted;
+    return text(least) + (count > 1 ? " to " + text(largest) : "") + counted(count, phases.size());
 }
 
 std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
@@ -254,6 +257,28 @@ void add_runouts(const Run& run, Table& table) {
                     "\u2265: a lower bound, the soil still moved.";
 }
 
+/// The last stage of each analysis, of which variants may have different numbers; nothing: none has
+/// stages.
+std::optional<std::vector<std::string>> liquefied_row(const std::vector<const PhaseFolder*>& all) {
+    std::multimap<double, const PhaseFolder*> factors;
+    for (const PhaseFolder* each : all) {
+        if (!each->result.is_object()) continue;
+        const json stages = each->result.value("stages", json::array());
+        const json factor =
+            stages.empty() ? json() : stages.back().value("factor_of_safety", json());
+        if (factor.is_number()) factors.emplace(factor.get<double>(), each);
+    }
+    if (factors.empty()) return {};
+    const auto& [least, of] = *factors.begin();
+    const std::string largest =
+        factors.size() > 1 ? " to " + rounded(factors.rbegin()->first, 4) : "";
+    return std::vector<std::string>{
+        "Factor of safety with every layer liquefied that may", rounded(least, 4),
+        rounded(least, 4) + largest + counted(factors.size(), all.size()),
+        "residual strengths of /lem/liquefaction" +
+            (of->variant.empty() ? "" : "; the least, " + of->variant)};
+}
+
 void add_factors(const Run& run, Table& table) {
     const auto all = phases_named(run, phases::lem.program);
     if (all.empty()) return;
@@ -274,17 +299,12 @@ void add_factors(const Run& run, Table& table) {
         worth += "; Spencer " + spencer;
     if (!(*least)->variant.empty()) worth += "; the least, " + (*least)->variant;
     if (const std::string end = how_it_ended(**least); end != "well") worth += "; " + end;
-    const std::size_t stages = (*least)->result.value("stages", json::array()).size();
+    auto liquefied = liquefied_row(all);
     table.rows.push_back(
-        {stages > 1 ? "Factor of safety before any layer liquefies" : "Factor of safety",
+        {liquefied ? "Factor of safety before any layer liquefies" : "Factor of safety",
          brief_fact(**least, "/factor_of_safety"), range_of(all, "/factor_of_safety", false),
          worth});
-    if (stages > 1) {
-        const std::string last = "/stages/" + std::to_string(stages - 1) + "/factor_of_safety";
-        table.rows.push_back({"Factor of safety with every layer liquefied that may",
-                              brief_fact(**least, last), range_of(all, last, false),
-                              "residual strengths of /lem/liquefaction"});
-    }
+    if (liquefied) table.rows.push_back(std::move(*liquefied));
     if ((*least)->result.contains("critical_depth"))
         table.rows.push_back({"Critical liquefied depth [m]",
                               brief_fact(**least, "/critical_depth"),

@@ -214,7 +214,7 @@ void add_numbers(const Material& from, Document& document) {
         {{"runout [m]", "/runout", 1.0, true},
          {"beyond toe [m]", "/runout_beyond_toe", 1.0, true},
          {"farthest point [m]", "/runout_largest", 1.0, true},
-         {"1 m front [m]", "/runout_front", 1.0, true},
+         {"front [m]", "/runout_front", 1.0, true},
          {"area beyond toe [m2]", "/area_beyond_toe", 1.0, true},
          {"at rest", "/at_rest"},
          {"in motion / released [%]", "/kinetic_share", 0.01},
@@ -224,9 +224,10 @@ void add_numbers(const Material& from, Document& document) {
          {"error: volume / initial", "/volume_ratio"},
          {"error: overlap", "/overlap"}},
         "Errors: share of the released energy that the scheme took (positive) or made; mean volume "
-        "over initial volume; share of soil that lies in other soil. \u2265: a lower bound, the "
-        "soil still "
-        "moved.");
+        "over initial volume; share of soil that lies in other soil. Front: the farthest place "
+        "where "
+        "the soil is /mpm/runout/front_depth deep (1 m unless the scene says so). \u2265: a lower "
+        "bound, the soil still moved.");
     if (Table means = means_of(from.run); !means.rows.empty())
         chapter.tables.push_back(std::move(means));
     if (Table errors = errors_of(from.run); !errors.rows.empty())

@@ -280,12 +280,10 @@ WindowEdges window_of(const Run& run, const Telemetry& fem) {
     const auto time_of = [](const std::optional<criteria::Line>& line) {
         return line ? std::optional(line->time) : std::nullopt;
     };
-    const auto edge = [&](const criteria::Criterion& criterion) {
-        const bool met = criterion.state() == criteria::Criterion::State::met;
-        return met ? time_of(criterion.crossing()) : std::nullopt;
-    };
+    const bool developed = window.lower().state() == criteria::Criterion::State::met;
     const auto shut = time_of(window.shut_since());
-    return {edge(window.lower()), shut ? shut : edge(window.upper())};
+    return {developed ? time_of(window.lower().crossing()) : std::nullopt,
+            shut ? shut : time_of(window.upper_edge())};
 }
 
 WindowEdges window_in(const Measures& measures) {

@@ -36,17 +36,36 @@ std::optional<double> leading_number(std::string_view text) {
     return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 
+/// A time as labels spell it, "13.000000"; nothing for another word, as "20" of a variant "20_kpa".
+std::optional<double> spelt_time(const std::string& word) {
+    const auto time = leading_number(word);
+    const bool is_time = time && std::isfinite(*time) && *time >= 0.0;
+    return is_time && phases::files::spelt(*time) == word ? time : std::nullopt;
+}
+
 /// "mpm_13.000000_softened": time and variant; both may be missing.
 void take_apart(const std::string& label, PhaseFolder& phase) {
     const std::size_t first = label.find('_');
     if (first == std::string::npos) return;
     const std::string rest = label.substr(first + 1);
-    phase.transfer_time = leading_number(rest);
+    const std::size_t next = rest.find('_');
+    phase.transfer_time = spelt_time(rest.substr(0, next));
     if (!phase.transfer_time) {
         phase.variant = rest;
-    } else if (const std::size_t next = rest.find('_'); next != std::string::npos) {
+    } else if (next != std::string::npos) {
         phase.variant = rest.substr(next + 1);
     }
+}
+
+/// What a task says of itself goes before its label, also that it has no transfer time.
+void take_task(const json& task, PhaseFolder& phase) {
+    phase.variant = task.value("variant", phase.variant);
+    if (task.contains("transfer_time")) {
+        const json& time = task.at("transfer_time");
+        phase.transfer_time = time.is_number() ? std::optional(time.get<double>()) : std::nullopt;
+    }
+    for (const json& each : task.value("artifacts", json::array()))
+        phase.artifacts.push_back(each.at("sha256"));
 }
 
 /// The label is the folder's name; "output" is what the service calls the folder inside it.
@@ -98,14 +117,7 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
     phase.phase = phase_of(phase.label, task, phase.result);
     if (rank_of(phase.phase) == phases::all.size()) return {};
     take_apart(phase.label, phase);
-    if (task.is_object()) {
-        phase.variant = task.value("variant", phase.variant);
-        if (const json t = task.value("transfer_time", json()); t.is_number()) {
-            phase.transfer_time = t;
-        }
-        for (const json& each : task.value("artifacts", json::array()))
-            phase.artifacts.push_back(each.at("sha256"));
-    }
+    if (task.is_object()) take_task(task, phase);
     if (phase.phase == phases::fem.program || phase.phase == phases::lem.program)
         phase.transfer_time.reset();
     if (!phase.result.is_object()) phase.fault = fault_of(files, task);
@@ -244,7 +256,10 @@ const PhaseFolder* source_of(const Run& run, const PhaseFolder& phase) {
 }
 
 bool is_static(const Run& run) {
-    return !phase_named(run, phases::fem.program) && !phase_named(run, phases::transfer.program);
+    return !phase_named(run, phases::fem.program) &&
+           std::ranges::none_of(run.phases, [](const PhaseFolder& each) {
+               return each.phase == phases::transfer.program || each.transfer_time;
+           });
 }
 
 bool has_telemetry(const PhaseFolder& phase) {

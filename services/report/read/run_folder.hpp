@@ -66,7 +66,8 @@ const PhaseFolder* phase_named(const Run& run, const std::string& phase);
 /// that it lay in; null: none of the run did, or the result does not say.
 const PhaseFolder* source_of(const Run& run, const PhaseFolder& phase);
 
-/// Without a FEM there is nothing to shake and nothing to transfer: points fill the section.
+/// Without a FEM there is nothing to shake and nothing to transfer: points fill the section. Runouts
+/// that have a transfer time came from a FEM, also where its folder is not there.
 bool is_static(const Run& run);
 
 /// False for a phase that ended before its first line.

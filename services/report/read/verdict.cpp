@@ -48,10 +48,16 @@ std::string with(const json& facts, const char* key, const std::string& name,
     return ", " + name + rounded(facts.at(key).get<double>() / in_si, 4) + unit;
 }
 
+/// When; null: not known.
+json time_of_entanglement(const PhaseFolder& fem) {
+    const json facts = fem.result.value("entanglement", json::object());
+    return facts.value("time", fem.result.value("end_time", json()));
+}
+
 /// "entangled at 6.7 s in element 212 (region tailings, x = 34.1 m, y = 12 m)".
 std::string entangled_where(const PhaseFolder& fem) {
     const json facts = fem.result.value("entanglement", json::object());
-    const json time = facts.value("time", fem.result.value("end_time", json()));
+    const json time = time_of_entanglement(fem);
     std::string text = "entangled";
     if (time.is_number()) text += " at " + short_number(time) + " s";
     if (facts.contains("element")) text += " in element " + facts.at("element").dump();
@@ -277,6 +283,29 @@ std::string entanglement_of(const PhaseFolder& fem) {
                        ? "That is the mesh's doing and not the section's failure: refine "
                          "it there."
                        : "So ends the FEM of a section that fails; it is no fault.");
+}
+
+std::string entanglements_of(const std::vector<const PhaseFolder*>& fems) {
+    if (fems.size() == 1) return entanglement_of(*fems.front());
+    std::set<double> times;
+    std::size_t entangled = 0, corners = 0;
+    for (const PhaseFolder* each : fems) {
+        if (!is_entangled(*each)) continue;
+        ++entangled;
+        if (is_corner(*each)) ++corners;
+        if (const json time = time_of_entanglement(*each); time.is_number())
+            times.insert(time.get<double>());
+    }
+    if (entangled == 0) return "";
+    std::string text =
+        std::to_string(entangled) + " of " + std::to_string(fems.size()) + " meshes entangled";
+    if (times.size() == 1) text += ", at " + short_number(*times.begin()) + " s";
+    if (times.size() > 1)
+        text += ", from " + short_number(*times.begin()) + " to " + short_number(*times.rbegin()) +
+                " s";
+    if (corners == 0) return text + ".";
+    return text + "; " + std::to_string(corners) +
+           " of them at one bad corner, which is the mesh's doing and not the section's failure.";
 }
 
 std::string how_it_ended(const PhaseFolder& phase) {

@@ -78,6 +78,23 @@ export function page_of_transfers(cursor, limit) {
     if (cursor) query.set("cursor", cursor);
     return get_json(`/v1/transfers?${query}`);
 }
+/// Of a run: which FEM task each transfer task was taken from; empty of an earlier service.
+export async function fems_of_transfers(run) {
+    const fems = new Map();
+    let cursor = null;
+    try {
+        do {
+            const query = new URLSearchParams({ limit: 500 });
+            if (cursor) query.set("cursor", cursor);
+            const { transfers, next } = await get_json(`${path_of("runs", run, "transfers")}?${query}`);
+            for (const { task, fem_task: fem } of transfers) fems.set(task, fem);
+            cursor = next;
+        } while (cursor);
+    } catch (fault) {
+        if (!(fault instanceof Problem) || fault.status !== 404) throw fault;
+    }
+    return fems;
+}
 /// What runs where, now: {executor, slots, slots_used, queue, workers, slurm, ...}
 export const read_workers = () => get_json("/v1/workers");
 /// {events, next} after the given number.

@@ -13,13 +13,13 @@ const axis = { x: "CPU time of the MPM run [s]", x_name: "CPU", x_unit: "s",
 export class Cost {
     /// ask(key, column): where a point comes from.
     constructor(ask) {
-        const plot = (id, y, title, column) => new Plot(by_id(id), { ...axis, y, title },
-                                                        { height: 260, choose: (_, key) => key && ask(key, column) });
+        const with_plot = (id, title, entry) => ({ ...entry, plot: new Plot(by_id(id), { ...axis, y: entry.y, title },
+                                                                            { height: 260, choose: (_, key) => key && ask(key, entry.column) }) });
         this.plots = [
-            { plot: plot("cost-runout", "runout from the toe [m]", "Runout against CPU time", "runout"),
-              column: "runout", error: "runout_error", unit: "m" },
-            { plot: plot("cost-share", "numerical share [–]", "Numerical share against CPU time", "numerical_share"),
-              column: "numerical_share", unit: "" },
+            with_plot("cost-runout", "Runout against CPU time",
+                      { y: "runout from the toe [m]", column: "runout", error: "runout_error", unit: "m" }),
+            with_plot("cost-share", "Numerical share against CPU time",
+                      { y: "numerical share [–]", column: "numerical_share", unit: "" }),
         ];
     }
 
@@ -31,9 +31,9 @@ export class Cost {
         by_id("cost-none").hidden = finished.length > 0;
         set_text(by_id("cost-none"), run.tasks.some(({ phase }) => phase === "lem_tool") && run.tasks.every(({ phase }) => phase === "lem_tool")
             ? "A stability analysis alone: no runout is asked for." : "No runout is known yet.");
-        for (const { plot, column, error, unit } of this.plots) {
+        for (const { plot, y, column, error, unit } of this.plots) {
             const field = error && has_error ? error : column;
-            plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : plot.labels.y;
+            plot.labels.y = field === "runout_error" ? "error estimate of the runout [m]" : y;
             const lines = run.study?.uncertainty ? [{ variant: "samples", rows: finished }] : series_by_variant(finished, variants);
             plot.show({ series: lines.map(({ variant, rows: points }) => ({
                 name: variant || "transfer times", unit, points: true, scatter: true, keys: points.map(key_of),

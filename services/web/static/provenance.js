@@ -50,12 +50,30 @@ export class Provenance {
 /// The stability analysis of a row's variant, or the one that serves all.
 const stability_of = (run, { variant }) => run.tasks.find((task) => task.phase === "lem_tool" && [variant, ""].includes(task.variant));
 
+let known = { run: null, count: 0, fems: new Map() }; // of the run that was looked at last
+
+/// Which FEM task each transfer task of a run was taken from; asked again when the run has more transfers.
+export async function fems_of(run) {
+    const count = run.tasks.filter(({ phase }) => phase === "transfer_tool").length;
+    if (known.run !== run.id || known.count !== count)
+        known = { run: run.id, count, fems: count ? await api.fems_of_transfers(run.id) : new Map() };
+    return known.fems;
+}
+
+/// The id of the FEM task behind a transfer. One that serves several variants has the name of the first: by its name it is
+/// found only where the server does not tell.
+export function fem_of(run, transfer, fems, variant = transfer?.variant) {
+    if (fems.has(transfer?.id)) return fems.get(transfer.id);
+    const all = run.tasks.filter(({ phase }) => phase === "fem_solver");
+    return (all.find((task) => task.variant === variant) ?? (all.length === 1 ? all[0] : null))?.id;
+}
+
 /// The tasks from the runout back to the FEM (of a factor of safety, its analysis), each as {task, provenance: of its result.json, or of the fault.json of one
 /// that broke down, or null}.
 async function chain_of(run, row, stability) {
     const transfer = run.tasks.find((task) => task.id === row.transfer_task);
-    const fem = run.tasks.find((task) => task.phase === "fem_solver" && task.variant === (transfer?.variant || row.variant)) ??
-                run.tasks.find((task) => task.phase === "fem_solver");
+    const fem_id = stability ? null : fem_of(run, transfer, await fems_of(run), transfer?.variant || row.variant);
+    const fem = run.tasks.find((task) => task.id === fem_id);
     const mpm = run.tasks.find((task) => task.id === row.mpm_task);
     return Promise.all((stability ? [stability] : [mpm, transfer, fem]).filter(Boolean).map(async (listed) => {
         const task = await api.read_task(listed.id);

@@ -5,11 +5,13 @@ import { by_id, element, mirror, set_text } from "./dom.js";
 import { by_point, is_active, mpm_name, number, variants_of } from "./format.js";
 import { abscissas, is_other, panels } from "./panels.js";
 import { Plot } from "./plot.js";
+import { fem_of, fems_of } from "./provenance.js";
 import { draw_triggers, moments, thresholds, windows } from "./triggers.js";
 
 export class Telemetry {
     constructor() {
         this.plots = new Map(); // panel title -> Plot
+        this.fems = new Map(); // transfer task -> FEM task
         by_id("telemetry-source").addEventListener("change", (event) => this.open(event.target.value));
         this.forget();
     }
@@ -30,6 +32,9 @@ export class Telemetry {
         mirror(by_id("telemetry-source"), sources, (task) => task.id, (task) => element("option", { value: task.id }),
                (option, task) => set_text(option, source_name(task)));
         by_id("telemetry").hidden = sources.length === 0; // a stability analysis alone has none
+        const fems = await fems_of(run);
+        if (this.run !== run) return;
+        this.fems = fems;
         const chosen = sources.find((task) => task.id === this.task) ?? sources[0];
         if (!chosen) return;
         if (chosen.id !== this.task) await this.open(chosen.id);
@@ -106,13 +111,14 @@ export class Telemetry {
         by_id("telemetry-more").hidden = others.length === 0;
     }
 
-    /// What belongs over the curves of the chosen FEM; triggers watch nothing else.
+    /// What belongs over the curves of the chosen FEM, and to no other one; triggers watch nothing else.
     find_overlay() {
         const task = this.chosen();
         this.overlay = { levels: [], lines: [], bands: [] };
         if (task?.phase !== "fem_solver") return;
         const triggers = this.run.triggers.filter((trigger) => trigger.fem_task === task.id);
-        const transfers = this.run.tasks.filter((other) => other.phase === "transfer_tool");
+        const transfers = this.run.tasks.filter((other) => other.phase === "transfer_tool" &&
+                                                           fem_of(this.run, other, this.fems) === task.id);
         this.overlay = {
             levels: thresholds(triggers),
             lines: [...transfers.map((other) => ({ x: other.transfer_time, label: `transfer at ${number(other.transfer_time)} s` })),

@@ -3,16 +3,19 @@
 floor that holds it (c 20 to 4 kPa over epsilon_q 0 to 10 %, phi 1 degree, E 1 MPa, nu 0.33, g 10), by the local law with
 strains scaled by the cell and by the nonlocal one (l = 0.32 m, reference length 0.2 m). A row per run.
 
-    retrogressive_slope.py --solver build/release/bin/mpm_solver --output folder [--cells 0.2,0.1,0.05] [--points 2,3]
-                           [--set /mpm/overlap_correction/rate=5 ...]
+    retrogressive_slope.py --solver build/release/bin/mpm_solver [--output folder] [--cells 0.2,0.1,0.05] [--points 2,3]
+                           [--law nonlocal] [--set /mpm/overlap_correction/rate=5 ...] [--within 0.03]
 
-Runs that the folder holds already are not repeated, so other settings want another folder."""
+--within: exits with 1 if a run failed or its Rd is farther than this from the mean of its law. Runs that the folder holds already
+are not repeated, so other settings want another folder; without one nothing is kept."""
 import argparse
 import concurrent.futures
 import csv
 import json
 import os
 import subprocess
+import sys
+import tempfile
 
 import numpy
 
@@ -81,27 +84,34 @@ def run(solver, folder, settings, h, points, nonlocal_length):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--solver", required=True)
-    parser.add_argument("--output", required=True)
+    parser.add_argument("--output")
     parser.add_argument("--cells", default="0.2,0.1,0.05")
     parser.add_argument("--points", default="2,3")
+    parser.add_argument("--law", choices=["local", "nonlocal"])
+    parser.add_argument("--within", type=float)
     parser.add_argument("--set", action="append", default=[], dest="settings")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     cases = [(float(h), int(points), length) for length in (None, LENGTH) for h in options.cells.split(",")
              for points in options.points.split(",") if not length or float(h) <= length / 1.3]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        rows = list(pool.map(lambda case: run(options.solver, options.output, options.settings, *case), cases))
+    if options.law:
+        cases = [case for case in cases if bool(case[2]) == (options.law == "nonlocal")]
+    with tempfile.TemporaryDirectory() as passing, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        rows = list(pool.map(lambda case: run(options.solver, options.output or passing, options.settings, *case), cases))
     shown = ["run", "Rd_m", "Rd95_m", "stands_to_m", "troughs", "kinetic_left", "numerical", "put_in", "overlap", "particles", "steps", "cpu_s", "why"]
     print(" | ".join(f"{name:>18}" if name == "run" else f"{name:>12}" for name in shown))
     for row in rows:
         print(" | ".join(f"{row.get(name, ''):>18}" if name == "run" else f"{row.get(name, ''):>12.5g}"
                          if isinstance(row.get(name), float) else f"{row.get(name, ''):>12}" for name in shown))
+    held = not any(row["exit"] for row in rows)
     for kind in ("_local", "_nonlocal"):
         far = [row["Rd_m"] for row in rows if row["run"].endswith(kind) and not row["exit"]]
         if far:
             mean = sum(far) / len(far)
             print(f"{kind[1:]}: Rd {mean:.2f} m, {100 * (min(far) / mean - 1):+.1f} to {100 * (max(far) / mean - 1):+.1f} %")
+            held = held and max(mean - min(far), max(far) - mean) <= (options.within or 1e9) * mean
+    return 0 if held else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -122,6 +122,24 @@ TEST(Drawn, WaterBelowAllSoilIsRefused) {
                 "/transfer/phreatic_line", "nothing would be saturated");
 }
 
+TEST(Drawn, WaterOfTheStabilityAnalysisBelowOrBesideAllSoilIsRefused) {
+    expect_only(changed("mochikoshi", {"/lem/water/line=[[-40,-170.6],[109,-170.6],[280,-200]]"}),
+                "/lem/water/line", "runs below all soil");
+    expect_only(changed("mochikoshi", {"/lem/water/line=[[4960,29.4],[5109,29.4],[5280,0]]"}),
+                "/lem/water/line", "beside the section");
+}
+
+TEST(Drawn, WaterThatNobodyDrewBeyondALinesEndIsTold) {
+    const std::string to_the_face = "[[-40,29.4],[109,29.4],[124.3,21],[151.9,12.4]]";
+    EXPECT_TRUE(has_warning(changed("mochikoshi", {"/lem/water/line=" + to_the_face}),
+                            "undrawn_water", "/lem/water/line"));
+    EXPECT_TRUE(has_warning(changed("mochikoshi", {"/fem/water/line=" + to_the_face}),
+                            "undrawn_water", "/fem/water/line"));
+    const Checked as_shipped = changed("mochikoshi", {});
+    EXPECT_FALSE(has_warning(as_shipped, "undrawn_water", "/lem/water/line"));
+    EXPECT_FALSE(has_warning(as_shipped, "undrawn_water", "/fem/water/line"));
+}
+
 TEST(Drawn, ABoundaryOfPressureThatMissesTheSectionIsRefused) {
     expect_only(changed("mochikoshi", {R"(/fem/water/boundaries=[{"name":"pond","from":[-40,30],)"
                                        R"("to":[100,30],"level":31}])"}),
@@ -172,6 +190,20 @@ TEST(Drawn, LayersThatLieOutsideTheirRegionOrInEachOtherAreRefused) {
                 "/lem/liquefaction/0/levels", "lie outside region \"tailings\"");
     expect_only(changed("mochikoshi", {"/lem/liquefaction/1/levels=[17.64,24]"}),
                 "/lem/liquefaction/1/levels", "overlap those of layer 0");
+}
+
+TEST(Drawn, LayersListedFromTheBottomUpAreRefused) {
+    const std::string upwards =
+        R"([{"region":"tailings","levels":[0,5.88]},{"region":"tailings","levels":[5.88,11.76]}])";
+    expect_only(changed("mochikoshi", {"/lem/liquefaction=" + upwards}), "/lem/liquefaction/1",
+                "reaches 5.88 m less deep than the layer before it");
+}
+
+TEST(Drawn, DepthsThatAreCountedFromTwoLevelsAreTold) {
+    EXPECT_TRUE(has_warning(changed("mochikoshi", {"/fem/liquefaction/level=60"}), "depths_differ",
+                            "/fem/liquefaction/level"));
+    EXPECT_FALSE(
+        has_warning(changed("mochikoshi", {}), "depths_differ", "/fem/liquefaction/level"));
 }
 
 }  // namespace

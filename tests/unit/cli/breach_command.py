@@ -307,10 +307,12 @@ class Breach(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (0, f"{scene}\n"), done.stderr)
         self.assertIn("at (40, 0), 0.02 m: base, clay", done.stderr)
         self.assertIn("guessed: /lem/search/entry", done.stderr)
+        self.assertIn("read in m (metres, as nothing says otherwise): the section is 40 m long and 11 m high", done.stderr)
         self.assertNotIn('class="fault"', picture.read_text())
         self.assertEqual(call(nowhere, "draw", scene).returncode, 0)
         report = json.loads(call(nowhere, *wishes, "--map", "base=clay", "--json").stdout)
         self.assertEqual(report["healed"][0]["size"], 0.02)
+        self.assertEqual((report["unit"], report["unit_from"], report["size"]), ("m", "default", [40, 11]))
         self.assertEqual(call(nowhere, *wishes[:-2], "--phreatic", self.here / "none.csv").returncode, 74)
 
     def test_draw_of_nothing_is_65_and_leaves_no_picture(self):

@@ -35,7 +35,7 @@ TEST(Counts, AreThoseOfThePhases) {
     EXPECT_NEAR(elements(shipped("mochikoshi", {"/section/element_size=4"})), 528.0, 528.0 / 4);
     EXPECT_EQ(steps_of(*shipped("slope").fem).steps, 281.0);
     EXPECT_EQ(points_of(shipped("slope"), 1215.0), 4860.0);
-    EXPECT_NEAR(searches_of(*shipped("slope").lem).surfaces, 18424.0, 1842.0);
+    EXPECT_NEAR(searches_of(shipped("slope")).surfaces, 18424.0, 1842.0);
     EXPECT_NEAR(runout_step(shipped("column")), 9.1 / 3168, 0.3 * 9.1 / 3168);
     EXPECT_NEAR(runout_step(shipped("slope")), 5.05 / 2541, 0.3 * 5.05 / 2541);
 }
@@ -46,6 +46,56 @@ TEST(Counts, SoilWithoutFrictionFlowsLonger) {
         shipped("slope", {"/materials/slope_soil/law/softening/phi_residual_deg=0"}));
     EXPECT_GT(without, 5.0 * with);
     EXPECT_EQ(runout_duration(shipped("slope", {"/mpm/duration=3"})), 3.0);
+}
+
+TEST(Counts, SoilThatLiquefiesHasItsResidualStrengthFromTheStart) {
+    const auto duration = [](const std::string& residual, const std::string& softening) {
+        const std::string peak = R"({"peak":{"type":"effective","phi_deg":30},"residual":)";
+        // sand in place of NorSand: judged by its pore pressure, and with the profile's strengths
+        return runout_duration(shipped(
+            "static_lift",
+            {R"(/materials/tailings/law={"type":"mohr_coulomb","E_MPa":30,"nu":0.3,"c_kPa":1,"phi_deg":30})",
+             "/lem/undrained=[]", R"(/transfer/window={"lower":"epsilon_q_max > 0.1"})",
+             "/materials/flowing_tailings/strength=" + peak + residual + softening + "}"}));
+    };
+    const std::string flows = R"({"type":"undrained_ratio","ratio":0.05,"minimum_kPa":0.5})";
+    const std::string stays = R"({"type":"effective","phi_deg":25})";
+    const std::string softens = R"(,"softening":{"epsilon_q_start":0.02,"epsilon_q_end":0.1})";
+    EXPECT_GT(duration(flows, ""), 5.0 * duration(stays, ""));
+    EXPECT_EQ(duration(flows, ""), duration(flows, softens));
+    EXPECT_EQ(duration(stays, ""), duration(stays, softens));
+}
+
+TEST(Counts, WetNorSandFlowsWhateverItsProfileKeeps) {
+    // Its profile has 30 degrees after softening; the transfer gives wet points s_u by their state.
+    scene::Scene scene = shipped("static_lift");
+    const double flows = runout_duration(scene);
+    scene.transfer->liquefied.reset();
+    EXPECT_GT(flows, 5.0 * runout_duration(scene));
+}
+
+TEST(Counts, VariationsAndSurfacesOfStraightPiecesAreSearchedFor) {
+    const auto searches = [](const std::string& more) {
+        return searches_of(more.empty() ? shipped("slope") : shipped("slope", {more}));
+    };
+    const double alone = searches("").stages;
+    // one search without variation; c and phi of two soils lower and higher
+    EXPECT_EQ(searches(R"(/lem/sensitivity={"surface":"searched"})").stages, alone + 9.0);
+    EXPECT_NEAR(searches("/lem/sensitivity={}").stages, alone + 1.0, 0.01);
+    const auto samples = [](const std::string& surface) {
+        return R"(/lem/probability={"samples":20,"surface":")" + surface +
+               R"(","variables":[{"parameter":"cohesion","of":"slope_soil","coefficient_of_variation":0.2}]})";
+    };
+    EXPECT_EQ(searches(samples("searched")).stages, alone + 21.0);
+    EXPECT_NEAR(searches(samples("fixed")).stages, alone + 1.0, 0.01);
+    EXPECT_EQ(searches("").polylines, 0.0);
+    // lem_tool analysed 7,336 and 16,784 of them
+    EXPECT_NEAR(searches(R"(/lem/non_circular={"vertices":13})").polylines, 7336.0, 734.0);
+    EXPECT_NEAR(searches(R"(/lem/non_circular={"vertices":60})").polylines, 16784.0, 1678.0);
+    // of mochikoshi with its five layers 49,904
+    EXPECT_NEAR(
+        searches_of(shipped("mochikoshi", {R"(/lem/non_circular={"vertices":13})"})).polylines,
+        49904.0, 0.1 * 49904.0);
 }
 
 TEST(Cost, HasThePhasesOfTheScene) {

@@ -116,6 +116,66 @@ TEST(FailureSurface, ASmallSoundPocketInABandIsNoSecondOne) {
               1u);
 }
 
+/// 10 x 4 unit squares; absent by column and row from the lower left.
+std::vector<char> absent_where(const std::function<bool(int, int)>& is_absent) {
+    std::vector<char> absent;
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 10; ++x) absent.push_back(is_absent(x, y) ? 1 : 0);
+    }
+    return absent;
+}
+
+TEST(FailureSurface, TheWallOfAnExcavationIsGround) {
+    const Mesh mesh = level_ground(10, 4);
+    const auto absent = absent_where([](int x, int y) { return x > 5 && y > 1; });
+    const Ground ground = ground_of(mesh, absent);
+    ASSERT_EQ(ground.element.size(), 12u) << "top, wall and floor";
+    EXPECT_EQ(ground.element.front(), 30u);
+    EXPECT_EQ(ground.element.back(), 19u);
+    EXPECT_DOUBLE_EQ(ground.end.back(), 12.0);
+    // A band from the top to the foot of the wall cuts off four elements.
+    std::vector<double> epsilon_q(40, 0.0);
+    for (const int e : {31, 21, 22, 23, 24, 25}) epsilon_q[e] = 0.2;
+    const auto surfaces_without = [&](const Ground& of) {
+        return failure_surfaces_of(mesh, of, epsilon_q, 0.1, 1.5);
+    };
+    EXPECT_EQ(surfaces_without(ground_of(mesh)).count, 0u) << "as long as nothing is dug";
+    const FailureSurfaces found = surfaces_without(ground);
+    EXPECT_EQ(found.count, 1u);
+    for (std::size_t e = 0; e < 40; ++e) EXPECT_EQ(found.slides[e], e > 31 && e < 36) << e;
+}
+
+TEST(FailureSurface, GroundOfSoilInTwoPartsRunsOverBoth) {
+    const Ground ground =
+        ground_of(level_ground(10, 4), absent_where([](int x, int) { return x == 4 || x == 5; }));
+    ASSERT_EQ(ground.element.size(), 16u) << "two tops, two walls";
+    EXPECT_EQ(ground.element.front(), 30u);
+    EXPECT_EQ(ground.element.back(), 39u);
+    EXPECT_DOUBLE_EQ(ground.begin[8] - ground.end[7], 2.0) << "the gap";
+}
+
+TEST(FailureSurface, GroundGoesAroundACornerWhereSoilTouches) {
+    const Ground ground = ground_of(level_ground(10, 4), absent_where([](int x, int y) {
+                                        return (x == 4 && y == 3) || (x == 5 && y == 2);
+                                    }));
+    EXPECT_EQ(ground.element.size(), 16u);
+    EXPECT_EQ(ground.element.front(), 30u);
+    EXPECT_EQ(ground.element.back(), 39u);
+}
+
+TEST(FailureSurface, NothingAbsentIsTheWholeGroundAndAHoleIsNone) {
+    const Mesh mesh = level_ground(10, 4);
+    const Ground whole = ground_of(mesh);
+    for (const int y : {-1, 2}) {
+        const Ground ground =
+            ground_of(mesh, absent_where([&](int x, int row) { return x == 4 && row == y; }));
+        EXPECT_EQ(ground.element, whole.element);
+        EXPECT_EQ(ground.begin, whole.begin);
+        EXPECT_EQ(ground.end, whole.end);
+        EXPECT_EQ(ground.beside == whole.beside, y < 0);
+    }
+}
+
 TEST(Liquefaction, DepthIsThatOfTheDeepestLiquefiedNodeBelowTheWindow) {
     const Mesh mesh = level_ground(4, 5);
     const LiquefactionWindow window{{0}, {0.5, 2.5}, 5.0, 0.7};

@@ -190,5 +190,43 @@ TEST(Csv, EveryBadRowIsToldByItsLine) {
     EXPECT_EQ(read_csv("", layers, {"m", 1.0}).faults.size(), 1u);
 }
 
+TEST(Csv, AHeaderWithTwoColumnsOfOneMeaningIsRefused) {
+    std::vector<Fault> faults;
+    const LayerMap layers({"phreatic=phreatic"}, {"clay"}, faults);
+    const auto of = [&](const std::string& text, const std::string& alone = "") {
+        return read_csv(text, layers, {"m", 1.0}, alone);
+    };
+    const Drawing levels = of("x,y,z\n0,9,0\n5,8,0\n", "phreatic");
+    ASSERT_EQ(levels.faults.size(), 1u) << test::told(levels.faults);
+    EXPECT_EQ(levels.faults[0].pointer, "line 1");
+    EXPECT_NE(levels.faults[0].cause.find("2 columns of levels: y and z"), std::string::npos);
+    EXPECT_NE(levels.faults[0].remedy.find("call it y"), std::string::npos);
+    EXPECT_TRUE(levels.outlines.empty());
+    for (const char* header :
+         {"region,x,y,z", "region,x,y,Y", "region,x,X,y", "region,layer,x,y"}) {
+        const Drawing refused = of(std::string(header) + "\nclay,1,2,3\n");
+        EXPECT_EQ(refused.faults.size(), 1u) << header << "\n" << test::told(refused.faults);
+    }
+    for (const char* header : {"region,x,y", "layer,x,z", "region,x,z,note,note"}) {
+        const Drawing taken = of(std::string(header) + "\nclay,1,2\nclay,2,2\nclay,2,3\n");
+        EXPECT_EQ(test::told(taken.faults), "") << header;
+        EXPECT_EQ(taken.outlines.at(0).points, (Line{{1, 2}, {2, 2}, {2, 3}})) << header;
+    }
+}
+
+TEST(Csv, DecimalCommasBetweenCommasAreRefused) {
+    std::vector<Fault> faults;
+    const LayerMap layers({}, {"clay"}, faults);
+    const Drawing drawing = read_csv(
+        "region,x,y\nclay,20,5,20,0\nclay,4,0,\nclay,4,4\nclay,0,4,,\n", layers, {"m", 1.0});
+    ASSERT_EQ(drawing.faults.size(), 1u) << test::told(drawing.faults);
+    EXPECT_EQ(drawing.faults[0].pointer, "line 2");
+    EXPECT_NE(drawing.faults[0].cause.find("has 5 fields, and the header names 3"),
+              std::string::npos);
+    EXPECT_NE(drawing.faults[0].remedy.find("decimal commas"), std::string::npos);
+    EXPECT_NE(drawing.faults[0].remedy.find("; or tabs"), std::string::npos);
+    EXPECT_EQ(drawing.outlines.at(0).points.size(), 3u);
+}
+
 }  // namespace
 }  // namespace breach::importing

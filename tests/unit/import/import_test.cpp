@@ -210,6 +210,41 @@ TEST(Import, MillimetresTakenForMetresAreRefused) {
     EXPECT_NE(imported.faults[0].remedy.find("with mm it is 30 m"), std::string::npos);
 }
 
+TEST(Import, TheReportBeginsWithTheUnitItsSourceAndTheSizeThatCameOfIt) {
+    const auto first_line = [](const Wish& wish) {
+        const Imported imported = import_section(wish);
+        EXPECT_EQ(test::told(imported.faults), "");
+        return lines_of(imported.report, 5).at(0);
+    };
+    const std::string slope = light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}});
+    EXPECT_EQ(first_line(test::wish(dxf(slope, 2))),
+              "read in ft (the drawing's $INSUNITS): the section is 45.7 m long and 7.92 m high");
+    Wish asked = test::wish(dxf(slope, 2));
+    asked.unit = "m";
+    EXPECT_EQ(first_line(asked), "read in m (as asked): the section is 150 m long and 26 m high");
+    const std::string table = "region,x,y\nclay,0,0\nclay,1500,0\nclay,700,260\nclay,0,260\n";
+    EXPECT_EQ(first_line(test::wish(table, "dam.csv")),
+              "read in m (metres, as nothing says otherwise): the section is 1500 m long and 260 m "
+              "high");
+    const Imported imported = import_section(test::wish(table, "dam.csv"));
+    EXPECT_EQ(imported.report.at("unit_from"), "default");
+    EXPECT_EQ(imported.report.at("size"), json::parse("[1500.0, 260.0]"));
+}
+
+TEST(Import, ALineInAnotherUnitThanTheDrawingIsTold) {
+    Wish wish = test::wish(dxf(light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}}), 2));
+    wish.phreatic = {"water.csv", "x,y\n0,5\n45,0\n"};
+    const auto remarks = [](const Wish& asked) {
+        return import_section(asked).report.at("remarks").dump();
+    };
+    EXPECT_NE(remarks(wish).find("water.csv was read in m, as nothing says otherwise, the drawing "
+                                 "in ft"),
+              std::string::npos)
+        << remarks(wish);
+    wish.unit = "ft";
+    EXPECT_EQ(remarks(wish).find("water.csv was read"), std::string::npos);
+}
+
 TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
     Wish wish = test::wish(dxf(light("CLAY", test::clay) + light("TAILINGS", test::tailings)));
     wish.terrain = {"terrain.csv", "x,y\n0,0\n80,0\n300,-6\n"};

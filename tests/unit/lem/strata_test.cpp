@@ -28,6 +28,21 @@ TEST(Strata, WeightAboveALayerIsThatOfEverythingOnIt) {
     EXPECT_NEAR(base.weight_above.at(40.0), 0.0, 1e-6);
 }
 
+TEST(Strata, FastSoilTakesItsEffectiveWeightAlone) {
+    // Left of the crest 10 m of fill at 20 kN/m3 lie on the base; the water in them was there before.
+    const auto taken = [](const json& water) {
+        json text = small::two_layers(small::some_circle());
+        text["lem"]["unconsolidated"] = {"fill"};
+        if (!water.is_null()) text["lem"]["water"] = {{"line", water}};
+        const Strata strata = make_strata(small::parsed(text));
+        return strata.layers[strata.strips[0].first + 1].unconsolidated.at(10.0);
+    };
+    EXPECT_NEAR(taken(json()), 200e3, 1e-6);
+    EXPECT_NEAR(taken({{0, 0}, {60, 0}}), 200e3, 1e-6);
+    EXPECT_NEAR(taken({{0, 4}, {20, 4}, {40, 0}, {60, 0}}), 160e3, 1e-6);
+    EXPECT_NEAR(taken({{0, 12}, {60, 12}}), 100e3, 1e-6) << "a pond above it is none of its weight";
+}
+
 TEST(Strata, VerticalFaceHasTwoLevels) {
     const auto scene = small::parsed(
         small::scene({{"clay", small::soil(20, 50, 0)}},

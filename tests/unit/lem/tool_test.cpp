@@ -23,10 +23,10 @@ class LemTool : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    int run(const std::string& arguments) const {
-        const std::string command = std::string(BREACH_BIN) +
-                                    "/lem_tool " BREACH_ROOT "/workflows/scenes/slope.json " +
-                                    arguments + " > " + (folder_ / "out").string() + " 2>&1";
+    int run(const std::string& arguments, const std::string& scene = "slope") const {
+        const std::string command =
+            std::string(BREACH_BIN) + "/lem_tool " BREACH_ROOT "/workflows/scenes/" + scene +
+            ".json " + arguments + " > " + (folder_ / "out").string() + " 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     }
     json result() const {
@@ -87,6 +87,22 @@ TEST_F(LemTool, FlagsAKinkedSurfaceWithoutFriction) {
     const json facts = result();
     EXPECT_NE(facts.at("flags").dump().find("kinked_without_friction"), std::string::npos);
     EXPECT_EQ(facts.at("non_circular").at("frictionless_share"), 1.0);
+}
+
+/// Liquefied, surfaces reach farther back than a range allows that suits the sound dam.
+TEST_F(LemTool, FlagsTheEdgeOfARangeWhereAStageEndsToo) {
+    const std::string narrow =
+        " --set '/lem/search/entry=[102.5,114.5]' --set /lem/search/entry_points=10"
+        " --set /lem/search/exit_points=16 --set /lem/search/depths=10";
+    ASSERT_EQ(run("--progress none --output " + folder_.string() + narrow, "mochikoshi"), 0)
+        << printed();
+    const json facts = result();
+    EXPECT_GT(facts.at("entry")[0], 102.6) << "before anything liquefies";
+    ASSERT_EQ(facts.at("flags").size(), 1u) << facts.at("flags");
+    const json& flag = facts.at("flags")[0];
+    EXPECT_EQ(flag.at("code"), "range_edge");
+    EXPECT_EQ(flag.at("pointer"), "/lem/search/entry");
+    EXPECT_NE(flag.at("message").get<std::string>().find("2 layers liquefied"), std::string::npos);
 }
 
 TEST_F(LemTool, RefusesASurfaceOfStraightPiecesOffTheGround) {

@@ -89,6 +89,15 @@ TEST(Csv, IsReadAsItWasWritten) {
     EXPECT_THROW(write_csv(file, {Quantity::displacement, a, ""}, ""), std::invalid_argument);
 }
 
+TEST(Csv, OfManyShortStepsIsReadAsItWasWritten) {
+    for (const double dt : {0.0025, 0.0078125, 1.0 / 256.0}) {
+        std::stringstream file;
+        const auto samples = static_cast<std::size_t>(120.0 / dt);
+        write_csv(file, {Quantity::acceleration, {dt, std::vector<double>(samples, 1.0)}, ""}, "");
+        EXPECT_NEAR(read_csv(file, "file").series.dt, dt, 1e-9 * dt);
+    }
+}
+
 TEST(Motion, ThatIsMissingIsAnIoError) {
     EXPECT_THROW(read_motion("/nowhere/quake.AT2"), fault::IoError);
 }

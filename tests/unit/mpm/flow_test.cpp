@@ -110,7 +110,7 @@ TEST(Flow, FrontLiesWhereTheDepthIsReachedLast) {
     const std::vector<Flow> profile{{5, 0}, {0.5, 0}, {3, 0}, {1, 0}, {0, 0}, {0, 0}};
     EXPECT_DOUBLE_EQ(front_of(profile, view, 1.0), 16.0);
     EXPECT_DOUBLE_EQ(front_of(profile, view, 2.0), 15.0);
-    EXPECT_DOUBLE_EQ(front_of(profile, view, 9.0), 10.0);
+    EXPECT_EQ(front_of(profile, view, 9.0), nowhere);
 }
 
 TEST(Gauges, ArrivalIsBetweenTheReadingsAroundIt) {

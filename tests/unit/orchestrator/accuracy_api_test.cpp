@@ -112,6 +112,73 @@ TEST(Accuracy, MeshesWithoutALimitAreExplainedWhereTheSoilSoftens) {
     EXPECT_EQ(plain.find("the soil softens"), std::string::npos) << plain;
 }
 
+/// Meshes of which the first override tells no size, and cells of 1, 0.5 and 0.25 m with them.
+json meshes_without_sizes() {
+    return {{"name", "meshes"},
+            {"steps",
+             {{"/section/regions/0/mesh/divisions=[30,2]",
+               "/section/regions/1/mesh/divisions=[15,5]", "/mpm/cell_size=1"},
+              {"=[60,4]", "=[30,10]", "=0.5"},
+              {"=[90,6]", "=[45,15]", "=0.25"}}}};
+}
+
+TEST(Accuracy, RungsOfUnknownSizePromiseNothing) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const json meshes = meshes_without_sizes();
+    const json cfl = {{"name", "cfl"}, {"steps", {{"/mpm/cfl=0.4"}, {"=0.2"}}}};
+    const std::string run = service.submit(
+        accuracy_study({{"ladders", json::array({meshes, cfl})}, {"base", meshes.at("steps")[0]}}));
+    service.wait_for_end(run);
+    const json answer = accuracy_of(service, run);
+    const json& ladder = answer.at("ladders")[0];
+    EXPECT_EQ(ladder.at("course"), "monotone") << ladder.dump();
+    for (const char* untold : {"order", "limit", "gci", "error_of_finest", "error_of_base"})
+        EXPECT_TRUE(ladder.at(untold).is_null()) << untold;
+    EXPECT_NE(ladder.at("message").get<std::string>().find("\"sizes\""), std::string::npos);
+    EXPECT_TRUE(answer.at("rows")[0].at("error").is_number());
+    for (const json& row : answer.at("rows")) {
+        EXPECT_TRUE(row.at("bias").is_null() && row.at("error_of_a_run").is_null()) << row.dump();
+        EXPECT_NE(row.at("reason").get<std::string>().find("\"sizes\""), std::string::npos);
+    }
+    EXPECT_TRUE(answer.at("recommended").is_null());
+    EXPECT_NE(answer.at("recommendation").get<std::string>().find("\"sizes\" would tell"),
+              std::string::npos)
+        << answer.at("recommendation");
+}
+
+TEST(Accuracy, AGivenReferenceNeedsNoSizes) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const std::string run = service.submit(
+        accuracy_study({{"ladders", json::array({meshes_without_sizes()})},
+                        {"reference", {{"value", 10.25}, {"source", "the formula"}}}}));
+    service.wait_for_end(run);
+    const json answer = accuracy_of(service, run);
+    EXPECT_EQ(answer.at("recommended").at("step"), 2) << answer.dump();
+}
+
+TEST(Accuracy, ARungThatLostADrawIsNotRecommendedAndSaysSo) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json study = accuracy_study({{"draws", 2}});
+    study["scene"]["title"] = "by_cell=1 fem_steps=1 mpm_steps=1 fails_above=0.4";
+    const std::string run = service.submit(study);
+    EXPECT_EQ(service.wait_for_end(run).at("state"), "partial");
+    const json answer = accuracy_of(service, run);
+    for (const json& row : answer.at("rows")) {
+        EXPECT_EQ(row.at("draws"), 1) << "the second lattice failed";
+        EXPECT_FALSE(row.at("on_pareto_front"));
+        EXPECT_NE(row.at("reason").get<std::string>().find("left the grid"), std::string::npos)
+            << row.dump();
+    }
+    EXPECT_TRUE(
+        answer.at("rows")[2].at("reason").get<std::string>().ends_with("; it is the reference"));
+    EXPECT_TRUE(answer.at("recommended").is_null());
+    EXPECT_TRUE(answer.at("recommendation").get<std::string>().starts_with("No setting can be"))
+        << answer.at("recommendation");
+}
+
 TEST(Accuracy, CellsThatSoftenWithoutALengthAreToldToBeAnotherSoil) {
     const Sandbox sandbox;
     Service service(sandbox);
@@ -338,6 +405,24 @@ TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
                         .get<std::string>()
                         .starts_with("scatter among neighbouring transfer times"));
     }
+}
+
+TEST(RunoutError, OfAPageOrAFilterIsThatOfTheWholeTable) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json sweep =
+        study("by_cell=1 fem_steps=1 mpm_steps=1 moving_from=1", {0.25, 0.5, 0.75, 1.0, 1.25});
+    sweep["scene"]["mpm"]["cell_size"] = 1;
+    const std::string run = service.submit(sweep);
+    service.wait_for_end(run);
+    const auto rows = [&](const std::string& wish) {
+        return service.get("/v1/runs/" + run + "/results" + wish).body.at("rows");
+    };
+    const json whole = rows("");
+    ASSERT_EQ(whole.size(), 5u);
+    for (const json& row : whole) EXPECT_TRUE(row.at("runout_error").is_number());
+    EXPECT_EQ(rows("?from=1&limit=2"), json::array({whole[1], whole[2]}));
+    EXPECT_EQ(rows("?state=questionable"), json::array({whole[3], whole[4]}));
 }
 
 TEST(RunoutError, OfDrawsSaysWhatTransferTimesScatterBy) {

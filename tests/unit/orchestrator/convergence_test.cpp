@@ -100,6 +100,30 @@ TEST(Convergence, WithoutAnOrderTheFinestIsOffByTheIndexForTwoGrids) {
     EXPECT_FALSE(convergence_of(two).gci);
 }
 
+/// A course that rests on no sizes tells the same of the finest rung whatever they are.
+TEST(Convergence, SizesDoNotMatterWhereTheCourseRestsOnNone) {
+    const auto with_middle = [](double middle, const std::array<double, 3>& values) {
+        return convergence_of(
+            std::array{rung(4, values[0]), rung(middle, values[1]), rung(1, values[2])});
+    };
+    const struct {
+        std::array<double, 3> values;
+        Course course;
+    } cases[]{{{10.0, 12.0, 11.0}, Course::oscillating},
+              {{10.0, 10.0, 10.0}, Course::no_effect},
+              {{10.0, 11.0, 13.0}, Course::not_falling},
+              {{14.0, 11.0, 10.0}, Course::monotone}};
+    for (const auto& [values, course] : cases) {
+        const Convergence near = with_middle(1.9, values);
+        const Convergence far = with_middle(2.0, values);
+        EXPECT_EQ(near.course, course);
+        EXPECT_EQ(far.course, course);
+        EXPECT_EQ(*near.error_of_finest != *far.error_of_finest, rests_on_sizes(course))
+            << name_of(course);
+    }
+    EXPECT_TRUE(rests_on_sizes(Course::too_few) && rests_on_sizes(Course::below_noise));
+}
+
 TEST(Convergence, TwoRungsHaveNoOrder) {
     EXPECT_EQ(convergence_of(std::array{rung(2, 10.0), rung(1, 11.0)}).course, Course::too_few);
     EXPECT_EQ(convergence_of({}).course, Course::too_few);

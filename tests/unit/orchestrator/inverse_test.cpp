@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -103,6 +104,58 @@ TEST(Inverse, WhereTheDamStandsTheResultIsNoneAndKnowsNoNoise) {
               "at 0.695 nothing was transferred, for no trigger's condition was met: the result is "
               "taken as 0 there; from 0.69 to 0.695 it goes from 218 m to 0 m at once: no run gave "
               "the target itself");
+}
+
+/// 0 up to 0.9 and rising from there, as the runout of a dam that stands.
+double rises_from(double v) { return std::max(0.0, 100.0 * (v - 0.9)); }
+/// The same the other way round.
+double falls_to(double v) { return std::max(0.0, 100.0 * (1.6 - v)); }
+
+TEST(Inverse, OfATargetThatManyValuesGiveTellsWhereTheResultLeavesIt) {
+    InverseQuestion none = question;
+    none.target = 0.0;
+    none.low = 0.5;
+    none.high = 2.0;
+    for (const bool logarithmic : {true, false}) {
+        none.logarithmic = logarithmic;
+        for (const std::size_t lattices : {1u, 3u}) {
+            const Search rising = search(none, rises_from, lattices);
+            ASSERT_TRUE(rising.advice.found) << rising.advice.refused;
+            EXPECT_NEAR(rising.advice.found->value, 0.9, 0.03);
+            EXPECT_EQ(rising.advice.remark.find("no run gave"), std::string::npos);
+            const Search falling = search(none, falls_to, lattices);
+            ASSERT_TRUE(falling.advice.found) << falling.advice.refused;
+            EXPECT_NEAR(falling.advice.found->value, 1.6, 0.03);
+            EXPECT_EQ(falling.advice.remark.find("no run gave"), std::string::npos);
+        }
+    }
+}
+
+TEST(Inverse, TheIntervalOfSuchATargetEndsWithTheStretchThatGivesIt) {
+    InverseQuestion none = question;
+    none.target = 0.0;
+    const std::vector<InverseStep> steps{{.value = 0.4, .results = {0, 0}},
+                                         {.value = 0.8, .results = {0, 0}},
+                                         {.value = 0.9, .results = {0, 0}},
+                                         {.value = 0.905, .results = {3, 5}},
+                                         {.value = 2.5, .results = {160, 162}}};
+    const InverseAdvice advice = advise_inverse(none, steps);
+    ASSERT_TRUE(advice.found && advice.has_interval) << advice.refused;
+    EXPECT_NEAR(advice.found->value, 0.9, 1e-12);
+    EXPECT_NEAR(advice.found->low, 0.9, 1e-12);
+    EXPECT_GT(advice.found->high, 0.9);
+    EXPECT_LT(advice.found->high, 0.91);
+    EXPECT_EQ(advice.remark, "");
+}
+
+TEST(Inverse, RefusesATargetThatBothEndsGive) {
+    InverseQuestion none = question;
+    none.target = 0.0;
+    const Search found = search(
+        none, [](double) { return 0.0; }, 2);
+    EXPECT_FALSE(found.advice.found);
+    EXPECT_EQ(found.advice.refused,
+              "runout_beyond_toe is 0 m at 0.4 and at 2.5: no value between them is told apart");
 }
 
 TEST(Inverse, LowerBoundsBesideTheTargetMakeItABoundAsWell) {

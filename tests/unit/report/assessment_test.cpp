@@ -196,6 +196,35 @@ TEST_F(Sampled, SaysWhichCasesItCovers) {
     EXPECT_EQ(row(other, "assessment_what", "What fails")[1], "A slope; soil liquefies in pond.");
 }
 
+TEST_F(Sampled, TellsOfManyMeshesAndAnalysesHowManyAndFromWhereToWhere) {
+    const auto what = [&] { return row(document(), "assessment_what", "What fails")[1]; };
+    const auto add = [&](const std::string& phase, const std::string& label, const json& result) {
+        write(folder_ / "tasks" / label / "task.json", {{"phase", phase}, {"variant", label}});
+        write(folder_ / "tasks" / label / "result.json", result);
+    };
+    add("lem_tool", "lem_a", {{"factor_of_safety", 1.25}});
+    EXPECT_EQ(what(), "A slope; factor of safety 1.25 (lem_a).");
+    add("lem_tool", "lem_b", {{"factor_of_safety", 0.875}});
+    write(folder_ / "tasks/lem_c/task.json", {{"phase", "lem_tool"}, {"state", "failed"}});
+    EXPECT_EQ(what(), "A slope; factor of safety 0.875 to 1.25 (2 of 3 analyses).");
+
+    const auto entangled = [](double time, const char* kind) {
+        return json{{"ended", "entangled"},
+                    {"end_time", time},
+                    {"entanglement", {{"time", time}, {"kind", kind}}}};
+    };
+    add("fem_solver", "fem_a", entangled(9.75, "band"));
+    EXPECT_TRUE(what().starts_with("A slope. The mesh entangled at 9.75 s")) << what();
+    add("fem_solver", "fem_b", {{"ended", "complete"}, {"end_time", 20.0}});
+    EXPECT_EQ(what(), "A slope. 1 of 2 meshes entangled, at 9.75 s.");
+    add("fem_solver", "fem_c", entangled(4.25, "band"));
+    EXPECT_EQ(what(), "A slope. 2 of 3 meshes entangled, from 4.25 to 9.75 s.");
+    add("fem_solver", "fem_c", entangled(4.25, "corner"));
+    EXPECT_EQ(what(),
+              "A slope. 2 of 3 meshes entangled, from 4.25 to 9.75 s; 1 of them at one bad corner, "
+              "which is the mesh's doing and not the section's failure.");
+}
+
 TEST_F(Sampled, SaysWhatTheNumbersDoNot) {
     const std::string all = cautions(document());
     EXPECT_NE(all.find("2 samples of 64 left no result"), std::string::npos) << all;

@@ -163,6 +163,35 @@ TEST_F(WetRun, TellsTheEndsOfManyFemsInOneRow) {
     EXPECT_NE(ends[0][3].find("6 not simply well, the first"), std::string::npos) << ends[0][3];
 }
 
+TEST_F(WetRun, TellsTheLastStageOfEachAnalysisWhateverItsLayers) {
+    const auto stages = [](const std::vector<double>& factors) {
+        nlohmann::json all = nlohmann::json::array();
+        for (const double each : factors) all.push_back({{"factor_of_safety", each}});
+        return all;
+    };
+    for (const char* label : {"lem_one_layer", "lem_two_layers", "lem_no_layer"}) {
+        fs::create_directories(folder_ / "tasks" / label);
+        fs::copy(folder_ / "tasks/fem/scene.completed.json",
+                 folder_ / "tasks" / label / "scene.completed.json");
+    }
+    edit_result("lem_one_layer", {{"factor_of_safety", 1.25}, {"stages", stages({1.25, 0.875})}});
+    edit_result("lem_two_layers",
+                {{"factor_of_safety", 1.5}, {"stages", stages({1.5, 1.125, 0.75})}});
+    edit_result("lem_no_layer", {{"factor_of_safety", 1.75}});
+    const Front front = front_of(read_run(folder_));
+    const auto row = [&](const std::string& begin) {
+        for (const auto& each : front.found.rows)
+            if (each[0].starts_with(begin)) return each;
+        throw std::runtime_error("no row " + begin);
+    };
+    EXPECT_EQ(row("Factor of safety before any layer liquefies")[1], "1.25");
+    EXPECT_EQ(row("Factor of safety before any layer liquefies")[2], "1.25 to 1.75 (3 of 3)");
+    const auto liquefied = row("Factor of safety with every layer liquefied that may");
+    EXPECT_EQ(liquefied[1], "0.75") << "the least, though its intact factor is not";
+    EXPECT_EQ(liquefied[2], "0.75 to 0.875 (2 of 3)") << "each one's own last stage";
+    EXPECT_TRUE(liquefied[3].ends_with("the least, two_layers")) << liquefied[3];
+}
+
 TEST_F(WetRun, SaysWhatNothingWasTransferredOf) {
     std::ofstream(folder_ / "results.json") << R"({"rows": [], "columns": [], "without_transfer": [
         {"variant": "strong", "fem_task": "f", "state": "not_reached", "stood": true, "reason": "window: never met"},
@@ -708,6 +737,50 @@ TEST_F(WetRun, WithASceneThatIsNotWholeIsRefused) {
 TEST_F(WetRun, WithALineThatIsNoTelemetryIsRefused) {
     std::ofstream(folder_ / "tasks/fem/telemetry.jsonl") << "{\"time\":0}\nnonsense\n";
     EXPECT_THROW(document(), fault::BadInput);
+}
+
+TEST_F(WetRun, TakesNoVariantsNameForATransferTime) {
+    const fs::path tasks = folder_ / "tasks";
+    const auto add = [&](const std::string& label) {
+        fs::copy(tasks / "mpm_16.000000_softened", tasks / label, fs::copy_options::recursive);
+        fs::remove(tasks / label / "task.json");
+    };
+    const std::vector<std::string> names{"20_kpa", "20.5_kpa", "inflow", "inf_low", "nan_dry"};
+    for (const std::string& each : names) add("mpm_" + each);
+    add("mpm_20.000000_kpa");
+    add("mpm_21.000000_kpa");
+    std::ofstream(tasks / "mpm_21.000000_kpa/task.json") << R"({"phase": "mpm_solver",
+        "variant": "21.000000_kpa", "transfer_time": null})";
+    nlohmann::json rows = nlohmann::json::array();
+    for (const std::string& each : names)
+        rows.push_back({{"variant", each}, {"transfer_time", nullptr}, {"runout_error", 4.0}});
+    std::ofstream(folder_ / "results.json") << nlohmann::json{{"rows", rows}};
+    const auto run = read_run(folder_);
+    const auto phase = [&](const std::string& label) {
+        return *std::ranges::find(run.phases, label, &PhaseFolder::label);
+    };
+    for (const std::string& each : names) {
+        EXPECT_EQ(phase("mpm_" + each).variant, each);
+        EXPECT_FALSE(phase("mpm_" + each).transfer_time) << each;
+        EXPECT_EQ(phase("mpm_" + each).runout_error, 4.0) << each;
+    }
+    EXPECT_EQ(phase("mpm_20.000000_kpa").transfer_time, 20.0);
+    EXPECT_EQ(phase("mpm_20.000000_kpa").variant, "kpa");
+    EXPECT_FALSE(phase("mpm_21.000000_kpa").transfer_time) << "its task says that it has none";
+    EXPECT_EQ(phase("mpm_21.000000_kpa").variant, "21.000000_kpa");
+}
+
+TEST_F(WetRun, OfRunoutsAloneHasNoTwoFiguresOfOneName) {
+    for (const char* each : {"fem", "transfer_14.000000"}) fs::remove_all(folder_ / "tasks" / each);
+    edit_result("mpm_16.000000_not_softened", {{"runout", 105.0}});  // half of the largest
+    EXPECT_FALSE(is_static(read_run(folder_))) << "they have transfer times";
+    const Document d = document();
+    std::vector<std::string> names;
+    for (const Chapter& chapter : d.chapters)
+        for (const Figure& each : chapter.figures) names.push_back(each.name);
+    EXPECT_EQ(std::ranges::count(names, "final_geometry_16s"), 1);
+    std::ranges::sort(names);
+    EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
 }
 
 TEST(RunFolder, WithoutPhasesIsRefused) {

@@ -134,8 +134,10 @@ void write_runout(const fs::path& tasks, const json& scene, double t_T, const st
     exchange::Archive history{.kind = "mpm_history",
                               .version = 1,
                               .reals = {{"profile.x", {0, 1, 2}},
-                                        {"profile.times", {0, 1}},
-                                        {"profile.depths", {1, 1, 0, 1, 0.5, 0.5}}},
+                                        {"profile.times", {0, 0.5}},
+                                        {"profile.depths", {1, 1, 0, 1, 0.9, 0.1}},
+                                        {"envelope.x", {0, 1, 2}},
+                                        {"envelope.final_depth", {1, 0.5, 0.5}}},
                               .integers = {},
                               .texts = {},
                               .units = {}};

@@ -65,5 +65,20 @@ TEST_F(CollapsedSoil, NoSuctionIsCountedOn) {
     EXPECT_GT(wet->strength.peak, 0.59 * 80e3);
 }
 
+TEST_F(CollapsedSoil, APeakByItsStateSoftensByTheStrainFromThereOn) {
+    auto mesh = two_elements(scene, 0.05);
+    const auto begun = [&] {
+        Points points = meshes::points_on(mesh, 2);
+        points.state.epsilon_q_plastic.assign(points.state.size(), 0.05);
+        start_at_state(SoilMap(mesh, scene, "snapshot"), points);
+        return std::pair(points.state.epsilon_q_plastic.front(),
+                         points.state.epsilon_q_plastic.back());
+    };
+    EXPECT_EQ(begun(), std::pair(0.0, 0.05)) << "dry soil has the strength of its material";
+    mesh.epsilon_q.assign(mesh.stress.size(), 2.0 * scene.fem->failure_strain);
+    mesh.instability_ratio.assign(mesh.stress.size(), 1.0);
+    EXPECT_EQ(begun(), std::pair(0.05, 0.05)) << "collapsed soil has nothing left to soften";
+}
+
 }  // namespace
 }  // namespace breach::transfer

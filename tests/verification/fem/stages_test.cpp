@@ -2,8 +2,10 @@
 // surcharge, a support that lets go; and what cannot be.
 #include <cmath>
 
+#include "core/exchange/excess_pressure.hpp"
 #include "fem_solver/checkpoint.hpp"
 #include "fem_solver/monitors/monitors.hpp"
+#include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/bench.hpp"
 
 namespace breach::fem {
@@ -242,6 +244,103 @@ TEST(Stages, SoilThatIsGoneCountsInNoShareOfSoftenedSoil) {
     const Reading reading =
         read_monitors(done.model(), motion, distortion_of(done.model(), motion, 0.1), 0, 0.1);
     EXPECT_NEAR(reading.softened_share, 1.0, 1e-12);
+}
+
+/// A bank 4 m wide and high whose pit beside has been dug; elements of 1 m: the base's 16, the bank's
+/// 16, the pit's 16. All below water.
+class BesideAPit : public testing::Test {
+  protected:
+    static json scene() {
+        json scene = column_with_water(
+            {static_stage("gravity"), static_stage("dig", {{"remove", {"pit"}}})}, 6.0);
+        scene["fem"]["element"] = "ssp";
+        scene["fem"]["failure_surfaces"]["separation"] = 2;
+        json& regions = scene["section"]["regions"];
+        regions.push_back(regions[0]);
+        const auto lay = [&](std::size_t i, const char* name, int left, int right, int low,
+                             int high) {
+            regions[i]["name"] = name;
+            regions[i]["polygon"] = {
+                {left, low}, {right, low}, {right, high}, {left, high}, {left, low}};
+            regions[i]["mesh"]["divisions"] = {right - left, high - low};
+        };
+        lay(0, "base", 0, 8, 0, 2);
+        lay(1, "bank", 0, 4, 2, 6);
+        lay(2, "pit", 4, 8, 2, 6);
+        json& supports = scene["fem"]["supports"];
+        supports[1]["from"] = {8, 0};
+        supports[1]["to"] = {8, 2};
+        supports[2]["to"] = {8, 0};
+        return scene;
+    }
+
+    static std::size_t bank(std::size_t column, std::size_t row) { return 16 + 4 * row + column; }
+
+    bench::Run run_{scene()};
+    const Analysis& done_ = run_.go();
+    const Model& model_ = done_.model();
+    const Watch watch_{scene::fem_of(run_.session().scene()), model_};
+};
+
+TEST_F(BesideAPit, WhatIsGoneHasNoPartInTheStressBeforeTheMotion) {
+    const Beginning beginning = beginning_of(model_, done_.motion());
+    const auto sigma_v = [&](std::size_t e) { return -done_.motion().points.at(e).sigma[1]; };
+    const auto at = [&](const Vec2& x) {
+        return beginning.sigma_v0.at(nearest_node(model_.mesh, x));
+    };
+    const double of_bank = 0.5 * (sigma_v(bank(3, 1)) + sigma_v(bank(3, 2)));
+    EXPECT_NEAR(at({4, 4}), of_bank, 1e-9 * of_bank) << "half of it before";
+    EXPECT_EQ(at({8, 4}), 0.0);
+}
+
+TEST_F(BesideAPit, TheExcessPressureIsThatOfASnapshotsReader) {
+    const Beginning beginning = beginning_of(model_, done_.motion());
+    Motion motion = done_.motion();
+    for (Eigen::Index i = 0; i < motion.p.size(); ++i)
+        motion.p[i] += 1e3 * static_cast<double>(i % 7);
+    const auto snapshot =
+        snapshot_of(run_.session().scene(), model_, motion, beginning, {}, 0.0, 0);
+    EXPECT_EQ(watch_.excess_pressure(motion, beginning), exchange::nodal_excess_pressure(snapshot));
+}
+
+TEST_F(BesideAPit, TheSlideComesOutAtItsWallAndThePitDoesNotHoldIt) {
+    Motion motion = at_rest(model_);
+    for (std::size_t row = 0; row < 4; ++row)
+        motion.strain[bank(1, row)] = Voigt(0.0, 0.0, 0.0, 0.5);
+    for (const std::size_t column : {2u, 3u}) {
+        motion.strain[bank(column, 0)] = Voigt(0.0, 0.0, 0.0, 0.5);
+        for (std::size_t row = 1; row < 4; ++row)
+            for (const std::int32_t node : model_.mesh.quads[bank(column, row)])
+                motion.u.segment<2>(2 * static_cast<Eigen::Index>(node)) = Vec2(0.3, -0.4);
+    }
+    Reading reading;
+    watch_.read(model_, motion, {}, reading);
+    EXPECT_EQ(reading.failure_surfaces, 1.0);
+    EXPECT_NEAR(reading.slip_across_band, 0.5, 1e-12);
+}
+
+TEST_F(BesideAPit, AFoldedCornerIsJudgedByTheSoilThatIsThere) {
+    Motion motion = at_rest(model_);
+    for (std::size_t e = 0; e < model_.body.elements; ++e)
+        if (!model_.is_absent(e)) motion.strain[e] = Voigt(0.0, 0.0, 0.0, 0.3);
+    Distortion folded;
+    folded.worst_element = bank(3, 1);
+    const Entanglement what = entanglement_of(run_.session().scene().section, model_, watch_,
+                                              motion, folded, 1.0, scene::AtEntanglement::stop);
+    EXPECT_NEAR(what.mean_epsilon_q, 0.3 / std::sqrt(3.0), 1e-12);
+}
+
+TEST_F(BesideAPit, AWatchThatSawTheWholeBodyLooksAnewWhenTheStageBegins) {
+    Model model = model_;
+    model.absent.clear();
+    Watch watch(scene::fem_of(run_.session().scene()), model);
+    std::vector<double> epsilon_q(model_.body.elements, 0.0);
+    for (const std::size_t e :
+         {bank(1, 0), bank(1, 1), bank(1, 2), bank(1, 3), bank(2, 0), bank(3, 0)})
+        epsilon_q[e] = 0.5;
+    EXPECT_EQ(watch.failure_surfaces(epsilon_q).count, 0u);
+    watch.look_at(model_);
+    EXPECT_EQ(watch.failure_surfaces(epsilon_q).count, 1u);
 }
 
 TEST(Stages, NorSandAnswersAPhreaticRiseDrained) {

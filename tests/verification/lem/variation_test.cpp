@@ -95,6 +95,37 @@ TEST(ProbabilityOfFailure, IsThatOfTheCohesionWithoutFriction) {
     }
 }
 
+/// Undrained fill on undrained clay; `layers` divide the fill.
+json undrained_slope(const json& layers, const std::string& varied) {
+    json text = clay_slope(json::object());
+    text["lem"] = small::some_search();
+    text["lem"]["undrained"] = {{{"region", "fill"}, {"strength_kPa", 45}},
+                                {{"region", "base"}, {"strength_kPa", 40}}};
+    text["lem"]["liquefaction"] = layers;
+    text["lem"]["probability"] = {{"samples", 200},
+                                  {"variables",
+                                   {{{"parameter", "undrained_strength"},
+                                     {"of", varied},
+                                     {"coefficient_of_variation", 0.3}}}}};
+    return text;
+}
+
+TEST(ProbabilityOfFailure, OfAnUndrainedStrengthIsThatOfItsWholeRegionHoweverLayersDivideIt) {
+    const json layers = {{{"region", "fill"}, {"levels", {5, 10}}, {"residual_strength_kPa", 4}},
+                         {{"region", "fill"}, {"levels", {0, 5}}, {"residual_strength_kPa", 4}}};
+    for (const std::string varied : {"fill", "base"}) {
+        json whole, cut;
+        const Samples of_whole =
+            add_probability(small::parsed(undrained_slope(json::array(), varied)), 1, whole);
+        const Samples of_cut =
+            add_probability(small::parsed(undrained_slope(layers, varied)), 1, cut);
+        EXPECT_EQ(of_cut.names, of_whole.names);
+        EXPECT_GT(whole.at("probability").at("standard_deviation").get<double>(), 0.01);
+        for (std::size_t i = 0; i < of_whole.factor_of_safety.size(); ++i)
+            ASSERT_NEAR(of_cut.factor_of_safety[i], of_whole.factor_of_safety[i], 0.01) << varied;
+    }
+}
+
 TEST(ProbabilityOfFailure, RefusesWhatTheSceneDoesNotHave) {
     json text = clay_slope(json::object());
     text["lem"]["probability"] = {
