@@ -144,7 +144,7 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
 void Analysis::begin_stage(const Stage& stage) {
     laws_ = laws_for(model_, stage.laws);
     const bool is_static = stage.kind == StageKind::static_equilibrium;
-    set_softening(stage);
+    set_softening(stage, model_, laws_);
     if (!newton_) make_newton(stage, counts_);
     set_permeability(session_.scene(), stage.permeability, model_);
     const bool drains = stage.undrained.empty();
@@ -179,10 +179,7 @@ void Analysis::begin_stage(const Stage& stage) {
     if (!position_.moving) begin_motion();
     model_.withheld.resize(0);
     if (stage.ramp > 0.0) {
-        Eigen::VectorXd balanced = motion_.force, acting;
-        set_external_force(model_, beginning_, position_.time, acting);
-        add_pressure_force(model_, motion_.p, acting);
-        stage_force_ = balanced - acting;
+        stage_force_ = unbalanced_force(*newton_, model_, beginning_, position_.time, motion_);
         withhold(stage, stage_force_);
     }
     set_acceleration(*newton_, model_, beginning_, position_.time, prediction_, motion_);
@@ -196,24 +193,6 @@ void Analysis::begin_stage(const Stage& stage) {
     write_due_outputs(0.0, {End::converged, 0, 0.0});
 }
 
-/// Where water drains NorSand softens no more than it hardens, unless a stage asks for it in this
-/// region, or drains everywhere and asks for it.
-void Analysis::set_softening(const Stage& stage) {
-    for (std::size_t z = 0; z < laws_.size(); ++z) {
-        const auto region =
-            static_cast<std::size_t>(model_.mesh.region_of_element[model_.zones[z].first]);
-        const bool undrained = stage.kind == StageKind::dynamic ||
-                               std::ranges::find(stage.undrained, region) != stage.undrained.end();
-        if (region < stage.S_of_region.size() && stage.S_of_region[region]) {
-            laws_[z] = materials::with_S(laws_[z], *stage.S_of_region[region]);
-            continue;
-        }
-        const bool asked = stage.S && (undrained || stage.undrained.empty());
-        if (asked) laws_[z] = materials::with_S(laws_[z], *stage.S);
-        if (!asked && !undrained) laws_[z] = materials::with_S(laws_[z], 0.0);
-    }
-}
-
 /// That of steady seepage; where no water flows the pressure stays what it was.
 void Analysis::set_steady_pressure() {
     Eigen::VectorXd p = model_.water.any() ? steady_pressure(model_) : model_.water.prescribed;
@@ -224,7 +203,8 @@ void Analysis::set_steady_pressure() {
     motion_.p_rate = Eigen::VectorXd::Zero(motion_.p.size());
 }
 
-/// What is out of balance when the stage begins comes to bear along its ramp.
+/// What is out of balance when the stage begins comes to bear along its ramp; a motion that there is
+/// goes on.
 void Analysis::withhold(const Stage& stage, const Eigen::VectorXd& force) {
     model_.withheld = force;
     model_.withheld_from = stage_begin(position_.stage);
@@ -520,8 +500,10 @@ double Analysis::next_step_size(double stage_end) const {
 
 void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
     const Eigen::VectorXd& d_u = prediction_.u = trial_.u - motion_.u;
-    position_.external_work += model_.external_force.dot(d_u);
-    position_.internal_work += 0.5 * (motion_.force + trial_.force).dot(d_u);
+    // Of the body: thick columns would drown it.
+    const auto own = static_cast<Eigen::Index>(2 * model_.body.nodes);
+    position_.external_work += model_.external_force.head(own).dot(d_u.head(own));
+    position_.internal_work += 0.5 * (motion_.force + trial_.force).head(own).dot(d_u.head(own));
     if (newton_->internal_force().is_viscous()) {
         const Eigen::VectorXd& mean = prediction_.v = 0.5 * (motion_.v + trial_.v);
         position_.viscous_dissipation += newton_->internal_force().viscous_work(mean, d_u);

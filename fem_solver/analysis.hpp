@@ -36,7 +36,6 @@ class Analysis {
     void place_stage();
     void make_newton(const scene::Stage& stage, const NewtonCounts& counts);
     void begin_stage(const scene::Stage& stage);
-    void set_softening(const scene::Stage& stage);
     void set_steady_pressure();
     void drive(double share);
     void note_reactions(const scene::Stage& stage);
@@ -64,6 +63,7 @@ class Analysis {
     void write_checkpoint();
     void write_history();
     void resume();
+    void raise_again(const std::vector<fault::Flag>& flags);
     bool checkpoint_is_due() const;
     [[noreturn]] void refuse_the_mesh();
     [[noreturn]] void give_up(const std::string& cause);

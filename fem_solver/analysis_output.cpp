@@ -10,6 +10,7 @@
 #include "core/motion/series.hpp"
 #include "core/phases/files.hpp"
 #include "fem_solver/analysis.hpp"
+#include "fem_solver/model/stages.hpp"
 #include "fem_solver/monitors/strength.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
@@ -135,6 +136,7 @@ void Analysis::write_checkpoint() {
     const nlohmann::json& facts = session_.result();
     if (facts.contains(geostatic)) archive.texts[geostatic] = facts.at(geostatic).dump();
     if (entanglement_) archive.texts[entanglement] = as_json(*entanglement_).dump();
+    put_flags(session_.flags(), archive);
     exchange::write_archive(session_.output(phases::files::checkpoint), archive,
                             session_.provenance());
     checkpoint_written_ = session_.wall_seconds();
@@ -162,6 +164,7 @@ void Analysis::resume() {
     stage_force_ = std::move(checkpoint.stage_force);
     set_skeleton_modulus(beginning_, model_);
     history_ = std::move(checkpoint.history);
+    raise_again(flags_in(archive, file.string()));
     session_.truncate_telemetry(position_.telemetry_lines);
     session_.went_on_after(archive.spent);
     before_ = {position_.step, checkpoint.counts.iterations};
@@ -172,6 +175,17 @@ void Analysis::resume() {
                                                "resume with the same scene, or start afresh"}});
     distortion_ = distortion_of(model_, motion_, fem_.strain_threshold);
     spdlog::info("goes on at {} s (step {})", position_.time, position_.step);
+}
+
+/// What was found out on the way, and is not found out again.
+void Analysis::raise_again(const std::vector<fault::Flag>& flags) {
+    for (const fault::Flag& each : flags) {
+        const bool is_there =
+            std::ranges::any_of(session_.flags(), [&](const fault::Flag& present) {
+                return present.code == each.code && present.pointer == each.pointer;
+            });
+        if (!is_there) session_.flag(each);
+    }
 }
 
 void Analysis::write_history() {
@@ -192,12 +206,12 @@ void Analysis::give_up(const std::string& cause) {
 
 namespace {
 
-/// Energy and stress that the stabilisation of single-point quads carries. The stress is the
+/// Energy and stress that the stabilisation of single-point quads carries in the body. The stress is the
 /// largest nodal hourglass force per side length, of the worst element.
 nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double internal_work) {
     double energy = 0.0, largest = 0.0;
     std::size_t worst = 0;
-    for (std::size_t e = 0; e < motion.hourglass.size(); ++e) {
+    for (std::size_t e = 0; e < model.body.elements; ++e) {
         const Hourglass& each = motion.hourglass[e];
         energy += each.energy;
         const double force = model.hourglass[e].gamma.cwiseAbs().maxCoeff() * each.force.norm();
@@ -316,9 +330,11 @@ void Analysis::report_end() {
 void Analysis::report_facts() {
     const Quality quality = quality_of(model_.mesh);
     const Unknowns unknowns = model_.unknowns(Solved::motion_and_pressure);
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i < motion_.u.size(); i += 2) {
-        largest = std::max(largest, motion_.u.segment<2>(i).norm());
+    const std::vector<bool> lonely = lonely_nodes(model_);
+    double largest = 0.0;  // of the soil that is there
+    for (std::size_t i = 0; i < model_.body.nodes; ++i) {
+        if (lonely[i]) continue;
+        largest = std::max(largest, motion_.u.segment<2>(2 * static_cast<Eigen::Index>(i)).norm());
     }
     auto& facts = session_.result();
     facts["steps"] = position_.step;

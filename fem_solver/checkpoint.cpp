@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace breach::fem {
@@ -15,6 +16,7 @@ Eigen::VectorXd vector_from(const Reals& v) {
     return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
 }
 
+constexpr const char* flags_name = "flags";
 constexpr const char* history_prefix = "history.";
 
 void put(exchange::Archive& archive, const Position& p) {
@@ -239,6 +241,34 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
         archive.reals[history_prefix + name] = values;
     }
     return archive;
+}
+
+void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const fault::Flag& each : flags)
+        list.push_back({{"code", each.code},
+                        {"severity", name_of(each.severity)},
+                        {"message", each.message},
+                        {"pointer", each.pointer}});
+    archive.texts[flags_name] = list.dump();
+}
+
+std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file) {
+    const auto kept = archive.texts.find(flags_name);
+    if (kept == archive.texts.end()) return {};
+    using fault::Severity;
+    std::vector<fault::Flag> flags;
+    try {
+        for (const nlohmann::json& each : nlohmann::json::parse(kept->second)) {
+            const bool questionable = each.at("severity") == name_of(Severity::questionable);
+            flags.push_back({each.at("code"),
+                             questionable ? Severity::questionable : Severity::warning,
+                             each.at("message"), each.at("pointer")});
+        }
+    } catch (const nlohmann::json::exception&) {
+        refuse(file, "/breachline/texts/flags", "the checkpoint's flags cannot be read");
+    }
+    return flags;
 }
 
 Position position_in(const exchange::Archive& archive, const scene::Scene& scene,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "core/fault/flag.hpp"
 #include "fem_solver/monitors/monitors.hpp"
 #include "fem_solver/solve/beginning.hpp"
 #include "fem_solver/solve/newton.hpp"
@@ -48,6 +49,11 @@ Position position_in(const exchange::Archive& archive, const scene::Scene& scene
 /// model: as the stage of that position has it. Throws BadInput when the archive belongs to another scene or mesh, or lacks something.
 Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
                            const Model& model, const std::string& file);
+
+/// The flags that the run has raised so far.
+void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive);
+/// Of an archive of before there were any: none. Throws BadInput when they cannot be read.
+std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
 inline constexpr int checkpoint_version = 7;

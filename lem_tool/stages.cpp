@@ -53,6 +53,7 @@ void add_stages(const scene::Scene& scene, const Model& sound, const SearchResul
     const double top = top_of(regions[layers.front().region]);
     Slices slices = make_slices(sound.strata, sound.slices);
     std::int64_t analysed = 0;
+    double deepest = 0.0;
     json stages = json::array();
     for (std::size_t count = 0; count <= layers.size(); ++count) {
         Model model = sound;
@@ -61,8 +62,9 @@ void add_stages(const scene::Scene& scene, const Model& sound, const SearchResul
             count == 0 ? unliquefied : found_by_search(scene, model, threads);
         json stage = facts_of(model, *found.critical, slices);
         stage["layers_liquefied"] = count;
-        stage["liquefied_depth"] =
-            count == 0 ? 0.0 : top - bottom_of(regions[layers[count - 1].region]);
+        if (count > 0)
+            deepest = std::max(deepest, top - bottom_of(regions[layers[count - 1].region]));
+        stage["liquefied_depth"] = deepest;
         stage["lowest_point_depth"] = top - stage.at("lowest_point")[1].get<double>();
         if (scene.lem->non_circular && scene.lem->non_circular->vertices > 0)
             stage["non_circular"] = optimised_polyline(scene, model, found.critical->surface);

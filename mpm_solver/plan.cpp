@@ -68,7 +68,7 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
                         ? "once per zone, points of a material are neighbours"
                         : "one material, one loop",
                     "/materials"});
-    plan.push_back({"pore pressure", Use::left_out, "no law of this scene uses it", "/materials"});
+    plan.push_back({"pore pressure", Use::left_out, "points carry total stress", "/materials"});
 }
 
 void plan_scheme(const scene::Mpm& mpm, Plan& plan) {

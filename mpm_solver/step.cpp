@@ -30,8 +30,32 @@ void hold(Grid& grid, std::int32_t node) {
     if (must & condition::terrain) {
         v.head<2>() = kept_out(grid.contacts[grid.contact_of[node]], {v[0], v[1]}).array();
     }
-    if (must & condition::hold_x) v[0] = 0.0;
+    if (must & condition::hold_x) {
+        v[0] = 0.0;
+        if (must & condition::terrain) v[1] = std::max(v[1], 0.0);
+    }
     if (must & condition::hold_y) v[1] = 0.0;
+}
+
+/// What walls, floor and terrain make of a node's velocity; returns the work of friction. Walls come
+/// first: what they hold does not slide, however strong the push along the ground. Between wall and
+/// slope there is no way down.
+double bear(const Grid& grid, std::int32_t node, const Vec2& v_before, Vec2& v) {
+    const std::uint8_t must = grid.conditions[node];
+    if (must & condition::hold_x) v.x() = 0.0;
+    if (must & condition::hold_y) v.y() = 0.0;
+    const double m = grid.mass[node];
+    double work = 0.0;
+    if (must & condition::floor) work += rub(m, grid.friction[node / grid.rows], v_before, v);
+    if (must & condition::terrain) {
+        if (must & condition::hold_x) {
+            v.y() = std::max(v.y(), 0.0);
+        } else {
+            work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);
+        }
+    }
+    if (must & condition::hold_y) v.y() = 0.0;
+    return work;
 }
 
 void move_strayed(Body& body, const Totals& sums) {
@@ -108,16 +132,7 @@ void update_momentum(Body& body, double dt) {
         const Lane motion = grid.motion[node] / m;
         const Vec2 v_before{motion[0], motion[1]};
         Vec2 v = v_before + dt * (Vec2{motion[2], motion[3]} + pull);
-        if (const std::uint8_t must = grid.conditions[node]; must != 0) {
-            if (must & condition::floor) {
-                friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);
-            }
-            if (must & condition::terrain) {
-                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);
-            }
-            if (must & condition::hold_x) v.x() = 0.0;
-            if (must & condition::hold_y) v.y() = 0.0;
-        }
+        if (grid.conditions[node] != 0) friction_work += bear(grid, node, v_before, v);
         grid.motion[node] << v.x(), v.y(), v.x() - v_before.x(), v.y() - v_before.y();
     }
     body.tally.friction += friction_work;

@@ -146,9 +146,28 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-double bottom_of(const scene::Scene& scene, const scene::UndrainedRegion& layer) {
-    const double lowest = scene::bounding_box(scene.section.regions[layer.region].polygon).low.y();
-    return layer.levels ? std::max(lowest, (*layer.levels)[0]) : lowest;
+/// Levels of a layer, as far as its region reaches.
+std::array<double, 2> levels_of(const scene::Scene& scene, const scene::UndrainedRegion& layer) {
+    const scene::Box box = scene::bounding_box(scene.section.regions[layer.region].polygon);
+    if (!layer.levels) return {box.low.y(), box.high.y()};
+    return {std::max(box.low.y(), (*layer.levels)[0]), std::min(box.high.y(), (*layer.levels)[1])};
+}
+
+/// Somewhere the one lies on the other.
+bool lies_on(const scene::Scene& scene, const scene::UndrainedRegion& upper,
+             const scene::UndrainedRegion& lower) {
+    if (upper.region == lower.region)
+        return levels_of(scene, upper)[0] >= levels_of(scene, lower)[1] - 1e-9;
+    const std::vector<double> xs = abscissae(scene);
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+        const std::vector<Stratum> strata = strata_at(scene, 0.5 * (xs[i] + xs[i + 1]));
+        const auto top = std::ranges::find(strata, upper.region, &Stratum::region);
+        if (std::find_if(top, strata.end(), [&](const Stratum& each) {
+                return each.region == lower.region;
+            }) != strata.end())
+            return true;
+    }
+    return false;
 }
 
 /// Depths of the stages are counted from the top of the first layer downwards, and so is what triggers
@@ -161,18 +180,17 @@ void check_order(const scene::Scene& scene, Findings& findings) {
     const scene::Box box = extent(scene);
     const double height = box.high.y() - box.low.y();
     for (std::size_t i = 1; i < layers.size(); ++i) {
-        const double rise = bottom_of(scene, layers[i]) - bottom_of(scene, layers[i - 1]);
-        if (rise <= 1e-9 * height) continue;
-        refuse(findings, "/lem/liquefaction/" + std::to_string(i),
-               "reaches " + metres(rise) + " less deep than the layer before it",
-               "list the layers from the top down: stage n liquefies the first n of them, and "
-               "depths are counted from the top of the first");
-        return;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!lies_on(scene, layers[i], layers[j])) continue;
+            refuse(findings, "/lem/liquefaction/" + std::to_string(i),
+                   "lies on layer " + std::to_string(j) + ", which is listed before it",
+                   "list the layers from the top down: stage n liquefies the first n of them, and "
+                   "depths are counted from the top of the first");
+            return;
+        }
     }
     if (layers.empty() || !scene.fem || !scene.fem->liquefaction) return;
-    const scene::UndrainedRegion& first = layers.front();
-    const double highest = scene::bounding_box(regions[first.region].polygon).high.y();
-    const double top = first.levels ? std::min(highest, (*first.levels)[1]) : highest;
+    const double top = levels_of(scene, layers.front())[1];
     const double zero = scene.fem->liquefaction->level;
     if (std::abs(zero - top) > 0.05 * height)
         warn(findings, "depths_differ", "/fem/liquefaction/level",
@@ -192,6 +210,10 @@ bool may_be_wet(const scene::Lem& lem, std::size_t region) {
            std::ranges::any_of(lem.pore_pressure_ratios, [&](const scene::PorePressureRatio& each) {
                return each.region == region && each.r_u > 0.0;
            });
+}
+
+bool has_water(const scene::Lem& lem) {
+    return lem.water || !lem.piezometric_lines.empty() || !lem.pore_pressure_ratios.empty();
 }
 
 /// Soil that fails undrained has a strength to do so with, and NorSand water that holds its volume.
@@ -216,6 +238,12 @@ void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
         const scene::UndrainedRegion& layer = lem.liquefaction[i];
         const std::string pointer = "/lem/liquefaction/" + std::to_string(i);
         check_water(layer, pointer);
+        if (!layer.strength.norsand && has_water(lem) && !may_be_wet(lem, layer.region))
+            refuse(findings, pointer,
+                   "is of soil without water: /lem gives region \"" +
+                       scene.section.regions[layer.region].name + "\" no line and no r_u",
+                   "name the region in /lem/water/regions, or leave the layer out: dry soil does "
+                   "not liquefy");
         const scene::Material* soil = material_of(scene, scene.section.regions[layer.region]);
         const bool of_profile = soil != nullptr && soil->strength && soil->strength->residual;
         if (layer.strength.is_of_profile() && !of_profile)
@@ -234,6 +262,23 @@ void check_tables(const scene::Scene& scene, Findings& findings) {
         if (!lem.piezometric_lines[i].line.empty())
             check_table(scene, lem.piezometric_lines[i].line,
                         "/lem/piezometric_lines/" + std::to_string(i) + "/line", findings);
+}
+
+/// The other phases know nothing of weight that has not consolidated the soil below.
+void doubt_unconsolidated(const scene::Scene& scene, Findings& findings) {
+    if (scene.lem->unconsolidated.empty() || !(scene.mpm || scene.fem)) return;
+    for (const scene::Material& each : scene.materials) {
+        if (!each.strength) continue;
+        const auto c_at = [&](double sigma_v0) {
+            return materials::strength_at(each.strength->peak, {10.0, 0.0, sigma_v0}).c;
+        };
+        if (c_at(2e5) <= c_at(1e5)) continue;
+        warn(findings, "unconsolidated", "/lem/unconsolidated",
+             "is left out of sigma'_v0 by the stability analysis alone: in the other phases the "
+             "strength of \"" +
+                 each.name + "\" grows with that weight");
+        return;
+    }
 }
 
 void check_strength(const scene::Scene& scene, Findings& findings) {
@@ -259,6 +304,7 @@ void check_stability(const scene::Scene& scene, Findings& findings) {
     check_layers(scene, findings);
     check_order(scene, findings);
     check_tables(scene, findings);
+    doubt_unconsolidated(scene, findings);
     check_loads(scene, findings);
     if (!check_slices(scene, findings)) return;  // no ground to ask for
     if (lem.search) check_search(scene, *lem.search, findings);

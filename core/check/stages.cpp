@@ -32,6 +32,19 @@ void check_memory(const scene::Scene& scene, const std::string& law, Findings& f
     }
 }
 
+/// What changes the body in a dynamic stage comes as a blow unless it is given time.
+void doubt_blows(const scene::Fem& fem, Findings& findings) {
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        const scene::Stage& stage = fem.stages[i];
+        const bool changes =
+            !stage.activates.empty() || !stage.removes.empty() || !stage.releases.empty();
+        if (stage.kind != scene::StageKind::dynamic || !changes || stage.ramp > 0.0) continue;
+        warn(findings, "sudden_change", "/fem/stages/" + std::to_string(i),
+             "places or takes away soil or supports at once, which shakes the body as a blow does; "
+             "give the stage a ramp in which it comes to bear");
+    }
+}
+
 constexpr const char* mesh_pointer = "/fem/msh_file";
 /// The head of the mesh file: its format, and a surface for every region. Nodes and elements are
 /// read when it is used.
@@ -197,6 +210,7 @@ void check_stages(const scene::Scene& scene, Findings& findings) {
         check_drained_softening(scene, scene.fem->stages[i], pointer, findings);
     }
     check_changes(scene, findings);
+    doubt_blows(*scene.fem, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/check/findings.hpp"
@@ -55,12 +56,92 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+/// Points that fill the section are of one material in each region; what a transfer would decide stays
+/// undecided.
+void doubt_what_a_transfer_decides(const scene::Scene& scene, Findings& findings) {
+    if (scene.fem || !scene.mpm) return;
+    const scene::Transfer& transfer = *scene.transfer;
+    if (transfer.liquefied)
+        warn(findings, "needs_fem", "/transfer/liquefied",
+             "asks what has liquefied in an FEM, and the scene has none: in points that fill the "
+             "section nothing has; map the region to its liquefied material");
+    for (std::size_t i = 0; i < transfer.mapping.size(); ++i)
+        if (transfer.mapping[i].saturated)
+            warn(findings, "needs_fem", "/transfer/mapping/" + std::to_string(i) + "/saturated",
+                 "is used by a transfer alone, and the scene has no FEM: points that fill the "
+                 "section become \"to\" everywhere; draw what lies below the line as a region of "
+                 "its own");
+}
+
+double tan_phi_of(const scene::Material& material) {
+    if (materials::has_strength_of_points(material.law) && material.strength)
+        return materials::strength_at(material.strength->peak, {10.0, 0.0, 1e5}).tan_phi;
+    const auto strength = materials::limit_strength(material.law);
+    return strength ? strength->tan_phi : 0.0;
+}
+
+/// The water table of a scene without FEM: all that the stability analysis or a mapping knows.
+const std::vector<Vec2>* water_table_of(const scene::Scene& scene) {
+    if (scene.transfer && !scene.transfer->phreatic_line.empty())
+        return &scene.transfer->phreatic_line;
+    const bool everywhere = scene.lem && scene.lem->water && scene.lem->water->regions.empty() &&
+                            !scene.lem->water->line.empty();
+    return everywhere ? &scene.lem->water->line : nullptr;
+}
+
+/// Points carry total stress: friction below the water table acts on the water's pressure, too, and a
+/// slope stands that the stability analysis calls failed. After an FEM what has liquefied is told.
+void doubt_friction_under_water(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
+                                Findings& findings) {
+    if (scene.fem) return;
+    const std::vector<Vec2>* line = water_table_of(scene);
+    if (line == nullptr) return;
+    const scene::Box box = extent(scene);
+    const double shallow = 0.02 * (box.high.y() - box.low.y());
+    std::vector<std::size_t> told;
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        const scene::Region& region = scene.section.regions[r];
+        const std::size_t become = soils[r].material;
+        if (region.polygon.empty() || become >= scene.materials.size()) continue;
+        const scene::Material& material = scene.materials[become];
+        if (std::ranges::find(told, become) != told.end() || tan_phi_of(material) == 0.0) continue;
+        const Depth deepest = deepest_below(region.polygon, *line, level_at);
+        if (deepest.below <= shallow) continue;
+        told.push_back(become);
+        warn(findings, "total_stress", "/materials/" + material.name,
+             "has friction, and \"" + region.name + "\" reaches " + metres(deepest.below) +
+                 " below the water table: material points carry no pore pressure, so that friction "
+                 "acts on the total stress there and the soil is too strong; give what flows an "
+                 "undrained strength (friction 0)");
+    }
+}
+
+/// Points keep the mass of the soil that they were.
+void doubt_densities(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
+                     Findings& findings) {
+    std::vector<std::size_t> told;
+    for (const scene::Soil& soil : soils) {
+        const scene::Material* own = material_of(scene, scene.section.regions[soil.region]);
+        if (own == nullptr || soil.material >= scene.materials.size()) continue;
+        const scene::Material& become = scene.materials[soil.material];
+        if (std::abs(become.density - own->density) <= 1e-3 * own->density) continue;
+        if (std::ranges::find(told, soil.material) != told.end()) continue;
+        told.push_back(soil.material);
+        warn(findings, "unused_density", "/materials/" + become.name + "/density",
+             "is not used in \"" + scene.section.regions[soil.region].name +
+                 "\": points keep the mass of \"" + own->name + "\", " + text(own->density) +
+                 " kg/m3, which the region is drawn of");
+    }
+}
+
 }  // namespace
 
 void check_soils(const scene::Scene& scene, Findings& findings) {
     // Every scene has a /transfer by default; whether points are meant, the MPM or a mapping says.
     if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
+    doubt_friction_under_water(scene, soils, findings);
+    doubt_densities(scene, soils, findings);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soils[r].material];
@@ -78,6 +159,7 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
 void check_transfer(const scene::Scene& scene, Findings& findings) {
     const scene::Transfer& transfer = *scene.transfer;
     check_stress(scene, findings);
+    doubt_what_a_transfer_decides(scene, findings);
     if (transfer.liquefied && scene.fem && !scene.fem->water)
         refuse(findings, "/transfer/liquefied",
                "asks what has liquefied, and the FEM has no pore water",

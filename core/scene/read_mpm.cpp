@@ -5,6 +5,7 @@
 #include "core/geometry/polyline.hpp"
 #include "core/scene/checks.hpp"
 #include "core/scene/resolution.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::scene {
 
@@ -49,6 +50,22 @@ void check_terrain(Reader& reader, const Mpm& mpm) {
         reader.add("/mpm/terrain/" + std::to_string(i),
                    "does not lie inside the grid, a cell above /mpm/floor/level",
                    "lower floor/level and domain_y[0], or raise domain_y[1]");
+        return;
+    }
+    const auto not_ahead = [](const Vec2& a, const Vec2& b) { return a.x() >= b.x(); };
+    if (mpm.terrain.empty() ||
+        std::ranges::adjacent_find(mpm.terrain, not_ahead) != mpm.terrain.end())
+        return;                            // the line's reader says so
+    for (const double x : mpm.domain_x) {  // beyond its ends it goes on as straight as it came
+        const double y = geometry::straight_level_at(mpm.terrain, x);
+        if (y >= lowest - 1e-9) continue;
+        reader.add(
+            "/mpm/terrain",
+            "goes on straight beyond its ends, and at x = " + words::text_of(x) + " m lies at " +
+                words::text_of(y) +
+                " m, not a cell above /mpm/floor/level: the floor would carry the flow there",
+            "lower floor/level and domain_y[0], or draw the terrain on to the end of "
+            "domain_x");
     }
 }
 

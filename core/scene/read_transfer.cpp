@@ -72,6 +72,13 @@ std::optional<StrengthFunction> strength_function(Reader& reader, const Scene& s
     if (!like) return std::nullopt;
     const auto& law = scene.materials[*like].law;
     const auto strength = materials::limit_strength(law);
+    if (materials::has_strength_of_points(law)) {
+        reader.add(
+            pointer, "takes its strength from a profile, which every layer would keep",
+            "give the layers materials of their own with \"strength\", or name here one with "
+            "c_kPa in its law");
+        return std::nullopt;
+    }
     const bool undrained =
         materials::traits(law).c_and_phi && strength->tan_phi == 0.0 && strength->c > 0.0;
     if (!undrained) {

@@ -67,20 +67,27 @@ Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(proble
     }
     for (const CyclicTarget& target : problem_.cyclic)
         N_wanted_.push_back(target.N ? *target.N : cycles(*problem_.reference, target));
-    // Slope of each confinement's wanted curve, by least squares in the logarithms.
+    // Slope of each wanted curve, by least squares in the logarithms. One point has none, and repeat
+    // tests at one stress ratio scatter about none: by a slope of 0 every soil would be right.
+    constexpr double usual_slope = -0.2;       // of sands
+    constexpr double flattest_slope = -0.05;   // that is believed
+    const double least_range = std::log(1.1);  // of CSR
     for (const CyclicTarget& target : problem_.cyclic) {
         double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+        double low = std::log(target.CSR), high = low;
         for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
             const CyclicTarget& other = problem_.cyclic[k];
             const bool same_curve = other.sigma_v == target.sigma_v && other.K0 == target.K0 &&
+                                    other.strain == target.strain &&
                                     other.N.has_value() == target.N.has_value();
             if (!same_curve || N_wanted_[k] <= 0.0) continue;
             const double ln_N = std::log(N_wanted_[k]), ln_CSR = std::log(other.CSR);
             n += 1, x += ln_N, y += ln_CSR, xx += ln_N * ln_N, xy += ln_N * ln_CSR;
+            low = std::min(low, ln_CSR), high = std::max(high, ln_CSR);
         }
         const double spread = n * xx - x * x;
-        // A single point has no slope; sands lie near -0.2.
-        slope_.push_back(spread > 1e-12 ? (n * xy - x * y) / spread : -0.2);
+        const double own = spread > 1e-12 ? (n * xy - x * y) / spread : usual_slope;
+        slope_.push_back(high - low >= least_range && own <= flattest_slope ? own : usual_slope);
     }
 }
 

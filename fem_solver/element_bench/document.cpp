@@ -32,6 +32,12 @@ void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& fa
     faults.push_back({pointer + "/e_max", "is not above e_min", "give e_max > e_min"});
 }
 
+void check_dilatancy(const json& law, std::vector<Fault>& faults) {
+    if (!law.contains("psi_deg") || law.at("psi_deg") <= law.at("phi_deg")) return;
+    faults.push_back({"/law/psi_deg", "is above phi_deg",
+                      "such a soil would create energy; give psi_deg <= phi_deg"});
+}
+
 TestLaw law_of(const json& law) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_of(law);
@@ -227,15 +233,18 @@ void check_tests(const json& document, std::vector<Fault>& faults) {
             faults.push_back({pointer + "/" + key, "is an entry of NorSand alone",
                               "leave it out, or set /law/type to \"norsand\""});
         }
-        if (!is_triaxial(words::word_at<Boundary>(test, "boundary"))) continue;
-        if (law == "pm4sand") {
+        const auto boundary = words::word_at<Boundary>(test, "boundary");
+        if (is_triaxial(boundary) && law == "pm4sand") {
             faults.push_back({pointer + "/boundary",
                               "is triaxial, and PM4Sand knows plane strain alone",
                               "use a shear or biaxial boundary, or another law"});
         }
-        if (test.value("static_shear", 0.0) != 0.0) {
-            faults.push_back({pointer + "/static_shear", "has no place in a triaxial test",
-                              "leave it out, or use a shear boundary"});
+        if (drives(boundary) != Drives::shear && test.value("static_shear", 0.0) != 0.0) {
+            const std::string what = is_triaxial(boundary) ? "triaxial" : "biaxial";
+            faults.push_back({pointer + "/static_shear", "has no place in a " + what + " test",
+                              is_triaxial(boundary) ? "leave it out, or use a shear boundary"
+                                                    : "leave it out, or use a shear boundary; K0 "
+                                                      "is what a biaxial test begins with"});
         }
     }
 }
@@ -394,6 +403,7 @@ void check_what_it_is(const json& document, std::vector<Fault>& faults) {
 void complete_law_and_tests(json& document, const std::filesystem::path& folder,
                             std::vector<Fault>& faults) {
     complete_sand(document.at("law"), "/law", faults);
+    check_dilatancy(document.at("law"), faults);
     if (document.contains("calibration")) {
         json& calibration = document.at("calibration");
         if (calibration.contains("reference"))
@@ -466,10 +476,51 @@ Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, do
     return {SandPoint{ready, sand.options, pm4sand::initialise(ready, sigma)}};
 }
 
+namespace {
+
+/// How far the stress of a point that has not been strained lies outside what its law bears [Pa].
+double outside(const PlainPoint& point) {
+    const double excess = std::visit(
+        [&](const auto& law) { return materials::yield_excess(law, point.state); }, point.law);
+    const double round_off = 1e-9 * point.state.sigma.cwiseAbs().maxCoeff();
+    return excess > round_off ? excess : 0.0;
+}
+double outside(const SandPoint& point) {
+    return materials::stress_outside(materials::PM4Sand{{}, point.law, point.options}, point.state);
+}
+double outside(const NorSandPoint&) { return 0.0; }  // it is refused
+
+/// Tests that begin outside the surface.
+std::vector<fault::Flag> doubts_of_starts(const Bench& bench) {
+    std::string names;
+    double largest = 0.0;
+    for (const TestPlan& plan : bench.tests) {
+        for (const double sigma_v : plan.consolidation.sigma_v) {
+            const Specimen specimen = consolidated(bench.law, plan.consolidation, sigma_v);
+            const double excess =
+                std::visit([](const auto& point) { return outside(point); }, specimen.point);
+            if (excess > 0.0) add_name(names, plan.name);
+            largest = std::max(largest, excess);
+        }
+    }
+    if (names.empty()) return {};
+    const char* then = std::holds_alternative<SandLaw>(bench.law)
+                           ? "what is outside stays on as a stress without strength, and the "
+                             "response has it in it"
+                           : "the first step takes it back, and a peak at strain 0 is the start's";
+    return {{"starts_outside", fault::Severity::warning,
+             "in " + names + " the stress at the start lies outside the law's surface, by up to " +
+                 three_digits(largest / 1e3) + " kPa: " + then +
+                 "; give K0 nearer to 1, or less static_shear",
+             "/tests"}};
+}
+
+}  // namespace
+
 std::vector<fault::Flag> doubts_of(const Bench& bench) {
-    std::vector<fault::Flag> flags;
     const auto* law = std::get_if<NorSandLaw>(&bench.law);
-    if (!law) return flags;
+    if (!law) return doubts_of_starts(bench);
+    std::vector<fault::Flag> flags;
     std::string drained, held, clipped;
     for (const TestPlan& plan : bench.tests) {
         const Consolidation& at = plan.consolidation;

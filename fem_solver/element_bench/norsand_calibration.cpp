@@ -127,7 +127,9 @@ class Calibrator {
     bool all_ends_ = false;    ///< critical or not
     bool slope_held_ = false;  ///< they differ enough in D for N
     Indices hardening_;
-    std::vector<double> node_psi_;  ///< of H: one state parameter, or the least and the largest
+    /// Of H: none where nothing of it is sought or held; one state parameter; or the least and the
+    /// largest.
+    std::vector<double> node_psi_;
 };
 
 double spread(const std::vector<double>& values) {
@@ -185,6 +187,11 @@ void Calibrator::choose_hardening_tests() {
     for (const std::size_t i : hardening_)
         states.push_back(psi(values_, problem_.tests[i].e_0, problem_.tests[i].p_0));
     const auto [low, high] = std::ranges::minmax(states);
+    if (is_given(H_0)) {  // a line through (0, H_0): H_psi shows where psi is farthest from 0
+        const double far = std::abs(low) > std::abs(high) ? low : high;
+        if (!is_given(H_psi) && std::abs(far) >= least_range) node_psi_ = {far};
+        return;
+    }
     node_psi_ = {low};
     if (states.size() >= 3 && high - low >= least_range && !is_given(H_psi))
         node_psi_.push_back(high);
@@ -345,9 +352,13 @@ double sum_of_squares(const std::vector<Eigen::VectorXd>& parts) {
     return sum;
 }
 
-/// H is a line over psi through its logarithms at the nodes.
+/// H is a line over psi through its logarithms at the nodes, and through H_0 where that is given.
 Values Calibrator::with_nodes(const Eigen::VectorXd& ln_H) const {
     Values out = values_;
+    if (is_given(H_0)) {
+        out[H_psi] = (out[H_0] - std::exp(ln_H(0))) / node_psi_[0];
+        return out;
+    }
     if (ln_H.size() == 1) {
         out[H_0] = std::exp(ln_H(0)) + out[H_psi] * node_psi_[0];
         return out;
@@ -383,7 +394,7 @@ std::vector<Eigen::MatrixXd> jacobians(const At& at, const Eigen::VectorXd& x,
 
 /// Damped Gauss-Newton; from afar it begins at the best of some constant H.
 void Calibrator::fit_hardening(bool from_afar) {
-    if (is_given(H_0)) return;
+    if (node_psi_.empty()) return;
     const auto at = [&](const Eigen::VectorXd& x) { return deviations(with_nodes(x)); };
     Eigen::VectorXd x = nodes();
     auto here = at(x);
@@ -502,13 +513,14 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
 /// errors, each one standard error long and none correlated with another, move the fit by.
 void Calibrator::add_hardening_errors(const std::vector<Values>& errors,
                                       OfEach<Estimate>& out) const {
-    if (is_given(H_0)) return;
-    out[H_0].tests = hardening_;
     const bool two = node_psi_.size() == 2;
-    if (two)
+    const bool level = !is_given(H_0), fall = two || (!level && !node_psi_.empty());
+    if (level) out[H_0].tests = hardening_;
+    if (fall)
         out[H_psi].tests = hardening_;
     else if (!is_given(H_psi))
         out[H_psi].origin = Origin::assumed;
+    if (node_psi_.empty()) return;
     const std::size_t n = hardening_.size();
     if (n <= node_psi_.size()) return;
     const Eigen::VectorXd x = nodes();
@@ -539,10 +551,13 @@ void Calibrator::add_hardening_errors(const std::vector<Values>& errors,
         by_nodes.row(1) << std::exp(x(0)) / width, -std::exp(x(1)) / width;
         by_nodes.row(0) = node_psi_[0] * by_nodes.row(1);
     }
-    by_nodes(0, 0) += std::exp(x(0));
+    if (level)
+        by_nodes(0, 0) += std::exp(x(0));
+    else
+        by_nodes(1, 0) = -std::exp(x(0)) / node_psi_[0];
     const Eigen::MatrixXd both = by_nodes * covariance * by_nodes.transpose();
-    out[H_0].error = std::sqrt(both(0, 0));
-    if (two) out[H_psi].error = std::sqrt(both(1, 1));
+    if (level) out[H_0].error = std::sqrt(both(0, 0));
+    if (fall) out[H_psi].error = std::sqrt(both(1, 1));
 }
 
 std::string names_of(const std::vector<TriaxialTest>& tests, const Indices& which) {

@@ -127,12 +127,13 @@ CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const Cycli
                            const Limit& limit, const Pace& pace) {
     CyclicResult result;
     Test test(start, boundary, pace);
+    const double mean = load.mean.value_or(response(start, boundary));
     const double tolerance = 1e-9 * load.amplitude;
     double direction = 1.0;
     double N = 0.0;
     int half_cycles = 0;
     while (half_cycles <= 2 * limit.cycles) {
-        const double target = load.mean + direction * load.amplitude;
+        const double target = mean + direction * load.amplitude;
         Trial trial = test.attempt(direction * pace.step);
         bool turns = false;
         if (trial.outcome == Ending::done &&
@@ -143,7 +144,7 @@ CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const Cycli
         if (!test.accept(trial)) break;
 
         // Phase of the equivalent sine: a quarter up, then half cycles.
-        const double x = std::clamp((test.answer() - load.mean) / load.amplitude, -1.0, 1.0);
+        const double x = std::clamp((test.answer() - mean) / load.amplitude, -1.0, 1.0);
         const double phase = std::asin(x) / (2.0 * std::numbers::pi);
         N = std::max(N, 0.5 * half_cycles + direction * phase);
         const double r_u = test.r_u();
@@ -193,14 +194,16 @@ Loop hysteresis(const Specimen& start, Boundary boundary, double amplitude, int 
     const auto& all = record.readings;
     // The last whole loop lies between its positive peak and the one before.
     const std::size_t peak = static_cast<std::size_t>(steps) * (4 * (cycles - 1) + 1);
-    const std::size_t next = std::min(peak + 4 * static_cast<std::size_t>(steps), all.size() - 1);
+    const std::size_t next = peak + 4 * static_cast<std::size_t>(steps);
+    if (next >= all.size()) return {amplitude, std::nullopt, std::nullopt};
     double lost = 0.0, high = all[peak].response, low = high;
     for (std::size_t i = peak; i < next; ++i) {
         lost += 0.5 * (all[i].response + all[i + 1].response) * (all[i + 1].strain - all[i].strain);
         low = std::min(low, all[i + 1].response);
     }
     const double G = (high - low) / (2.0 * amplitude);
-    return {amplitude, G, lost / (2.0 * std::numbers::pi * G * amplitude * amplitude)};
+    const double damping = lost / (2.0 * std::numbers::pi * G * amplitude * amplitude);
+    return {amplitude, G, std::isfinite(damping) ? std::optional(damping) : std::nullopt};
 }
 
 }  // namespace breach::element_bench

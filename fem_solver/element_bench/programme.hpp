@@ -50,7 +50,7 @@ struct Limit {
 /// A cyclic test whose stress turns round at mean +- amplitude [Pa].
 struct CyclicStress {
     double amplitude;
-    double mean = 0.0;
+    std::optional<double> mean{};  ///< nothing: the response at the start
 };
 
 struct CyclicResult {
@@ -73,8 +73,10 @@ Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude,
 
 struct Loop {
     double amplitude;  ///< strain
-    double G_secant;   ///< [Pa]
-    double damping;    ///< energy lost / (4 pi energy stored) [-]
+    /// [Pa]; nothing where the specimen stopped before the loop's end
+    std::optional<double> G_secant;
+    /// energy lost / (4 pi energy stored) [-]; nothing also where no stress is left to store it
+    std::optional<double> damping;
 };
 
 /// Secant modulus and damping of the last of `cycles` strain cycles, in `steps` calls a quarter.

@@ -162,10 +162,9 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
               const CyclicStrengthTest& test, Results& results) {
     for (const double CSR : test.CSR) {
-        const CyclicResult result = cyclic_stress(
-            specimen, plan.consolidation.boundary,
-            {.amplitude = CSR * sigma_v, .mean = plan.consolidation.static_shear * sigma_v},
-            test.limit, test.pace);
+        const CyclicResult result =
+            cyclic_stress(specimen, plan.consolidation.boundary, {.amplitude = CSR * sigma_v},
+                          test.limit, test.pace);
         results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
                                               {"CSR", CSR},
                                               {"N_strain_limit", reached(result.N_strain)},
@@ -195,17 +194,22 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
               const ModulusReductionTest& test, Results& results) {
     const std::string curve = label(plan.name, sigma_v);
-    std::vector<double> amplitude, G, damping;
+    std::vector<double> amplitude, G, damping;  // of the loops that were measured
     for (const double each : test.amplitudes) {
         const Loop loop =
             hysteresis(specimen, plan.consolidation.boundary, each, test.cycles, test.steps);
-        results.numbers[plan.name].push_back({{"sigma_v_kPa", sigma_v / 1e3},
-                                              {"amplitude", each},
-                                              {"G_secant_kPa", loop.G_secant / 1e3},
-                                              {"damping", loop.damping}});
+        json row{{"sigma_v_kPa", sigma_v / 1e3},
+                 {"amplitude", each},
+                 {"G_secant_kPa", nullptr},
+                 {"damping", nullptr},
+                 {"complete", loop.G_secant.has_value()}};
+        if (loop.G_secant) row["G_secant_kPa"] = *loop.G_secant / 1e3;
+        if (loop.damping) row["damping"] = *loop.damping;
+        results.numbers[plan.name].push_back(std::move(row));
+        if (!loop.G_secant || !loop.damping) continue;
         amplitude.push_back(each);
-        G.push_back(loop.G_secant);
-        damping.push_back(loop.damping);
+        G.push_back(*loop.G_secant);
+        damping.push_back(*loop.damping);
     }
     results.curves.reals[curve + ".amplitude"] = amplitude;
     results.curves.reals[curve + ".G_secant"] = G;

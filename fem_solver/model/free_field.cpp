@@ -43,6 +43,14 @@ void add_column(const scene::FreeField& field, const Body& body, Side side, doub
                 Mesh& mesh, FreeFieldColumns& columns) {
     const auto edge = side_nodes(mesh, body, side, tolerance);
     const auto regions = regions_of_edges(mesh, body);
+    const auto refuse = [side] {
+        throw fault::BadInput("scene",
+                              {{"/fem/free_field",
+                                std::string("the ") + (side == Side::left ? "left" : "right") +
+                                    " side of the mesh is not one vertical line of element edges",
+                                "end the section in a vertical side, or leave this column out"}});
+    };
+    if (edge.size() < 2) refuse();  // it leans
     const Vec2 outwards(side == Side::left ? -field.width : field.width, 0.0);
     const auto first = static_cast<std::int32_t>(mesh.nodes.size());
     for (const std::int32_t node : edge) {
@@ -58,13 +66,7 @@ void add_column(const scene::FreeField& field, const Body& body, Side side, doub
     for (std::size_t j = 0; j + 1 < edge.size(); ++j) {
         const auto region =
             regions.find({std::min(edge[j], edge[j + 1]), std::max(edge[j], edge[j + 1])});
-        if (region == regions.end()) {
-            throw fault::BadInput(
-                "scene", {{"/fem/free_field",
-                           std::string("the ") + (side == Side::left ? "left" : "right") +
-                               " side of the mesh is not one vertical line of element edges",
-                           "end the section in a vertical side, or leave this column out"}});
-        }
+        if (region == regions.end()) refuse();
         const std::int32_t low = first + 2 * static_cast<std::int32_t>(j);
         const std::int32_t inner = low, outer = low + 1, inner_up = low + 2, outer_up = low + 3;
         mesh.quads.push_back(side == Side::left ? Quad{outer, inner, inner_up, outer_up}

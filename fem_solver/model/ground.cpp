@@ -1,6 +1,7 @@
 #include "fem_solver/model/ground.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -38,15 +39,32 @@ std::vector<OuterEdge> outer_edges(const Model& model) {
     return outer;
 }
 
+struct Sides {
+    double left, right;  ///< x [m]
+};
+
+/// Of the body.
+Sides sides_of(const Model& model) {
+    Sides sides{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < model.body.nodes; ++i) {
+        sides.left = std::min(sides.left, model.mesh.nodes[i].x());
+        sides.right = std::max(sides.right, model.mesh.nodes[i].x());
+    }
+    return sides;
+}
+
+/// A column beside the section stands for the ground at its side.
+bool lies_on(const scene::Surcharge& load, double a, double b, const Sides& sides) {
+    const double middle = 0.5 * (a + b), x = std::clamp(middle, sides.left, sides.right);
+    const double slack = x == middle ? 0.0 : 1e-6 * std::abs(a - b);
+    return x >= load.from - slack && x <= load.to + slack;
+}
+
 }  // namespace
 
 std::vector<GroundEdge> ground_edges(const Model& model) {
     const Mesh& mesh = model.mesh;
-    double left = std::numeric_limits<double>::infinity(), right = -left;
-    for (std::size_t i = 0; i < model.body.nodes; ++i) {
-        left = std::min(left, mesh.nodes[i].x());
-        right = std::max(right, mesh.nodes[i].x());
-    }
+    const auto [left, right] = sides_of(model);
     std::vector<GroundEdge> ground;
     for (const auto& [edge, e] : outer_edges(model)) {
         const Vec2 along = mesh.nodes[edge.b] - mesh.nodes[edge.a];
@@ -86,6 +104,7 @@ void add_ground_loads(const ModelDecisions& decided, Model& model) {
     const auto add = [&](std::int32_t node, const Vec2& force) {
         model.external_force.segment<2>(2 * static_cast<Eigen::Index>(node)) += force;
     };
+    const Sides sides = sides_of(model);
     for (const auto& [a, b, outwards] : ground_edges(model)) {
         const Vec2 &x_a = model.mesh.nodes[a], &x_b = model.mesh.nodes[b];
         if (water) {
@@ -95,8 +114,7 @@ void add_ground_loads(const ModelDecisions& decided, Model& model) {
             add(b, -(p_a + 2.0 * p_b) / 6.0 * outwards);
         }
         for (const scene::Surcharge& load : surcharge) {
-            const double middle = 0.5 * (x_a.x() + x_b.x());
-            if (middle < load.from || middle > load.to) continue;
+            if (!lies_on(load, x_a.x(), x_b.x(), sides)) continue;
             const Vec2 force(0.0, -0.5 * load.pressure * outwards.y());
             add(a, force);
             add(b, force);

@@ -13,16 +13,6 @@
 namespace breach::fem {
 namespace {
 
-/// [nodes] of no element that is there.
-std::vector<bool> lonely_nodes(const Model& model) {
-    std::vector<bool> lonely(model.mesh.nodes.size(), true);
-    for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
-        if (model.is_absent(e)) continue;
-        for (const std::int32_t node : model.mesh.quads[e]) lonely[node] = false;
-    }
-    return lonely;
-}
-
 /// [elements] of regions that are not there in a stage.
 std::vector<bool> elements_gone(const scene::Scene& scene, std::size_t stage, const Mesh& mesh) {
     const auto gone = scene::fem_of(scene).regions_gone(scene.section.regions.size(), stage);
@@ -218,6 +208,15 @@ void creep(const scene::Fem& fem, std::size_t stage, Model& model) {
 
 }  // namespace
 
+std::vector<bool> lonely_nodes(const Model& model) {
+    std::vector<bool> lonely(model.mesh.nodes.size(), true);
+    for (std::size_t e = 0; e < model.mesh.quads.size(); ++e) {
+        if (model.is_absent(e)) continue;
+        for (const std::int32_t node : model.mesh.quads[e]) lonely[node] = false;
+    }
+    return lonely;
+}
+
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model) {
     const scene::Fem& fem = scene::fem_of(scene);
@@ -240,6 +239,23 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     press(fem, stage, model);
     push(fem, stage, model);
     creep(fem, stage, model);
+}
+
+void set_softening(const scene::Stage& stage, const Model& model,
+                   std::vector<materials::Law>& laws) {
+    for (std::size_t z = 0; z < laws.size(); ++z) {
+        const auto region =
+            static_cast<std::size_t>(model.mesh.region_of_element[model.zones[z].first]);
+        const bool undrained = stage.kind == scene::StageKind::dynamic ||
+                               std::ranges::find(stage.undrained, region) != stage.undrained.end();
+        if (region < stage.S_of_region.size() && stage.S_of_region[region]) {
+            laws[z] = materials::with_S(laws[z], *stage.S_of_region[region]);
+            continue;
+        }
+        const bool asked = stage.S && (undrained || stage.undrained.empty());
+        if (asked) laws[z] = materials::with_S(laws[z], *stage.S);
+        if (!asked && !undrained) laws[z] = materials::with_S(laws[z], 0.0);
+    }
 }
 
 void set_creep_step(double share, const Motion& motion, Model& model) {
@@ -269,6 +285,13 @@ void forget_absent(const Model& model, Motion& motion) {
         if (motion.hourglass.empty()) continue;
         motion.hourglass[e].force.setZero();
         motion.hourglass[e].energy = 0.0;
+    }
+    // A dof that hangs on the moving base goes on with it.
+    const std::vector<std::int32_t> of_dof = model.unknowns(Solved::motion_and_pressure).of_dof;
+    const std::vector<bool> lonely = lonely_nodes(model);
+    for (std::size_t d = 0; d < of_dof.size(); ++d) {
+        if (!lonely[d / 2] || of_dof[d] >= 0) continue;
+        motion.v[static_cast<Eigen::Index>(d)] = motion.a[static_cast<Eigen::Index>(d)] = 0.0;
     }
 }
 

@@ -19,7 +19,15 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
 /// `motion` has; points without a deviator do not creep.
 void set_creep_step(double share, const Motion& motion, Model& model);
 
-/// Takes stress and strain from the points that are not there.
+/// Where water drains NorSand softens no more than it hardens, unless a stage asks for it in this
+/// region, or drains everywhere and asks for it.
+void set_softening(const scene::Stage& stage, const Model& model,
+                   std::vector<materials::Law>& laws);
+
+/// [nodes] of no element that is there.
+std::vector<bool> lonely_nodes(const Model& model);
+
+/// Takes stress and strain from the points that are not there, and the motion from their nodes.
 void forget_absent(const Model& model, Motion& motion);
 
 }  // namespace breach::fem

@@ -7,6 +7,7 @@
 #include "fem_solver/model/columns_alone.hpp"
 #include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/model/pore_water.hpp"
+#include "fem_solver/model/stages.hpp"
 #include "fem_solver/solve/step.hpp"
 
 namespace breach::fem {
@@ -48,6 +49,7 @@ class Columns {
     void begin(const Stage& stage) {
         stage_ = &stage;
         laws_ = laws_for(model_, stage.laws);
+        set_softening(stage, model_, laws_);
         set_permeability(scene_, stage.permeability, model_);
         if (stage.laws == scene::StageLaws::scene) begin_memory(model_, motion_);
         newton_.emplace(model_, Solved::motion_and_pressure,

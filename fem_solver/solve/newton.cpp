@@ -177,6 +177,13 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
     return unsolvable_ ? Geometry::degenerate : geometry;
 }
 
+void Newton::add_damping_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f) {
+    f.array() += factor * model_.rayleigh.mass * model_.mass.array() * v.array();
+    if (elastic_) elastic_->add_product(factor * model_.rayleigh.stiffness, v, f);
+    if (model_.base.any()) f.array() += factor * model_.base.dashpot.array() * v.array();
+    internal_force_.add_viscous_force(factor, v, f);
+}
+
 /// R_u = f_ext - f_int - M a - C v - f_viscous + Q p;  R_p = flux - Q^T v - S p' - H p.
 void Newton::set_residual(const StepProblem& problem, Motion& trial) {
     const TimeRule& rule = problem.rule;

@@ -73,6 +73,9 @@ class Newton {
     const NewtonCounts& counts() const { return counts_; }
     void set_counts(const NewtonCounts& counts) { counts_ = counts; }
     NewtonMemory memory() const;
+    /// Adds `factor` times C v to f: all that opposes a velocity (damping of mass and stiffness,
+    /// dashpots of the base, viscosity), on the mesh of the last evaluation [N].
+    void add_damping_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f);
     /// False: the matrix in memory is not one of this problem, and nothing was taken.
     bool restore(const NewtonMemory& memory);
     /// For people, after a solve that ended degenerate: which element, and what was wrong with it.

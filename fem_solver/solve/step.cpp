@@ -74,15 +74,24 @@ void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Mo
     motion.force = scratch.force;
 }
 
-void set_acceleration(const Newton& newton, const Model& model, const Beginning& beginning,
-                      double time, Prediction& prediction, Motion& motion) {
+Eigen::VectorXd unbalanced_force(Newton& newton, const Model& model, const Beginning& beginning,
+                                 double time, const Motion& motion) {
+    Eigen::VectorXd acting;
+    set_external_force(model, beginning, time, acting);
+    add_pressure_force(model, motion.p, acting);
+    Eigen::VectorXd force = motion.force - acting;
+    force.array() += model.mass.array() * motion.a.array();
+    newton.add_damping_force(1.0, motion.v, force);
+    return force;
+}
+
+void set_acceleration(Newton& newton, const Model& model, const Beginning& beginning, double time,
+                      Prediction& prediction, Motion& motion) {
     Eigen::VectorXd& R = prediction.external;
     set_external_force(model, beginning, time, R);
     add_pressure_force(model, motion.p, R);
     R -= motion.force;
-    R.array() -= model.rayleigh.mass * model.mass.array() * motion.v.array();
-    if (model.base.any()) R.array() -= model.base.dashpot.array() * motion.v.array();
-    newton.internal_force().add_viscous_force(-1.0, motion.v, R);
+    newton.add_damping_force(-1.0, motion.v, R);
     const Unknowns& n = newton.unknowns();
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n.displacements), mass = force;
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
@@ -95,7 +104,8 @@ void set_acceleration(const Newton& newton, const Model& model, const Beginning&
     motion.a.setZero();
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
         const std::int32_t i = n.of_dof[d];
-        if (i >= 0) motion.a[static_cast<Eigen::Index>(d)] = force[i] / mass[i];
+        // A free base of soil that is gone has dashpots alone.
+        if (i >= 0 && mass[i] > 0.0) motion.a[static_cast<Eigen::Index>(d)] = force[i] / mass[i];
     }
 }
 

@@ -44,8 +44,13 @@ void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Mo
 
 /// Sets the accelerations that the unbalanced force causes at `time` [s]: M a = f_ext - f_int + Q p
 /// - C v.
-void set_acceleration(const Newton& newton, const Model& model, const Beginning& beginning,
-                      double time, Prediction& prediction, Motion& motion);
+void set_acceleration(Newton& newton, const Model& model, const Beginning& beginning, double time,
+                      Prediction& prediction, Motion& motion);
+
+/// M a + C v + f_int - Q p - f_ext at `time` [s], with what moves now: the force that would let the
+/// motion go on as it does, per dof [N].
+Eigen::VectorXd unbalanced_force(Newton& newton, const Model& model, const Beginning& beginning,
+                                 double time, const Motion& motion);
 
 /// External force at a time [s]: weight and loads, the base's reaction, the motion from below.
 void set_external_force(const Model& model, const Beginning& beginning, double time,

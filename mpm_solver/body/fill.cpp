@@ -116,10 +116,11 @@ mechanics::Voigt stress_at(const scene::Scene& scene, const Vec2& place,
     return column_stress(overburden(scene, place), soil.nu);
 }
 
-void add_point(const scene::Scene& scene, std::size_t region, const Patch& patch,
-               exchange::ParticleState& state) {
+/// With the mass of the region's own material, and at rest as the one that it becomes.
+void add_point(const scene::Scene& scene, std::size_t region, const scene::Material& becomes,
+               const Patch& patch, exchange::ParticleState& state) {
     const scene::Material& material = scene.materials[scene.section.regions[region].material];
-    const mechanics::Elasticity soil = materials::elasticity(material.law);
+    const mechanics::Elasticity soil = materials::elasticity(becomes.law);
     const mechanics::Voigt sigma = stress_at(scene, patch.centroid, soil);
     const double sigma_m = (sigma[0] + sigma[1] + sigma[2]) / 3.0;
     const double volume = patch.area * state.thickness;
@@ -178,7 +179,7 @@ FilledSection fill_section(const scene::Scene& scene) {
         filled.state.regions.push_back(region.name);
         filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
         for (const auto& [place, patch] : sample(region.polygon, origin, square)) {
-            add_point(scene, r, patch, filled.state);
+            add_point(scene, r, *become[r], patch, filled.state);
             if (strengths) add_strength(ground, *become[r], r, filled.state);
         }
     }

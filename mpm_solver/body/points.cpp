@@ -1,9 +1,11 @@
 #include "mpm_solver/body/points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/scene/beds.hpp"
+#include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
 
@@ -57,6 +59,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
               .lanes = lanes_of(law, soil),
               .elasticity = materials::elasticity(law),
               .volume_rule = decide(mpm, {soil.name, law, soil.viscosity}).volume_rule.value,
+              .softening_scale = softening_scale(mpm, soil),
               .viscosity = soil.viscosity,
               .nonlocal_length = soil.nonlocal_length.value_or(0.0),
               .walls_y = walls_of(scene, material),
@@ -168,6 +171,41 @@ void settle_volumes(Points& points, Zone& zone, double stiffness_scale) {
     zone.largest_specific_volume = largest_specific_volume(points, zone);
 }
 
+/// What softened in the scene's measure has softened as far in the zone's own.
+void scale_softening(Points& points, const Zone& zone) {
+    if (zone.softening_scale == 1.0) return;
+    for (std::size_t p = zone.begin; p < zone.end; ++p)
+        points.epsilon_q_plastic[p] *= zone.softening_scale;
+}
+
+/// Points of another thickness have other volumes than their section's.
+void refuse_thickness(const scene::Scene& scene, const exchange::ParticleState& state,
+                      const std::string& file) {
+    if (std::abs(state.thickness - scene.thickness) <= 1e-9 * scene.thickness) return;
+    throw fault::BadInput(
+        file, {{"/VTKHDF",
+                "holds points of a slice " + words::text_of(state.thickness) +
+                    " m thick, and /thickness is " + words::text_of(scene.thickness) + " m",
+                "give the scene the thickness that its points were made with"}});
+}
+
+/// From the solver's measures to the scene's, for each of its soils.
+struct Measures {
+    double softening;   ///< softening_scale [-]
+    double K, K_drawn;  ///< bulk modulus, scaled and as the scene has it [Pa]
+};
+
+std::vector<Measures> measures_of(const scene::Scene& scene) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    std::vector<Measures> measures;
+    for (const scene::Soil& soil : scene::soils_of(scene)) {
+        const scene::Material& material = scene.materials[soil.material];
+        const double K = materials::elasticity(material.law).bulk_modulus();
+        measures.push_back({softening_scale(mpm, material), mpm.stiffness_scale * K, K});
+    }
+    return measures;
+}
+
 }  // namespace
 
 void Points::resize(std::size_t n) {
@@ -211,6 +249,7 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
         throw fault::BadInput(file, {{"/", "holds no points", "give at least one"}});
     }
     refuse_water(state, file);
+    refuse_thickness(scene, state, file);
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     const std::vector<std::int32_t> match = match_soils(scene, soils, state, file);
     std::vector<std::size_t> order(state.size());
@@ -238,6 +277,7 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
     result.zones = zones_of(scene, points);
     for (Zone& zone : result.zones) {
         settle_volumes(points, zone, scene::mpm_of(scene).stiffness_scale);
+        scale_softening(points, zone);
     }
     return result;
 }
@@ -256,17 +296,22 @@ exchange::ParticleState particle_state(const scene::Scene& scene, const Points& 
     state.mass.resize(n), state.volume_0.resize(n), state.volume.resize(n), state.stress.resize(n);
     state.epsilon_q.resize(n), state.epsilon_q_plastic.resize(n), state.gap.resize(n);
     state.region.resize(n);
+    const std::vector<Measures> measures = measures_of(scene);
     for (std::size_t p = 0; p < n; ++p) {
         const auto to = static_cast<std::size_t>(points.number[p]);
+        const Measures& of = measures[points.region[p]];
         state.position[to] = {points.x[p], points.y[p]};
         state.velocity[to] = {points.vx[p], points.vy[p]};
         state.velocity_gradient[to] << points.Lxx[p], points.Lxy[p], points.Lyx[p], points.Lyy[p];
         state.mass[to] = points.m[p];
-        state.volume_0[to] = points.V_0[p];
+        const double sigma_m = (points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0;
+        const bool same_K = of.K == of.K_drawn;
+        state.volume_0[to] =
+            points.V_0[p] * (same_K ? 1.0 : (1.0 + sigma_m / of.K) / (1.0 + sigma_m / of.K_drawn));
         state.volume[to] = points.volume[p];
         state.stress[to] = {points.sxx[p], points.syy[p], points.szz[p], points.sxy[p]};
         state.epsilon_q[to] = points.epsilon_q[p];
-        state.epsilon_q_plastic[to] = points.epsilon_q_plastic[p];
+        state.epsilon_q_plastic[to] = points.epsilon_q_plastic[p] / of.softening;
         state.gap[to] = points.gap[p];
         state.region[to] = points.region[p];
     }

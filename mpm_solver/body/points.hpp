@@ -85,6 +85,7 @@ struct Zone {
     materials::LawLanes lanes;  ///< the same for the loops
     mechanics::Elasticity elasticity;
     VolumeRule volume_rule;
+    double softening_scale;  ///< of the law's strains of softening, and of the points' own [-]
     double viscosity;        ///< eta [Pa s]
     double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
     WallRows walls_y;        ///< the floor's, and the top of a bed (core/scene/beds.hpp)

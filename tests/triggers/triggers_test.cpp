@@ -501,5 +501,80 @@ TEST(Trigger, MistakesAreNamedWithPointerAndColumn) {
     EXPECT_EQ(faults(json::array()).at("pointer"), "/transfer_times");
 }
 
+/// The critical depth of the fake stability analysis is the residual strength of its variant.
+void make_depths(const Live& live) {
+    const auto program = live.sandbox.bin() / "lem_tool";
+    std::filesystem::remove(program);
+    std::ofstream(program) << R"sh(#!/bin/sh
+depth=1
+while [ $# -gt 0 ]; do
+    case "$1" in
+        --version) printf 'lem_tool 0\nnumerics 1\n'; exit 0 ;;
+        --output) out=$2 ;;
+        /lem/liquefaction/0/residual_strength_kPa=*) depth=${1#*=} ;;
+    esac
+    shift
+done
+mkdir -p "$out"
+printf '{"phase":"lem_tool","safety":1.2,"critical_depth":%s}' "$depth" > "$out/result.json"
+)sh";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+}
+
+json of_two_depths(const json& triggers) {
+    json made = with_triggers(triggers);
+    made["stability"] = true;
+    made["scene"]["lem"]["liquefaction"] =
+        json::array({{{"region", "slope"}, {"residual_strength_kPa", 1}}});
+    made["variants"] = {
+        {{"name", "firm"}, {"overrides", json::array()}},
+        {{"name", "deep"}, {"overrides", {"/lem/liquefaction/0/residual_strength_kPa=4"}}}};
+    return made;
+}
+
+TEST(Trigger, TakesTheCriticalDepthOfItsOwnVariant) {
+    const Live live;
+    make_depths(live);
+    Service service(live.sandbox);
+    const std::string run =
+        service.submit(of_two_depths({{{"kind", "criterion"},
+                                       {"when", "crest_displacement >= critical_depth"},
+                                       {"snapshot_interval_s", 0.1}}}));
+    const json triggers = settled(service, run);
+    ASSERT_EQ(triggers.size(), 2u) << "one for each FEM: " << triggers;
+    for (const json& row : service.table(run))
+        EXPECT_NEAR(row.at("transfer_time"), row.at("variant") == "firm" ? 1.0 : 2.0, 0.0501)
+            << row;
+    EXPECT_EQ(service.table(run).size(), 2u);
+    const json end = service.get("/v1/runs/" + run).body;
+    EXPECT_NE(task_labelled(end, "fem_firm").at("same_as").is_null(),
+              task_labelled(end, "fem_deep").at("same_as").is_null())
+        << "equal FEMs are computed once";
+}
+
+TEST(Trigger, OnACriticalDepthIsRefusedWhereVariantsOfSeveralShareTheFem) {
+    const Live live;
+    make_depths(live);
+    Service service(live.sandbox);
+    const json plain{{{"kind", "criterion"}, {"when", "time > 1"}}};
+    const json on_depth{
+        {"kind", "criterion"}, {"name", "depth"}, {"when", "crest_displacement >= critical_depth"}};
+    const std::string run = service.submit(of_two_depths(plain));
+    const auto path = [](const std::string& id) { return "/v1/runs/" + id + "/triggers"; };
+    const Answer refused = service.post(path(run), on_depth.dump());
+    EXPECT_EQ(refused.status, 422) << refused.text;
+    EXPECT_NE(refused.text.find("different stability analyses"), std::string::npos) << refused.text;
+    json other = on_depth;
+    other["when"] = "crest_displacement >= 1";
+    EXPECT_EQ(service.post(path(run), other.dump()).status, 202);
+
+    json alike = of_two_depths(plain);
+    alike["variants"][1]["overrides"] = {"/mpm/duration=1"};
+    const std::string of_one = service.submit(alike);
+    const Answer taken = service.post(path(of_one), on_depth.dump());
+    EXPECT_EQ(taken.status, 202) << taken.text;
+    for (const std::string& each : {run, of_one}) service.wait_for_end(each, 60);
+}
+
 }  // namespace
 }  // namespace breach::testing

@@ -5,6 +5,7 @@
 #include "core/telemetry/lines.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/study/draws.hpp"
+#include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
 
@@ -82,6 +83,20 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     return plan;
 }
 
+/// One FEM has one critical depth: that of another variant would tell of another dam.
+void check_fems(const Service& service, const std::string& run, const TriggerPlan& plan) {
+    const RunSoFar so_far{.study = service.store.study_of(run).value(),
+                          .scene = service.store.scene_of(run).value(),
+                          .tasks = service.store.tasks_of(run)};
+    if (!shares_fems_too_widely(so_far, service.data, service.numerics, plan)) return;
+    throw fault::BadInput(
+        "trigger", {{"",
+                     "asks for critical_depth, and variants with different stability analyses "
+                     "share a FEM of this run: each has a critical depth of its own",
+                     "submit the study with this trigger: such variants then have FEMs of their "
+                     "own"}});
+}
+
 void add(Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& run = call.parts[0];
@@ -95,6 +110,7 @@ void add(Service& service, Call& call) {
             throw Problem{409, "/problems/name-taken", "Name taken",
                           "the run has a trigger named " + plan.name};
     }
+    check_fems(service, run, plan);
     std::vector<std::pair<std::string, TriggerPlan>> wanted;
     for (const Task& task : service.store.tasks_of(run)) {
         if (task.phase != phases::fem.program || task.state == TaskState::cancelled) continue;

@@ -32,8 +32,10 @@ class TaskList {
   public:
     explicit TaskList(const Study& study) : study_(study) {}
 
-    std::size_t add(TaskPlan task, const Variant& variant, Sharing sharing) {
-        const Identity identity{task.recipe, task.parent, task.input};
+    /// `beside`: what else must be equal to share it.
+    std::size_t add(TaskPlan task, const Variant& variant, Sharing sharing,
+                    const std::string& beside = {}) {
+        const Identity identity{task.recipe, task.parent, task.input, beside};
         if (sharing == Sharing::wanted) {
             if (const auto same = known_.find(identity); same != known_.end()) {
                 ++users_[same->second];
@@ -66,7 +68,7 @@ class TaskList {
     }
 
   private:
-    using Identity = std::tuple<std::string, std::optional<std::size_t>, std::string>;
+    using Identity = std::tuple<std::string, std::optional<std::size_t>, std::string, std::string>;
 
     const Study& study_;
     std::map<Identity, std::size_t> known_;
@@ -77,7 +79,15 @@ class TaskList {
 class Planner {
   public:
     Planner(const Study& study, const Numerics& numerics)
-        : study_(study), numerics_(numerics), tasks_(study), open_(study) {}
+        : study_(study),
+          numerics_(numerics),
+          triggers_ask_for_stability_(
+              study.stability &&
+              std::ranges::any_of(
+                  study.triggers,
+                  [](const TriggerPlan& each) { return asks_for_critical_depth(work_of(each)); })),
+          tasks_(study),
+          open_(study) {}
 
     void plan(const Variant& variant) {
         if (study_.reach == Reach::chain) return plan_chain(variant);
@@ -106,10 +116,10 @@ class Planner {
         for (const phases::Phase& each : phases::all)
             if (each.program != std::string_view(phases::lem.program) || study_.stability)
                 recipes_of_variant_[each.program] = recipe(each.program, scene);
-        const std::size_t fem = add_first(tasks_, phases::fem.program, std::move(wishes));
+        const std::size_t fem = add_fem(tasks_, std::move(wishes));
         if (study_.stability) add_first(tasks_, phases::lem.program, {}, sharing_of_stability());
         for (const double time : study_.transfer_times) plan_transfer(tasks_, fem, time);
-        plan_transfer(open_, add_first(open_, phases::fem.program, {}), std::nullopt);
+        plan_transfer(open_, add_fem(open_, {}), std::nullopt);
     }
 
     TaskGraph finished() && {
@@ -127,7 +137,7 @@ class Planner {
   private:
     /// A task that waits for nothing.
     std::size_t add_first(TaskList& list, const std::string& phase, std::vector<std::string> wishes,
-                          Sharing sharing = Sharing::wanted) {
+                          Sharing sharing = Sharing::wanted, const std::string& beside = {}) {
         return list.add({.phase = phase,
                          .label = {},
                          .transfer_time = {},
@@ -136,7 +146,14 @@ class Planner {
                          .input = {},
                          .overrides = std::move(wishes),
                          .recipe = recipes_of_variant_.at(phase)},
-                        *variant_, sharing);
+                        *variant_, sharing, beside);
+    }
+
+    /// A trigger that asks for the critical depth has one for each FEM.
+    std::size_t add_fem(TaskList& list, std::vector<std::string> wishes) {
+        return add_first(list, phases::fem.program, std::move(wishes), Sharing::wanted,
+                         triggers_ask_for_stability_ ? recipes_of_variant_.at(phases::lem.program)
+                                                     : std::string());
     }
 
     void plan_transfer(TaskList& list, std::size_t fem, std::optional<double> time) {
@@ -185,6 +202,7 @@ class Planner {
 
     const Study& study_;
     const Numerics& numerics_;
+    bool triggers_ask_for_stability_;
     const Variant* variant_ = nullptr;
     std::optional<bool> stability_serves_all_;
     std::map<std::string, std::string> recipes_of_variant_;
@@ -194,6 +212,19 @@ class Planner {
 };
 
 }  // namespace
+
+bool asks_for_critical_depth(const criteria::Expression& condition) {
+    const auto& fields = condition.fields;
+    return std::ranges::find(fields, critical_depth_field) != fields.end();
+}
+
+bool asks_for_critical_depth(const Work& work) {
+    if (const auto* when = std::get_if<When>(&work))
+        return asks_for_critical_depth(when->criterion.expression());
+    const auto* between = std::get_if<Between>(&work);
+    return between && (asks_for_critical_depth(between->window.lower().expression()) ||
+                       asks_for_critical_depth(between->window.upper()));
+}
 
 TaskGraph plan_tasks(const Study& study, const Numerics& numerics) {
     Planner planner(study, numerics);

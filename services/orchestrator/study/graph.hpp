@@ -9,11 +9,15 @@
 // An accuracy study can need less: fem_solver, lem_tool or mpm_solver alone (study/accuracy.hpp).
 //
 // Tasks of different variants are one task when they are the same: equal recipe, equal parent,
-// equal input. A variant that changes only /mpm thus shares the FEM and all transfers.
+// equal input. A variant that changes only /mpm thus shares the FEM and all transfers. Where a trigger
+// asks for the critical depth, FEMs are shared by variants of equal stability analysis alone: with
+// another depth the trigger fires at another time.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
+#include "services/orchestrator/records/trigger.hpp"
 #include "services/orchestrator/study/study.hpp"
 
 namespace breach::orchestrator {
@@ -23,6 +27,11 @@ struct TaskGraph {
     std::vector<Recipe> recipes;  ///< of all tasks, each once
     std::vector<TaskPlan> one_more_transfer;  ///< for every variant (records/firing_plan.hpp)
 };
+
+/// What triggers know of the stability analysis.
+inline constexpr std::string_view critical_depth_field = "critical_depth";
+bool asks_for_critical_depth(const criteria::Expression& condition);
+bool asks_for_critical_depth(const Work& work);
 
 TaskGraph plan_tasks(const Study& study, const Numerics& numerics);
 

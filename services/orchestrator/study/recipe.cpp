@@ -1,6 +1,7 @@
 #include "services/orchestrator/study/recipe.hpp"
 
 #include <cassert>
+#include <iterator>
 #include <map>
 
 #include "core/exchange/provenance.hpp"
@@ -26,6 +27,10 @@ struct Reading {
     Regions regions;
 };
 
+/// Water of the stability analysis: by it strengths that go by stress are told in every phase.
+constexpr const char* water_of_lem[]{"/lem/water", "/lem/piezometric_lines",
+                                     "/lem/pore_pressure_ratios"};
+
 const std::map<std::string, Reading> readings{
     {phases::lem.program, {{"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
     {phases::fem.program,
@@ -40,13 +45,31 @@ const std::map<std::string, Reading> readings{
 };
 
 json materials_part(const json& scene, Materials wanted) {
-    if (wanted == Materials::all) return scene.at("materials");
+    const json& all = scene.at("materials");
+    if (wanted == Materials::all) return all;
     json used = json::object();
     for (const json& each : scene.at("section").at("regions")) {
         const auto& name = each.at("material").get_ref<const std::string&>();
-        used[name] = scene.at("materials").at(name);
+        used[name] = all.at(name);
+        const json::json_pointer like("/strength/like");  // another material's profile
+        if (!all.at(name).contains(like)) continue;
+        const auto& other = all.at(name).at(like).get_ref<const std::string&>();
+        if (all.contains(other)) used[other] = all.at(other);
     }
     return used;
+}
+
+/// What a phase reads. Without a FEM the MPM fills the section itself, as its ground and water lie.
+Reading reading_of(const std::string& phase, const json& scene) {
+    Reading reading = readings.at(phase);
+    const bool fills = phase == phases::mpm.program && !scene.contains("fem");
+    if (fills) {
+        reading.regions = Regions::whole;
+        reading.parts.emplace_back("/transfer");
+    }
+    if (fills || phase == phases::transfer.program)
+        reading.parts.insert(reading.parts.end(), std::begin(water_of_lem), std::end(water_of_lem));
+    return reading;
 }
 
 json section_part(const json& scene, Regions wanted) {
@@ -104,7 +127,7 @@ void collect(const json& a, const json& b, const std::string& at, std::vector<st
 }  // namespace
 
 Recipe recipe_of(const std::string& phase, const json& scene, std::int64_t numerics) {
-    const Reading& reading = readings.at(phase);
+    const Reading reading = reading_of(phase, scene);
     json part{{"section", section_part(scene, reading.regions)},
               {"materials", materials_part(scene, reading.materials)}};
     for (const std::string& each : reading.parts) {

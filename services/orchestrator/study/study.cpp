@@ -197,18 +197,29 @@ std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& 
     return own;
 }
 
-/// Those that the study names itself; what the service made of it is made anew.
-std::vector<VariantEntry> own_variants(const json& entries) {
+constexpr const char* kept_variants = "own_variants";  ///< of a study that all runs are draws of
+
+/// Of this list, what the service has not made.
+std::vector<VariantEntry> own_among(const json& entries, const std::string& pointer) {
     std::vector<VariantEntry> own;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (entries[i].contains("made_by")) continue;
+        const std::string at = pointer + "/" + std::to_string(i);
         own.push_back({.name = entries[i].at("name"),
                        .overrides = entries[i].at("overrides"),
-                       .name_pointer = "/variants/" + std::to_string(i) + "/name",
-                       .pointer = "/variants/" + std::to_string(i) + "/overrides",
+                       .name_pointer = at + "/name",
+                       .pointer = at + "/overrides",
                        .made_by = ""});
     }
     return own;
+}
+
+/// Those that the study names itself; what the service made of it is made anew.
+std::vector<VariantEntry> own_variants(const json& document) {
+    std::vector<VariantEntry> own = own_among(document["variants"], "/variants");
+    if (!own.empty() || document["variants"].empty() || !document.contains(kept_variants))
+        return own;
+    return own_among(document[kept_variants], std::string("/") + kept_variants);
 }
 
 /// On as many lattices as the study asks for.
@@ -216,7 +227,7 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, con
                                           std::vector<Fault>& faults) {
     constexpr std::size_t longest_name = 32;  // of the schema
     const Draws draws = draws_of(document);
-    std::vector<VariantEntry> own = own_variants(document["variants"]);
+    std::vector<VariantEntry> own = own_variants(document);
     if (draws.first == 0 && draws.count == 1) return own;
     if (!can_redraw(draws.of, reach)) {
         if (!document.contains("check")) check_draws(draws, reach, "", faults);
@@ -252,6 +263,15 @@ json as_json(const std::vector<VariantEntry>& entries) {
         if (!each.sample.is_null()) list.back()["sample"] = each.sample;
     }
     return list;
+}
+
+/// What is run, and beside it the study's own variants where none of them is run as it stands: what was
+/// read of the study is read of it again.
+void keep_variants(const std::vector<VariantEntry>& entries, json& document) {
+    const std::vector<VariantEntry> own = own_variants(document);
+    document["variants"] = as_json(entries);
+    document.erase(kept_variants);
+    if (!own.empty() && own_variants(document).empty()) document[kept_variants] = as_json(own);
 }
 
 /// One variant's scene as it was checked.
@@ -357,7 +377,7 @@ void check_one_state(const json& document, const std::string& judge, const Study
 
 /// What a blind check cannot have.
 void check_blind(const json& document, const Study& study, std::vector<Fault>& faults) {
-    if (!own_variants(document["variants"]).empty())
+    if (!own_variants(document).empty())
         faults.push_back(
             {"/variants", "a blind check draws one setting", "put its changes into \"overrides\""});
     check_one_state(document, "a blind check", study, faults);
@@ -365,7 +385,7 @@ void check_blind(const json& document, const Study& study, std::vector<Fault>& f
 
 /// What a study cannot be besides an accuracy study.
 void check_company(const json& document, const Study& study, std::vector<Fault>& faults) {
-    if (!own_variants(document["variants"]).empty())
+    if (!own_variants(document).empty())
         faults.push_back({"/variants", "an accuracy study makes its variants of its ladders",
                           "leave \"variants\" out: a ladder's rungs say what is changed"});
     for (const auto& [entry, none] : entries_of_no_draws().items())
@@ -542,8 +562,9 @@ Study read_study_document(json document, const SentFiles& files) {
              "put the scene itself here (jq can: .scene = $scene[0]), or store it (POST "
              "/v1/scenes) and give scene:NAME"});
     }
-    const bool repeats_are_sound =
-        sound("variants") && sound("draws") && sound("first_draw") && sound("draws_of");
+    const bool repeats_are_sound = sound("variants") && sound("draws") && sound("first_draw") &&
+                                   sound("draws_of") &&
+                                   is_sound(of_study, std::string("/") + kept_variants);
     Study study;
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
@@ -620,7 +641,7 @@ Study read_study_document(json document, const SentFiles& files) {
                  "variants times transfer times are more than " + std::to_string(most_transfers),
                  "split the study"});
         }
-        document["variants"] = as_json(entries);
+        keep_variants(entries, document);
         if (accuracy)
             check_rungs(*accuracy, settings_of(*accuracy, base.scene), study.variants, faults);
     }

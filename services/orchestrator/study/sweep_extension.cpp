@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <vector>
 
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
@@ -14,12 +15,37 @@ using nlohmann::json;
 
 namespace {
 
+/// This document on the run's scene, which has the study's overrides in it: made again, one that
+/// appends would append twice.
+Study read_again(json document, const RunSoFar& run, const DataFolder& data) {
+    json overrides = document.value("overrides", json::array());
+    document["overrides"] = json::array();
+    document["scene"] = json::parse(run.scene);
+    Study study = read_study_document(std::move(document), {data.root()});
+    study.document["overrides"] = std::move(overrides);
+    return study;
+}
+
+std::vector<std::string> names_of_variants(const json& study) {
+    std::vector<std::string> names;
+    for (const json& each : study.value("variants", json::array()))
+        names.push_back(each.at("name"));
+    return names;
+}
+
 /// The study as it was submitted, with these times.
 Study study_with(const RunSoFar& run, const DataFolder& data, const json& times) {
     json document = run.study;
-    document["scene"] = json::parse(run.scene);
     document["transfer_times"] = times;
-    return read_study_document(std::move(document), {data.root()});
+    Study study = read_again(std::move(document), run, data);
+    if (names_of_variants(study.document) != names_of_variants(run.study))
+        throw fault::BadInput(
+            "request", {{"/transfer_times",
+                         "the run's variants cannot be made again from what an earlier version "
+                         "has stored of its study",
+                         "submit the study with all its times: what was computed is not computed "
+                         "again"}});
+    return study;
 }
 
 bool contains(const std::vector<double>& times, std::optional<double> time) {
@@ -113,8 +139,7 @@ Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const 
     json document = run.study;
     const std::size_t before = document.at("variants").size();
     document["uncertainty"] = entry;
-    document["scene"] = json::parse(run.scene);
-    const Study study = read_study_document(std::move(document), {data.root()});
+    const Study study = read_again(std::move(document), run, data);
     std::map<std::string, Task> present;
     for (const Task& each : run.tasks) present.emplace(each.label, each);
     Extension extension;
@@ -126,6 +151,18 @@ Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const 
     extension.triggers = study.triggers;
     add_missing_tasks(std::move(graph), present, data, extension);
     return extension;
+}
+
+bool shares_fems_too_widely(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                            const TriggerPlan& trigger) {
+    if (!asks_for_critical_depth(work_of(trigger))) return false;
+    Study study = read_again(run.study, run, data);
+    study.triggers.push_back(trigger);
+    const std::vector<TaskPlan> wanted = plan_tasks(study, numerics).tasks;
+    return std::ranges::any_of(wanted, [&](const TaskPlan& each) {
+        return each.phase == phases::fem.program &&
+               std::ranges::find(run.tasks, each.label, &Task::label) == run.tasks.end();
+    });
 }
 
 }  // namespace breach::orchestrator

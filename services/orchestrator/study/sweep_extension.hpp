@@ -29,4 +29,9 @@ Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const N
 Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                              const nlohmann::json& entry);
 
+/// Whether variants of different stability analyses share a FEM that this trigger, which asks for their
+/// critical depth, would watch: given with the study, it would have parted them. Throws BadInput.
+bool shares_fems_too_widely(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
+                            const TriggerPlan& trigger);
+
 }  // namespace breach::orchestrator

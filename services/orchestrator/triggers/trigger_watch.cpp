@@ -16,6 +16,7 @@
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/repeats.hpp"
+#include "services/orchestrator/study/graph.hpp"
 #include "services/orchestrator/triggers/bisection.hpp"
 
 namespace breach::orchestrator {
@@ -52,21 +53,6 @@ bool has_regular_snapshots(const Task& fem, const json& scene) {
         if (each.starts_with(key)) return std::stod(each.substr(key.size())) > 0.0;
     }
     return scene.at("fem").value("snapshot_interval", 0.0) > 0.0;
-}
-
-constexpr std::string_view critical_depth_field = "critical_depth";
-
-bool asks_for_critical_depth(const criteria::Expression& condition) {
-    const auto& fields = condition.fields;
-    return std::ranges::find(fields, critical_depth_field) != fields.end();
-}
-
-bool asks_for_critical_depth(const Work& work) {
-    if (const auto* when = std::get_if<When>(&work))
-        return asks_for_critical_depth(when->criterion.expression());
-    const auto* between = std::get_if<Between>(&work);
-    return between && (asks_for_critical_depth(between->window.lower().expression()) ||
-                       asks_for_critical_depth(between->window.upper()));
 }
 
 /// The values on the line on which the condition became true, by name.

@@ -36,11 +36,13 @@ EDITS = {
         ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);\n", ""),
         ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::musl) map_again(body, dt);\n", ""),
         ("another order of the update", MPM_STEP, "    if (body.order != UpdateOrder::usf) update_stress(body, dt);\n", "    update_stress(body, dt);\n"),
-        ("friction zones", MPM_STEP, "            if (must & condition::floor) {\n"
-         "                friction_work += rub(m, grid.friction[node / grid.rows], v_before, v);\n            }\n", ""),
+        ("friction zones", MPM_STEP, "    if (must & condition::floor) work += rub(m, grid.friction[node / grid.rows], v_before, v);\n", ""),
         ("friction zones", MPM_STEP, "double rub(double m, double mu,", "[[maybe_unused]] double rub(double m, double mu,"),
-        ("terrain", MPM_STEP, "            if (must & condition::terrain) {\n"
-         "                friction_work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);\n            }\n", ""),
+        ("terrain", MPM_STEP, "    if (must & condition::terrain) {\n        if (must & condition::hold_x) {\n            v.y() = std::max(v.y(), 0.0);\n        } else {\n"
+         "            work += rub(grid.contacts[grid.contact_of[node]], m, v_before, v);\n        }\n    }\n    if (must & condition::hold_y) v.y() = 0.0;\n    return work;\n", ""),
+        ("terrain", MPM_STEP, "    const double m = grid.mass[node];\n    double work = 0.0;\n", ""),
+        ("terrain", MPM_STEP, "double bear(const Grid& grid, std::int32_t node, const Vec2& v_before, Vec2& v) {", "void bear(const Grid& grid, std::int32_t node, const Vec2&, Vec2& v) {"),
+        ("terrain", MPM_STEP, "friction_work += bear(grid, node, v_before, v);", "bear(grid, node, v_before, v);"),
         ("terrain", MPM_STEP, "    double friction_work = 0.0;\n", ""),
         ("terrain", MPM_STEP, "    body.tally.friction += friction_work;\n", ""),
         ("overlap correction", MPM_RUN, "    if (mpm_.overlap_correction.rate > 0.0 && clock_.step % steps_between_marks == 0) {\n"

@@ -196,7 +196,23 @@ TEST(Drawn, LayersListedFromTheBottomUpAreRefused) {
     const std::string upwards =
         R"([{"region":"tailings","levels":[0,5.88]},{"region":"tailings","levels":[5.88,11.76]}])";
     expect_only(changed("mochikoshi", {"/lem/liquefaction=" + upwards}), "/lem/liquefaction/1",
-                "reaches 5.88 m less deep than the layer before it");
+                "lies on layer 0, which is listed before it");
+}
+
+TEST(Drawn, WhatATransferDecidesIsToldWhereThePointsFillTheSection) {
+    const std::string mapping =
+        R"(/transfer/mapping=[{"region":"slope","to":"tailings","saturated":"tailings"}])";
+    const Checked checked =
+        changed("flow_slope", {mapping, "/transfer/phreatic_line=[[0,8],[60,0]]"});
+    EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
+    EXPECT_TRUE(has_warning(checked, "needs_fem", "/transfer/mapping/0/saturated"));
+}
+
+TEST(Drawn, FrictionBelowTheWaterTableIsToldWherePointsFillTheSection) {
+    const Checked wet = changed("merriespruit", {});
+    EXPECT_TRUE(has_warning(wet, "total_stress", "/materials/embankment"));
+    EXPECT_FALSE(
+        has_warning(changed("mochikoshi", {}), "total_stress", "/materials/embankment_saturated"));
 }
 
 TEST(Drawn, DepthsThatAreCountedFromTwoLevelsAreTold) {

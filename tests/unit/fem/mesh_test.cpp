@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fem_solver/model/free_field.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -126,6 +128,27 @@ TEST(Join, NamesAGap) {
 
 TEST(Join, LetsRegionsThatDoNotTouchBe) {
     EXPECT_TRUE(faults_of_join({{square("a", 0, 0, {3, 3}), square("b", 5, 0, {4, 2})}}).empty());
+}
+
+/// Two elements upon each other, whose left side leans.
+TEST(FreeField, ASideThatLeansIsRefusedWithARemedy) {
+    using scene::FreeFieldSides;
+    const Mesh leaning{.nodes = {{0, 0}, {4, 0}, {0.5, 1}, {4, 1}, {1, 2}, {4, 2}},
+                       .quads = {{0, 1, 3, 2}, {2, 3, 5, 4}},
+                       .region_of_element = {0, 0}};
+    for (const FreeFieldSides sides : {FreeFieldSides::left, FreeFieldSides::both}) {
+        Mesh mesh = leaning;
+        try {
+            add_free_field({1.0, 1e4, sides}, mesh);
+            ADD_FAILURE() << "a column was built";
+        } catch (const fault::BadInput& error) {
+            EXPECT_EQ(error.faults().at(0).pointer, "/fem/free_field");
+            EXPECT_NE(error.faults().at(0).cause.find("left side"), std::string::npos);
+            EXPECT_NE(error.faults().at(0).remedy.find("vertical side"), std::string::npos);
+        }
+    }
+    Mesh mesh = leaning;
+    EXPECT_EQ(add_free_field({1.0, 1e4, FreeFieldSides::right}, mesh).inner.size(), 3U);
 }
 
 }  // namespace

@@ -379,6 +379,20 @@ TEST(Simulation, ABlockThatStandsHasNoLargeShareOfNumericalEnergy) {
     EXPECT_LT(std::abs(row.energy_numerical_share), 1e-2);
 }
 
+/// Its sides press on the walls harder along the floor than friction holds: nothing slides there.
+TEST(Simulation, SoilBetweenWallsRubsNothingAtTheirFeet) {
+    scene::Scene scene =
+        one_soil(sand(1e7, 0.49, 50e3, 25.0), 1800.0, rectangle(0, 0, 10, 10), 1.0, 10.0, 14.0);
+    scene.gravity = 9.81;
+    scene.mpm->fill_stress = scene::FillStress::overburden;
+    scene.mpm->left = scene.mpm->right = scene::Wall::roller;
+    scene.mpm->floor.friction = {{0.0, 10.0, 0.2}};
+    Simulation standing = fresh(scene);
+    while (standing.clock().time < 1.0) advance_looking(standing, 1);
+    const double released = 1e-3 * 1800.0 * 100.0 * 9.81 * 5.0;  // a thousandth of what it could
+    EXPECT_LT(standing.look().friction_dissipation, released);
+}
+
 TEST(Simulation, StopsAtRestAndSaysSo) {
     const scene::Scene scene = heap();
     Simulation simulation = fresh(scene);

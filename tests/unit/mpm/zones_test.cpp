@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/mpm/bodies.hpp"
 
 namespace breach::mpm::test {
@@ -45,6 +47,39 @@ TEST(Zones, SofteningStrainsOfANonlocalSoilAreThoseOfItsBandWhateverTheCells) {
     }
     scene.mpm->softening_length.reset();
     EXPECT_EQ(softening_of(scene).epsilon_q_end, 0.1);
+}
+
+/// A file has the scene's strains; of soil whose law is stretched a point has softened as far.
+TEST(Zones, WhatHasSoftenedStaysSoftenedAsFarWhateverTheScale) {
+    scene::Scene scene = softening_soil();
+    scene.mpm->softening_length = 1.25;
+    exchange::ParticleState state = fill_section(scene).state;
+    std::ranges::fill(state.epsilon_q_plastic, 0.06);  // half-way from 0.02 to 0.1
+    const Body body = make_body(scene, zoned_points(scene, state, "test"), "test");
+    const materials::Softening law = *materials::softening(body.zones.at(0).law);
+    const double share = (body.points.epsilon_q_plastic[0] - law.epsilon_q_start) /
+                         (law.epsilon_q_end - law.epsilon_q_start);
+    EXPECT_NEAR(share, 0.5, 1e-12);
+    EXPECT_NEAR(particle_state(scene, body.points).epsilon_q_plastic[0], 0.06, 1e-15);
+}
+
+TEST(Zones, WhatIsWrittenCanBeginAgainWithAScaledStiffness) {
+    scene::Scene scene = softening_soil();
+    scene.gravity = 9.81;
+    scene.mpm->fill_stress = scene::FillStress::overburden;
+    scene.mpm->stiffness_scale = 0.05;
+    const Body body = filled_body(scene);
+    const exchange::ParticleState written = particle_state(scene, body.points);
+    const Body again = make_body(scene, zoned_points(scene, written, "test"), "test");
+    for (std::size_t p = 0; p < body.points.size(); ++p)
+        ASSERT_NEAR(again.points.V_0[p] / body.points.V_0[p], 1.0, 1e-12);
+}
+
+TEST(Zones, PointsOfAnotherThicknessAreRefused) {
+    scene::Scene scene = softening_soil();
+    const exchange::ParticleState state = fill_section(scene).state;
+    scene.thickness = 2.0;
+    EXPECT_THROW(zoned_points(scene, state, "test"), fault::BadInput);
 }
 
 TEST(Zones, ViscosityIsTheMaterialsAndShortensTheStep) {

@@ -276,6 +276,28 @@ TEST(Draws, BeginWithAnyNumber) {
     EXPECT_EQ(read_study(study.dump()).variants.at(0).name, "d5");
 }
 
+TEST(Draws, OfVariantsAreMadeAgainFromTheStoredStudy) {
+    json study = study_with({});
+    study.erase("accuracy");
+    study["variants"] = {{{"name", "tall"}, {"overrides", {"/mpm/cfl=0.3"}}},
+                         {{"name", "slip"}, {"overrides", {"/mpm/cfl=0.2"}}}};
+    study["draws"] = 2;
+    for (const int first : {0, 1, 7}) {
+        study["first_draw"] = first;
+        const Study read = read_study(study.dump());
+        EXPECT_EQ(read.document.contains("own_variants"), first > 0);
+        json stored = read.document;
+        stored["scene"] = read.scene;
+        EXPECT_EQ(read_study(stored.dump()).document, read.document) << first;
+        stored["first_draw"] = 0;
+        const Study unmoved = read_study(stored.dump());
+        EXPECT_EQ(unmoved.variants.at(0).name, "tall");
+        EXPECT_FALSE(unmoved.document.contains("own_variants")) << "they stand among the others";
+        stored["variants"] = json::array();
+        EXPECT_EQ(read_study(stored.dump()).variants.at(0).name, "d1") << "taken out by hand";
+    }
+}
+
 TEST(Draws, OfATooLargeNumberOrNoWholeOneAreRefused) {
     json study = study_with({});
     study.erase("accuracy");

@@ -49,6 +49,60 @@ TEST(Extension, AddsTimesAndKeepsWhatIsThere) {
     }
 }
 
+TEST(Extension, KeepsTheVariantsThatOnlyDrawsAreRunOf) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    json wanted = study("mpm_steps=2", {0.5});
+    wanted["variants"] = {{{"name", "light"}, {"overrides", {"/mpm/duration=1"}}},
+                          {{"name", "slip"}, {"overrides", {"/mpm/duration=2"}}}};
+    wanted["draws"] = 2;
+    wanted["first_draw"] = 1;
+    const std::string run = service.submit(wanted);
+    const json before = service.wait_for_end(run).at("study");
+    const std::vector<std::string> names{"light_d2", "light_d3", "slip_d2", "slip_d3"};
+    for (const double time : {0.75, 1.0}) {  // each from what the one before has stored
+        const auto answer =
+            service.post("/v1/sweeps/" + run + "/extend", json{{"transfer_times", {time}}}.dump());
+        ASSERT_EQ(answer.status, 202) << answer.text;
+        const json end = service.wait_for_end(run);
+        EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
+        EXPECT_EQ(end.at("study").at("variants"), before.at("variants"));
+        EXPECT_EQ(end.at("study").at("own_variants").size(), 2u);
+        std::vector<std::string> made;
+        for (const json& row : service.table(run))
+            if (row.at("transfer_time") == time) made.push_back(row.at("variant"));
+        EXPECT_EQ(made, names);
+    }
+    EXPECT_EQ(service.table(run).size(), 12u);
+}
+
+TEST(Extension, DoesNotApplyTheOverridesTwice) {
+    const Sandbox sandbox;
+    Service service(sandbox);
+    const auto appending = [](const std::vector<double>& times) {
+        json made = study("", times);
+        made["overrides"] = {R"(/fem/surcharge/-={"from":0,"to":10,"pressure_kPa":5})"};
+        return made;
+    };
+    const std::string run = service.submit(appending({0.5}));
+    service.wait_for_end(run);
+    service.post("/v1/sweeps/" + run + "/extend", R"({"transfer_times": [0.75]})");
+    const json end = service.wait_for_end(run);
+    EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
+    EXPECT_EQ(end.at("study").at("overrides"), appending({}).at("overrides"));
+
+    const auto first_answer = [&](const json& study) {
+        const std::string id = service.submit(study);
+        service.wait_for_end(id);
+        const json body = service.get("/v1/runs/" + id).body;
+        return task_labelled(body, "fem").at("same_as");
+    };
+    EXPECT_EQ(first_answer(appending({0.5, 0.75})), task_labelled(end, "fem_2").at("id"));
+    json doubled = appending({0.5, 0.75});
+    doubled["overrides"].push_back(doubled["overrides"][0]);
+    EXPECT_TRUE(first_answer(doubled).is_null()) << "nobody has computed this one";
+}
+
 TEST(Extension, NeedsNoFemForSnapshotsThatExist) {
     const Sandbox sandbox;
     Service service(sandbox);

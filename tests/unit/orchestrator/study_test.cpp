@@ -302,6 +302,34 @@ TEST(Graph, EveryVariantHasAStabilityAnalysisThatItsRowsKnow) {
     EXPECT_EQ(analyses(study), std::vector<std::string>{"lem"}) << "one serves all";
 }
 
+TEST(Graph, VariantsShareAFemThatATriggerWatchesForItsCriticalDepthOnlyWhereTheDepthIsTheSame) {
+    json study = slope_study();
+    study["scene"]["lem"]["liquefaction"] =
+        json::array({{{"region", "slope"}, {"residual_strength_kPa", 10}}});
+    study["variants"] = {
+        {{"name", "firm"}, {"overrides", json::array()}},
+        {{"name", "weak"}, {"overrides", {"/lem/liquefaction/0/residual_strength_kPa=5"}}},
+        {{"name", "short"}, {"overrides", {"/mpm/duration=1"}}}};
+    const auto labels = [&](const std::string& when) {
+        study["triggers"] = json::array({{{"kind", "criterion"}, {"when", when}}});
+        const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
+        std::vector<std::string> found;
+        for (const TaskPlan& each : graph.tasks)
+            if (each.phase == "fem_solver") found.push_back(each.label);
+        std::vector<std::string> of_triggers;
+        for (const TaskPlan& each : graph.one_more_transfer)
+            if (each.phase == "fem_solver") of_triggers.push_back(each.label);
+        EXPECT_EQ(of_triggers, found) << "what fires finds its FEM by its label";
+        return found;
+    };
+    const std::vector<std::string> one{"fem"};
+    EXPECT_EQ(labels("crest_displacement > 1"), one);
+    EXPECT_EQ(labels("crest_displacement > critical_depth"),
+              (std::vector<std::string>{"fem_firm", "fem_weak"}));
+    study["variants"].erase(1);
+    EXPECT_EQ(labels("crest_displacement > critical_depth"), one) << "one analysis serves both";
+}
+
 /// All that a task's row is made from.
 std::vector<std::string> rows_of(const std::vector<TaskPlan>& tasks) {
     std::vector<std::string> rows;
@@ -375,6 +403,33 @@ TEST(Recipe, FollowsTheNumericsThatThePhaseSays) {
     EXPECT_EQ(recipe.hash, recipe_of("mpm_solver", scene, 3).hash);
     EXPECT_NE(recipe.hash, recipe_of("mpm_solver", scene, 4).hash);
     EXPECT_EQ(recipe.cache_version, 3);
+}
+
+/// What a phase reads beside its own part of the scene is of its question, too.
+TEST(Recipe, KnowsTheGroundThatTheMpmFillsTheProfileThatAnotherNamesAndTheWaterOfStrengths) {
+    const json chain = read_study(slope_study().dump()).scene;
+    json filled = chain;
+    filled.erase("fem");
+    const auto differs = [](const char* phase, const json& scene, const char* at,
+                            const json& value) {
+        json other = scene;
+        other[json::json_pointer(at)] = value;
+        return recipe_of(phase, scene, 1).hash != recipe_of(phase, other, 1).hash;
+    };
+    const json ring{{0, 0}, {10, 0}, {10, 8}, {0, 8}, {0, 0}};
+    EXPECT_TRUE(differs("mpm_solver", filled, "/section/regions/0/polygon", ring));
+    EXPECT_FALSE(differs("mpm_solver", chain, "/section/regions/0/polygon", ring))
+        << "the particles have it";
+    const json water{{"line", {{0, 1}, {60, 1}}}};
+    EXPECT_TRUE(differs("mpm_solver", filled, "/lem/water", water));
+    EXPECT_TRUE(differs("transfer_tool", chain, "/lem/water", water));
+    EXPECT_FALSE(differs("fem_solver", chain, "/lem/water", water));
+    json like = chain;
+    const std::string used = like.at("/section/regions/0/material"_json_pointer);
+    like["materials"][used]["strength"] = {{"like", "profile"}};
+    like["materials"]["profile"] = {{"strength", {{"peak", {{"ratio", 0.3}}}}}};
+    for (const char* phase : {"lem_tool", "fem_solver"})
+        EXPECT_TRUE(differs(phase, like, "/materials/profile/strength/peak/ratio", 0.15)) << phase;
 }
 
 /// A folder with four programs that answer --version so.

@@ -69,9 +69,9 @@ TEST(MpmScene, GapsAreHeldToTheirRoomOnSteepGroundOrWhereAsked) {
     };
     EXPECT_FALSE(scene::parse_scene(column().dump(), "test").mpm->gap_room);
     EXPECT_FALSE(holds("[[0, 0], [20, 11]]", nullptr));
-    EXPECT_TRUE(holds("[[0, 12], [20, 0]]", nullptr));
+    EXPECT_TRUE(holds("[[0, 12], [20, 0], [60, 0]]", nullptr));
     EXPECT_FALSE(holds("[[0, 0], [20, 0], [21, 4]]", nullptr)) << "a step is no valley";
-    EXPECT_FALSE(holds("[[0, 12], [20, 0]]", false));
+    EXPECT_FALSE(holds("[[0, 12], [20, 0], [60, 0]]", false));
     EXPECT_TRUE(holds("[[0, 0], [20, 11]]", true));
 }
 
@@ -80,6 +80,8 @@ TEST(MpmScene, RefusesTerrainAndGaugesThatCannotBe) {
     EXPECT_EQ(faults_of_mpm("terrain", "[[0, 0], [0, -1]]"), Set{"/mpm/terrain/1"});
     EXPECT_EQ(faults_of_mpm("terrain", "[[0, 0], [60, -1.5]]"), Set{"/mpm/terrain/1"});
     EXPECT_EQ(faults_of_mpm("terrain", "[[0, 22], [60, 0]]"), Set{"/mpm/terrain/0"});
+    EXPECT_EQ(faults_of_mpm("terrain", "[[0, 12], [20, 0]]"), Set{"/mpm/terrain"})
+        << "it goes on below the floor";
     EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a", "x": 61}])"), Set{"/mpm/gauges/0/x"});
     EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a", "x": 1}, {"name": "a", "x": 2}])"),
               Set{"/mpm/gauges/1/name"});

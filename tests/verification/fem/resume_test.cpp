@@ -210,5 +210,38 @@ TEST(Checkpoint, WithTheMatrixOfAnotherMeshIsRefused) {
     EXPECT_THROW(Analysis(session, bench::model_of(session.scene())), fault::BadInput);
 }
 
+TEST(Checkpoint, KeepsTheFlagsOfTheWay) {
+    const json scene = failing_column(scene::Kinematics::small_strain);
+    bench::Run run(scene);
+    run.go();
+    const auto file = run.folder() / "checkpoint.h5";
+    const exchange::Archive before = archive_in_failure(run);
+    const fault::Flag raised{"limit_point", fault::Severity::questionable, "beyond 0.5",
+                             "/fem/stages/0"};
+    const auto resumed = [&](const exchange::Archive& archive) {
+        exchange::write_archive(file, archive, run.session().provenance());
+        process::Session session(bench::settings_for(run.folder(), process::Start::resume),
+                                 bench::parse(scene));
+        Analysis(session, bench::model_of(session.scene()));
+        return session.flags();
+    };
+    const std::vector<fault::Flag> own = resumed(before);
+    exchange::Archive with_flags = before;
+    std::vector<fault::Flag> all = own;
+    all.push_back(raised);
+    put_flags(all, with_flags);
+    const std::vector<fault::Flag> found = resumed(with_flags);
+    ASSERT_EQ(found.size(), own.size() + 1) << "each once";
+    EXPECT_EQ(found.back().code, raised.code);
+    EXPECT_EQ(found.back().severity, raised.severity);
+    EXPECT_EQ(found.back().message, raised.message);
+    EXPECT_EQ(found.back().pointer, raised.pointer);
+    for (const char* torn : {"[", "[{\"code\": 1}]", "[1]", "7"}) {
+        exchange::Archive broken = with_flags;
+        broken.texts.at("flags") = torn;
+        EXPECT_THROW(resumed(broken), fault::BadInput) << torn;
+    }
+}
+
 }  // namespace
 }  // namespace breach::fem

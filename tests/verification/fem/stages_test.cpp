@@ -404,6 +404,85 @@ TEST(Stages, AStaticLimitPointIsAnEventAndTheFailureRunsInMotion) {
     EXPECT_LT(stood.history().back().kinetic_energy, 1e-6 * rows.back().kinetic_energy);
 }
 
+/// A column of clay, elastic, that a load sets in motion; `later` follows after 0.1 s.
+json falling_column(double duration, const json& later = nullptr) {
+    json scene = column({static_stage("gravity"),
+                         {{"type", "dynamic"},
+                          {"name", "fall"},
+                          {"laws", "elastic"},
+                          {"duration", duration},
+                          {"time_step", 2e-3},
+                          {"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", 50}}}}}});
+    if (!later.is_null()) scene["fem"]["stages"].push_back(later);
+    scene["fem"]["force_tolerance"] = 1e-11;
+    scene["fem"]["telemetry_interval"] = 0.0;
+    return scene;
+}
+
+json later_stage(double duration, const json& more) {
+    json stage{{"type", "dynamic"},
+               {"name", "later"},
+               {"laws", "elastic"},
+               {"duration", duration},
+               {"time_step", 2e-3}};
+    stage.update(more);
+    return stage;
+}
+
+TEST(Stages, ARampWithholdsNothingOfAMotionThatGoesOn) {
+    const auto end_of = [](json scene, const json& damping) {
+        scene["fem"].update(damping);
+        bench::Run run(scene);
+        const Analysis& done = run.go();
+        EXPECT_GT(done.motion().v.lpNorm<Eigen::Infinity>(), 0.01) << "it moves";
+        return done.motion().u;
+    };
+    for (const json& damping : {json::object(), json{{"rayleigh_mass", 2.0}},
+                                json{{"rayleigh_mass", 1.0}, {"rayleigh_stiffness", 2e-3}}}) {
+        const Eigen::VectorXd whole = end_of(falling_column(0.3), damping);
+        for (const json& ramp : {json::object(), json{{"ramp", 0.1}}}) {
+            const Eigen::VectorXd split =
+                end_of(falling_column(0.1, later_stage(0.2, ramp)), damping);
+            expect_error(
+                "split, " + damping.dump() + ' ' + ramp.dump() + ", over the largest u",
+                (split - whole).lpNorm<Eigen::Infinity>() / whole.lpNorm<Eigen::Infinity>(), 1e-9);
+        }
+    }
+}
+
+TEST(Stages, ARampOfALoadInAMotionIsTheSumOfBoth) {
+    const auto end_of = [](const json& scene) {
+        bench::Run run(scene);
+        return run.go().motion().u;
+    };
+    const auto load = [](double pressure_kPa) {
+        return json{{"ramp", 0.1},
+                    {"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", pressure_kPa}}}}};
+    };
+    // Linear: what a further load adds does not ask what moves already.
+    json at_rest = falling_column(0.1, later_stage(0.2, load(20)));
+    at_rest["fem"]["stages"][1].erase("surcharge");
+    const Eigen::VectorXd added = end_of(at_rest);
+    const Eigen::VectorXd both = end_of(falling_column(0.1, later_stage(0.2, load(70))));
+    const Eigen::VectorXd alone = end_of(falling_column(0.3));
+    expect_error("a ramp within a motion, less motion and ramp, over the largest u",
+                 (both - alone - added).lpNorm<Eigen::Infinity>() / both.lpNorm<Eigen::Infinity>(),
+                 1e-9);
+}
+
+TEST(Stages, NodesOfSoilRemovedInMotionStayAndAreNotReported) {
+    bench::Run run(falling_column(
+        0.05, later_stage(0.3, {{"remove", {"top"}}, {"surcharge", json::array()}})));
+    const Analysis& done = run.go();
+    const std::size_t gone = nearest_node(done.model().mesh, {1, 6});
+    EXPECT_EQ(done.motion().v.segment<2>(static_cast<Eigen::Index>(2 * gone)).norm(), 0.0);
+    double largest = 0.0;
+    for (const double y : {1.0, 2.0, 3.0, 4.0})
+        for (const double x : {0.0, 1.0}) largest = std::max(largest, u_at(done, {x, y}).norm());
+    EXPECT_EQ(run.session().result()["largest_displacement"].get<double>(), largest);
+    EXPECT_GT(largest, 0.0);
+}
+
 TEST(Stages, AnUnchangedSceneHasNothingAbsent) {
     bench::Run run(column(json::array({static_stage("gravity")})));
     EXPECT_TRUE(run.go().model().absent.empty());

@@ -1,5 +1,6 @@
 // Waves from below: a Ricker pulse through a layer over a half-space, and the factor between
 // outcrop and up-going motion.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -121,6 +122,36 @@ TEST(RickerPulse, PassesALayerOverAHalfSpace) {
                  relative_l2(h.surface, [&](double t) { return exact_surface(t, a); }), 3e-3);
     expect_error("base velocity, relative L2 against the exact transfer",
                  relative_l2(h.base, [&](double t) { return exact_base(t, a); }), 3e-3);
+}
+
+TEST(RickerPulse, PassesAStageWithARampThatBringsNothing) {
+    const bench::Folder folder;
+    const auto file = folder.path() / "pulse.csv";
+    std::ofstream out(file);
+    out << "time_s,velocity_m_s\n" << std::setprecision(17);
+    for (int i = 0; i <= std::lround(length / dt); ++i)
+        out << i * dt << ',' << ricker(i * dt) << '\n';
+    out.close();
+    json scene = column(file, "outcrop", V_rock, rho_rock);
+    bench::Run whole(scene);
+    json& stages = scene["fem"]["stages"];
+    stages.push_back(stages[0]);
+    stages[0]["duration"] = 0.65;
+    stages[1]["duration"] = length - 0.65;
+    stages[1]["name"] = "on";
+    stages[1]["ramp"] = 1.0;
+    bench::Run split(scene);
+    const auto& one = whole.go().history();
+    const auto& two = split.go().history();
+    double apart = 0.0, largest = 0.0;
+    for (const Reading& each : two) {
+        const auto same = std::ranges::find_if(
+            one, [&](const Reading& of) { return std::abs(of.time - each.time) < 0.1 * dt; });
+        ASSERT_NE(same, one.end());
+        apart = std::max(apart, std::abs(each.crest_dx - same->crest_dx));
+        largest = std::max(largest, std::abs(same->crest_dx));
+    }
+    expect_error("crest of a split run with a ramp, over the largest", apart / largest, 1e-7);
 }
 
 TEST(RickerPulse, LeavesThroughABaseOfTheSameRock) {

@@ -267,6 +267,73 @@ TEST(FreeField, LevelGroundMovesAlikeAtTheColumnAndInTheMiddle) {
     }
 }
 
+TEST(FreeField, ASurchargeToTheSidesLiesOnTheColumnsToo) {
+    const auto loaded = [](double from, double to) {
+        json scene = level_ground(1e4, {});
+        scene["fem"].erase("water");
+        scene["fem"]["stages"].erase(1);
+        scene["fem"]["surcharge"] = {{{"from", from}, {"to", to}, {"pressure_kPa", 200}}};
+        bench::Run run(scene);
+        return run.go().motion().u;
+    };
+    const Eigen::VectorXd everywhere = loaded(-1e3, 1e3);
+    EXPECT_EQ(loaded(0.0, 8.0), everywhere);
+    const Eigen::VectorXd right = loaded(4.0, 8.0);
+    EXPECT_NE(right, everywhere);
+    // Now the left column carries nothing.
+    const Model model = bench::model_of(bench::parse(level_ground(1e4, {})));
+    const auto y_of = [&](const Vec2& x) {
+        return right[2 * static_cast<Eigen::Index>(nearest_node(model.mesh, x)) + 1];
+    };
+    EXPECT_LT(y_of({9.5, 10.0}), 1.5 * y_of({-1.5, 10.0}));
+}
+
+TEST(FreeField, TheWorksAreThoseOfTheBody) {
+    const bench::Folder folder;
+    const auto file = pulse(folder);
+    const auto last_of = [&](double thickness_factor, nlohmann::json& hourglass) {
+        json scene = level_ground(thickness_factor, file);
+        scene["fem"]["largest_iterations"] = 200;
+        scene["fem"]["stages"][1]["surcharge"] = {{{"from", 0}, {"to", 8}, {"pressure_kPa", 20}}};
+        bench::Run run(scene);
+        const Reading last = run.go().history().back();
+        hourglass = run.session().result()["hourglass"];
+        return last;
+    };
+    nlohmann::json thin, thick;
+    const Reading one = last_of(1.0, thin), two = last_of(1e4, thick);
+    EXPECT_GT(std::abs(one.external_work), 1.0);
+    EXPECT_GT(std::abs(one.internal_work), 1.0);
+    expect_error("external work, thickness factor 1e4 over 1",
+                 std::abs(two.external_work / one.external_work - 1.0), 1e-4);
+    expect_error("internal work, thickness factor 1e4 over 1",
+                 std::abs(two.internal_work / one.internal_work - 1.0), 1e-4);
+    EXPECT_LT(thick["energy"].get<double>(), 1e-3 * std::abs(one.internal_work));
+}
+
+TEST(FreeField, TheColumnsAloneSoftenAsTheStageSays) {
+    const bench::Folder folder;
+    const auto file = pulse(folder);
+    const auto base_of = [&](double S_of_law, const json& S_of_stage) {
+        json scene = level_ground(1e4, file);
+        scene["materials"]["soil"]["law"] = bench::cj1(0.06);
+        scene["materials"]["soil"]["law"]["S"] = S_of_law;
+        json& fem = scene["fem"];
+        fem["force_tolerance"] = 1e-6;
+        fem["largest_iterations"] = 100;
+        json& stages = fem["stages"];
+        stages[1].erase("laws");
+        stages.insert(stages.begin() + 1, bench::static_stage("law", {{"laws", "scene"}}));
+        if (!S_of_stage.is_null()) stages[2]["S"] = S_of_stage;
+        bench::Run run(scene);
+        return run.go().beginning().base_motion.velocity;
+    };
+    const auto own = base_of(0.0, nullptr);
+    EXPECT_EQ(base_of(1.0, 0.0), own);
+    EXPECT_EQ(base_of(1.0, {{"block", 0}}), own);
+    EXPECT_NE(base_of(1.0, nullptr), own);
+}
+
 TEST(Rest, WithoutMotionNothingDrifts) {
     json scene = level_ground(1e3, {});
     scene["fem"]["stages"][1]["duration"] = 10.0;

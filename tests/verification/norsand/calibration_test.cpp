@@ -194,6 +194,30 @@ TEST(NorSandCalibration, ReferenceTablesGiveTheParametersBack) {
         law);
 }
 
+TEST(NorSandCalibration, SeeksTheFallOfHardeningWithItsLevelGiven) {
+    const norsand::Parameters law = soil("CJ2");
+    NorSandProblem problem = problem_of(law, nine_tests, {}, 1);
+    problem.given[sought::H_0] = law.H_0;
+    const NorSandFit fit = calibrate(problem);
+    print("H_0 given", fit, truth(law));
+    const Estimate& fall = fit.estimates[sought::H_psi];
+    EXPECT_EQ(fit.estimates[sought::H_0].origin, Origin::given);
+    EXPECT_EQ(fit.law.H_0, law.H_0);
+    EXPECT_EQ(fall.origin, Origin::fitted);
+    EXPECT_NEAR(fall.value / law.H_psi, 1.0, 0.05);
+    EXPECT_TRUE(fall.error.has_value());
+    EXPECT_EQ(fall.tests.size(), 6U);
+
+    // Tests that begin near psi = 0 do not know it.
+    NorSandProblem near =
+        problem_of(law, {{drained, 100, -0.02}, {drained, 200, 0.0}, {drained, 400, 0.02}}, {}, 1);
+    near.given = {
+        law.semi_log->Gamma, law.semi_log->lambda, law.M_tc, law.N, law.chi_tc, law.H_0, {}};
+    const NorSandFit unknown = calibrate(near);
+    EXPECT_EQ(unknown.estimates[sought::H_psi].origin, Origin::assumed);
+    EXPECT_EQ(unknown.law.H_psi, 0.0);
+}
+
 /// What the tests do not hold is said, and what is given is left alone.
 TEST(NorSandCalibration, SaysWhatTheTestsDoNotHold) {
     const auto codes = [](const NorSandFit& fit) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -145,6 +146,47 @@ TEST(CalibrationToTheLaboratory, WeighsItsTargetsAndNeedsWhatItCountsAgainst) {
     EXPECT_DOUBLE_EQ(weighted.terms[2].share, 3.0 * plain.terms[2].share);
     problem.cyclic[0].N.reset();
     EXPECT_THROW(Calibration{problem}, std::invalid_argument);
+}
+
+/// By the slope of 0 that repeats have, whatever they count was right.
+TEST(CalibrationToTheLaboratory, RepeatsAtOneStressRatioCountAsItsMeanDoes) {
+    const auto problem = [](std::vector<CyclicTarget> targets) {
+        return CalibrationProblem{.start = soil("embankment"),
+                                  .reference = {},
+                                  .free = {{"h_po", 0.05, 5.0}},
+                                  .strength = {},
+                                  .cyclic = std::move(targets),
+                                  .options = {},
+                                  .most_evaluations = 20};
+    };
+    const auto at = [](double CSR, double N, double strain = 0.03) {
+        return CyclicTarget{100e3, 0.5, CSR, strain, N};
+    };
+    const double mean = std::sqrt(40.0 * 60.0);
+    const double wanted = calibrate(Calibration(problem({at(0.15, mean)}))).parameters.h_po;
+    const CalibrationResult repeats = calibrate(Calibration(problem({at(0.15, 40), at(0.15, 60)})));
+    std::printf("h_po %.4f of repeats, %.4f of their mean, misfit %.3f -> %.3f\n",
+                repeats.parameters.h_po, wanted, repeats.first.misfit, repeats.best.misfit);
+    EXPECT_NEAR(repeats.parameters.h_po, wanted, 0.02 * wanted);
+    EXPECT_NEAR(wanted, 1.83, 0.06);
+    EXPECT_GT(repeats.first.misfit, 10.0);
+    EXPECT_NEAR(repeats.best.misfit, 2.0 * std::pow(0.2 * std::log(1.5) / 2.0 / 0.05, 2), 0.02);
+
+    const auto slopes = [&](std::vector<CyclicTarget> targets) {
+        const Calibration calibration(problem(std::move(targets)));
+        std::vector<double> out;
+        for (const Term& term : calibration.evaluate({0.4}).terms)
+            out.push_back(-term.deviation / std::log(term.computed / term.wanted));
+        return out;
+    };
+    const auto expect_usual = [&](std::vector<CyclicTarget> targets) {
+        for (const double slope : slopes(std::move(targets))) EXPECT_NEAR(slope, -0.2, 1e-12);
+    };
+    expect_usual({at(0.15, 40), at(0.151, 60), at(0.149, 50)});  // scatter
+    expect_usual({at(0.15, 30), at(0.20, 40)});                  // rises
+    expect_usual({at(0.15, 40, 0.01), at(0.20, 30, 0.05)});      // two limits of strain
+    for (const double slope : slopes({at(0.15, 49), at(0.20, 12)}))
+        EXPECT_NEAR(slope, std::log(0.15 / 0.20) / std::log(49.0 / 12.0), 1e-12);
 }
 
 /// The document of a calibration to one file and one list.

@@ -141,6 +141,7 @@ TEST(OneProfile, SoilThatAStageHasRemovedWeighsNothing) {
 TEST(OneProfile, LiquefiedPointsComeWithTheirResidualStrengthAndKeepItInTheMPM) {
     json text = slope(soil(profile()));
     text["section"]["regions"][0]["polygon"] = {{0, 0}, {12, 0}, {12, 10}, {0, 10}, {0, 0}};
+    text["thickness"] = 1.5;  // the mesh's
     const scene::Scene scene = parsed(text);
     const auto snapshot =
         mesh([](const Vec2& x) { return x.x() < 5.5 && x.y() > 4.5 ? 1.0 : 0.0; });
