@@ -153,18 +153,30 @@ std::array<double, 2> levels_of(const scene::Scene& scene, const scene::Undraine
     return {std::max(box.low.y(), (*layer.levels)[0]), std::min(box.high.y(), (*layer.levels)[1])};
 }
 
+/// What of a layer lies over x, from the top down.
+std::vector<Stratum> parts_at(const scene::Scene& scene, const scene::UndrainedRegion& layer,
+                              double x) {
+    const auto [low, high] = levels_of(scene, layer);
+    std::vector<Stratum> parts;
+    for (Stratum each : strata_at(scene, x)) {
+        if (each.region != layer.region) continue;
+        each.top = std::min(each.top, high);
+        each.bottom = std::max(each.bottom, low);
+        if (each.top > each.bottom) parts.push_back(each);
+    }
+    return parts;
+}
+
 /// Somewhere the one lies on the other.
 bool lies_on(const scene::Scene& scene, const scene::UndrainedRegion& upper,
              const scene::UndrainedRegion& lower) {
-    if (upper.region == lower.region)
-        return levels_of(scene, upper)[0] >= levels_of(scene, lower)[1] - 1e-9;
     const std::vector<double> xs = abscissae(scene);
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-        const std::vector<Stratum> strata = strata_at(scene, 0.5 * (xs[i] + xs[i + 1]));
-        const auto top = std::ranges::find(strata, upper.region, &Stratum::region);
-        if (std::find_if(top, strata.end(), [&](const Stratum& each) {
-                return each.region == lower.region;
-            }) != strata.end())
+        const double x = 0.5 * (xs[i] + xs[i + 1]);
+        const std::vector<Stratum> above = parts_at(scene, upper, x);
+        const std::vector<Stratum> below = parts_at(scene, lower, x);
+        if (!above.empty() && !below.empty() &&
+            above.front().bottom >= below.front().top - 1e-9 * (1.0 + std::abs(below.front().top)))
             return true;
     }
     return false;
@@ -181,7 +193,8 @@ void check_order(const scene::Scene& scene, Findings& findings) {
     const double height = box.high.y() - box.low.y();
     for (std::size_t i = 1; i < layers.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-            if (!lies_on(scene, layers[i], layers[j])) continue;
+            if (!lies_on(scene, layers[i], layers[j]) || lies_on(scene, layers[j], layers[i]))
+                continue;
             refuse(findings, "/lem/liquefaction/" + std::to_string(i),
                    "lies on layer " + std::to_string(j) + ", which is listed before it",
                    "list the layers from the top down: stage n liquefies the first n of them, and "

@@ -123,7 +123,7 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
         return false;
     }
     const Depth deepest = deepest_below(scene, line, level_at);
-    if (deepest.below > 0.0) return true;
+    if (deepest.below >= -1e-9 * (box.high.y() - box.low.y())) return true;
     refuse(findings, pointer,
            "runs below all soil, by at least " + metres(-deepest.below) +
                " at x = " + metres(deepest.place.x()),

@@ -1,5 +1,6 @@
 #include "services/orchestrator/study/recipe.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <iterator>
 #include <map>
@@ -67,7 +68,9 @@ Reading reading_of(const std::string& phase, const json& scene) {
         reading.regions = Regions::whole;
         reading.parts.emplace_back("/transfer");
     }
-    if (fills || phase == phases::transfer.program)
+    const bool by_stress = std::ranges::any_of(
+        scene.at("materials"), [](const json& each) { return each.contains("strength"); });
+    if (by_stress && (fills || phase == phases::transfer.program))
         reading.parts.insert(reading.parts.end(), std::begin(water_of_lem), std::end(water_of_lem));
     return reading;
 }

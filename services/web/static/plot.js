@@ -232,9 +232,10 @@ export class Plot {
         this.choose(x, meant?.series.keys?.[meant.i] ?? null);
     }
 
-    /// The series that have a value at x; of the one that is meant, where several of its points stand there, the i-th.
+    /// The series that have a value at x; of the one that is meant, where several of its points stand there, the i-th. A step has two: from x on
+    /// it is the second.
     at_stop(x, meant = null, at = null) {
-        return this.data.series.map((series, index) => ({ series, index, i: index === meant && at !== null ? at : series.x.indexOf(x) }))
+        return this.data.series.map((series, index) => ({ series, index, i: index === meant && at !== null ? at : series.scatter ? series.x.indexOf(x) : series.x.lastIndexOf(x) }))
             .filter(({ series, i }) => i >= 0 && Number.isFinite(series.y[i]));
     }
 

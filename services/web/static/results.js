@@ -197,7 +197,7 @@ export class Results {
         const lines = series_by_variant(rows, variants);
         this.plot.labels.y = y_label_of(measure);
         const points = (some) => ({ unit: unit_of(measure), points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
-                                    errors: some.map((row) => error_of(row, measure)), looks: some.map(look_of), notes: some.map((row) => note_of(row, measure)) });
+                                    errors: some.map((row) => error_of(row, measure)), looks: some.map((row) => look_of_measure(row, measure)), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
         const errors_name = this.shows_means() ? "standard deviation of the draws" : "error of one run";
         const what = is_safety(measure) ? "Factor of safety" : "Runout";
@@ -270,11 +270,15 @@ function note_of(row, measure) {
             flag_note(row)].filter(Boolean).join("\n");
 }
 
+/// A factor of safety is no lower bound where the runout beside it is one.
+const look_of_measure = (row, measure) => (is_safety(measure) ? look_of(row).replace(/\bbound\b/, "").trim() : look_of(row));
+
 function mean_note(row, measure, deviation) {
-    const scatter = deviation === null ? "" : `, one draw scatters by ${number(deviation, 2)} m (standard deviation)`;
+    const unit = is_safety(measure) ? "" : " m";
+    const scatter = deviation === null ? "" : `, one draw scatters by ${number(deviation, 2)}${unit} (standard deviation)`;
     const off = measure === "runout" && Number.isFinite(row.runout_error)
         ? `the mean may be off by ${number(row.runout_error, 2)} m: ${row.runout_error_from}` : "";
-    return [`${point_name(row) || "all draws"}: ${number(row[measure])} m, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
+    return [`${point_name(row) || "all draws"}: ${number(row[measure])}${unit}, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
         .filter(Boolean).join("\n");
 }
 

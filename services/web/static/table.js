@@ -66,7 +66,7 @@ export class DataTable {
         this.page = Math.min(Math.max(this.page, 0), pages - 1);
         const first = this.page * rows_per_page;
         const shown = list.slice(first, first + rows_per_page);
-        mirror(this.head, this.columns, ({ name }) => `${this.name}/${name}`, (column) => this.new_head(column), (cell, column) =>
+        mirror(this.head, this.columns, ({ name, title, unit }) => `${this.name}/${name}/${title}/${unit ?? ""}`, (column) => this.new_head(column), (cell, column) =>
             cell.setAttribute("aria-sort", this.sort !== column.name ? "none" : this.falling ? "descending" : "ascending"));
         this.body.replaceChildren(...shown.map((record) => element("tr", {}, ...this.columns.map((column) => cell_of(record, column)))));
         const filtered = list.length < this.records.length ? ` of ${this.records.length}` : "";
@@ -83,7 +83,7 @@ export class DataTable {
 
     offer(event) {
         const quoted = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-        const lines = [this.columns.map(({ name }) => name), ...this.wanted().map((record) =>
+        const lines = [this.columns.map(({ name, csv }) => quoted(csv ?? name)), ...this.wanted().map((record) =>
             this.columns.map(({ name }) => quoted(plain(record[name]))))];
         const link = event.currentTarget;
         if (link.href.startsWith("blob:")) URL.revokeObjectURL(link.href);

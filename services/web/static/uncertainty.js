@@ -61,6 +61,11 @@ export class Uncertainty {
         if (task) this.open_task(task);
     }
 
+    /// What does not grow while soil moves is no lower bound.
+    look_of_quantity(row) {
+        return grows(this.quantity) ? this.look(row) : this.look(row).replace(/\bbound\b/, "").trim();
+    }
+
     /// What a sample's number is worth; "" is sound.
     look(row) {
         const result = this.results.get(row.sample);
@@ -204,7 +209,7 @@ export class Uncertainty {
         Object.assign(this.scatter.labels, { title: `${quantity.name} against ${parameter.name}`, y: labelled(quantity), x_name: parameter.name });
         this.scatter.show({
             series: [{ name: `${rows.length} samples`, unit: quantity.unit, points: true, scatter: true, x, y: rows.map((row) => row.results[this.quantity]),
-                       keys: rows.map(({ sample }) => sample), names: rows.map(({ sample }) => sample), looks: rows.map((row) => this.look(row)),
+                       keys: rows.map(({ sample }) => sample), names: rows.map(({ sample }) => sample), looks: rows.map((row) => this.look_of_quantity(row)),
                        notes: rows.map((row) => this.note(row)) }],
             x_label: parameter.kind === "factor" ? `${parameter.name} (factor)` : parameter.name, x_log: log, ...(is_choice ? { names: options.map((label, at) => ({ x: at, label: String(label) })) } : {}),
         });
@@ -250,11 +255,11 @@ export class Uncertainty {
         this.table ??= new DataTable(by_id("uncertainty-samples"));
         this.table.open(`samples_${this.run.name}`, [
             { name: "sample", title: "sample", cell: open }, { name: "state", title: "state", cell: state },
-            { name: "value", title: quantity?.name ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
+            { name: "value", csv: this.quantity + (quantity?.unit ? ` [${quantity.unit}]` : ""), title: quantity?.name ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
             ...parameters.map(({ name, kind }) => ({ name: `values ${name}`, title: name, number: kind !== "choice",
                                               cell: kind === "choice" ? null : (record) => number(record[`values ${name}`]) })),
             { name: "trace", title: "", cell: trace },
-        ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look(row), has_result: has_result(row),
+        ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look_of_quantity(row), has_result: has_result(row),
                                 ...Object.fromEntries(Object.entries(row.values).map(([name, each]) => [`values ${name}`, each])) })), false);
     }
 }

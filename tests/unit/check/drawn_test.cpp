@@ -197,6 +197,11 @@ TEST(Drawn, LayersListedFromTheBottomUpAreRefused) {
         R"([{"region":"tailings","levels":[0,5.88]},{"region":"tailings","levels":[5.88,11.76]}])";
     expect_only(changed("mochikoshi", {"/lem/liquefaction=" + upwards}), "/lem/liquefaction/1",
                 "lies on layer 0, which is listed before it");
+    const std::string sound =
+        R"([{"region":"tailings","levels":[11.76,29.4]},{"region":"lower_dam","levels":[5.88,12.4]},)"
+        R"({"region":"tailings","levels":[0,11.76]},{"region":"lower_dam","levels":[0,5.88]}])";
+    const Checked by_levels = changed("mochikoshi", {"/lem/liquefaction=" + sound});
+    EXPECT_TRUE(by_levels.faults.empty()) << told(by_levels.faults);
 }
 
 TEST(Drawn, WhatATransferDecidesIsToldWhereThePointsFillTheSection) {

@@ -407,7 +407,7 @@ TEST(Recipe, FollowsTheNumericsThatThePhaseSays) {
 
 /// What a phase reads beside its own part of the scene is of its question, too.
 TEST(Recipe, KnowsTheGroundThatTheMpmFillsTheProfileThatAnotherNamesAndTheWaterOfStrengths) {
-    const json chain = read_study(slope_study().dump()).scene;
+    json chain = read_study(slope_study().dump()).scene;
     json filled = chain;
     filled.erase("fem");
     const auto differs = [](const char* phase, const json& scene, const char* at,
@@ -421,11 +421,14 @@ TEST(Recipe, KnowsTheGroundThatTheMpmFillsTheProfileThatAnotherNamesAndTheWaterO
     EXPECT_FALSE(differs("mpm_solver", chain, "/section/regions/0/polygon", ring))
         << "the particles have it";
     const json water{{"line", {{0, 1}, {60, 1}}}};
+    EXPECT_FALSE(differs("transfer_tool", chain, "/lem/water", water)) << "no strength goes by it";
+    const std::string used = chain.at("/section/regions/0/material"_json_pointer);
+    for (json* each : {&filled, &chain})
+        (*each)["materials"][used]["strength"] = {{"peak", {{"ratio", 0.3}}}};
     EXPECT_TRUE(differs("mpm_solver", filled, "/lem/water", water));
     EXPECT_TRUE(differs("transfer_tool", chain, "/lem/water", water));
     EXPECT_FALSE(differs("fem_solver", chain, "/lem/water", water));
     json like = chain;
-    const std::string used = like.at("/section/regions/0/material"_json_pointer);
     like["materials"][used]["strength"] = {{"like", "profile"}};
     like["materials"]["profile"] = {{"strength", {{"peak", {{"ratio", 0.3}}}}}};
     for (const char* phase : {"lem_tool", "fem_solver"})
