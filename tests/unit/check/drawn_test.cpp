@@ -198,8 +198,8 @@ TEST(Drawn, LayersListedFromTheBottomUpAreRefused) {
     expect_only(changed("mochikoshi", {"/lem/liquefaction=" + upwards}), "/lem/liquefaction/1",
                 "lies on layer 0, which is listed before it");
     const std::string sound =
-        R"([{"region":"tailings","levels":[11.76,29.4]},{"region":"lower_dam","levels":[5.88,12.4]},)"
-        R"({"region":"tailings","levels":[0,11.76]},{"region":"lower_dam","levels":[0,5.88]}])";
+        R"([{"region":"tailings","levels":[11.76,29.4]},{"region":"lower_dam","levels":[11.76,12.4]},)"
+        R"({"region":"tailings","levels":[0,11.76]},{"region":"lower_dam","levels":[0,11.76]}])";
     const Checked by_levels = changed("mochikoshi", {"/lem/liquefaction=" + sound});
     EXPECT_TRUE(by_levels.faults.empty()) << told(by_levels.faults);
 }
