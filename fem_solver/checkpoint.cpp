@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "core/process/flags.hpp"
 
 namespace breach::fem {
 namespace {
@@ -244,31 +245,17 @@ exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::
 }
 
 void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const fault::Flag& each : flags)
-        list.push_back({{"code", each.code},
-                        {"severity", name_of(each.severity)},
-                        {"message", each.message},
-                        {"pointer", each.pointer}});
-    archive.texts[flags_name] = list.dump();
+    archive.texts[flags_name] = process::as_json(flags).dump();
 }
 
 std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file) {
     const auto kept = archive.texts.find(flags_name);
     if (kept == archive.texts.end()) return {};
-    using fault::Severity;
-    std::vector<fault::Flag> flags;
     try {
-        for (const nlohmann::json& each : nlohmann::json::parse(kept->second)) {
-            const bool questionable = each.at("severity") == name_of(Severity::questionable);
-            flags.push_back({each.at("code"),
-                             questionable ? Severity::questionable : Severity::warning,
-                             each.at("message"), each.at("pointer")});
-        }
+        return process::flags_from(nlohmann::json::parse(kept->second));
     } catch (const nlohmann::json::exception&) {
         refuse(file, "/breachline/texts/flags", "the checkpoint's flags cannot be read");
     }
-    return flags;
 }
 
 Position position_in(const exchange::Archive& archive, const scene::Scene& scene,

@@ -232,12 +232,18 @@ bool has_water(const scene::Lem& lem) {
 /// Soil that fails undrained has a strength to do so with, and NorSand water that holds its volume.
 void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
-    const auto check_water = [&](const scene::UndrainedRegion& each, const std::string& pointer) {
-        if (!each.strength.norsand || may_be_wet(lem, each.region)) return;
-        refuse(findings, pointer + "/norsand",
+    const auto refuse_dry = [&](const scene::UndrainedRegion& each, const std::string& pointer,
+                                const std::string& remedy) {
+        if (may_be_wet(lem, each.region)) return;
+        refuse(findings, pointer,
                "is of soil without water: /lem gives region \"" +
                    scene.section.regions[each.region].name + "\" no line and no r_u",
-               "give /lem/water, or leave the entry out: dry soil fails drained");
+               remedy);
+    };
+    const auto check_water = [&](const scene::UndrainedRegion& each, const std::string& pointer) {
+        if (each.strength.norsand)
+            refuse_dry(each, pointer + "/norsand",
+                       "give /lem/water, or leave the entry out: dry soil fails drained");
     };
     for (std::size_t i = 0; i < lem.undrained.size(); ++i) {
         const std::string pointer = "/lem/undrained/" + std::to_string(i);
@@ -251,12 +257,10 @@ void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
         const scene::UndrainedRegion& layer = lem.liquefaction[i];
         const std::string pointer = "/lem/liquefaction/" + std::to_string(i);
         check_water(layer, pointer);
-        if (!layer.strength.norsand && has_water(lem) && !may_be_wet(lem, layer.region))
-            refuse(findings, pointer,
-                   "is of soil without water: /lem gives region \"" +
-                       scene.section.regions[layer.region].name + "\" no line and no r_u",
-                   "name the region in /lem/water/regions, or leave the layer out: dry soil does "
-                   "not liquefy");
+        if (!layer.strength.norsand && has_water(lem))
+            refuse_dry(layer, pointer,
+                       "name the region in /lem/water/regions, or leave the layer out: dry soil "
+                       "does not liquefy");
         const scene::Material* soil = material_of(scene, scene.section.regions[layer.region]);
         const bool of_profile = soil != nullptr && soil->strength && soil->strength->residual;
         if (layer.strength.is_of_profile() && !of_profile)

@@ -11,6 +11,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
+#include "core/process/flags.hpp"
 #include "core/process/signals.hpp"
 #include "core/version/version.hpp"
 
@@ -134,17 +135,6 @@ json as_json(const exchange::Provenance& p) {
             {"cpu_seconds", p.spent.cpu}};
 }
 
-json as_json(const std::vector<fault::Flag>& flags) {
-    json list = json::array();
-    for (const fault::Flag& each : flags) {
-        list.push_back({{"code", each.code},
-                        {"severity", fault::name_of(each.severity)},
-                        {"message", each.message},
-                        {"pointer", each.pointer}});
-    }
-    return list;
-}
-
 /// A number, a word, yes or no; what is longer is not repeated.
 std::optional<std::string> short_text(const json& value) {
     constexpr std::size_t longest = 60;
@@ -207,7 +197,7 @@ json known_of(Session& session, const Plan& plan) {
     known["phase"] = session.settings().phase;
     known["scene"] = session.scene().name;
     known["plan"] = as_json(plan);
-    known["flags"] = as_json(session.flags());
+    known["flags"] = process::as_json(session.flags());
     known["questionable"] = fault::is_questionable(session.flags());
     const exchange::Spent spent = session.spent();
     known["wall_seconds"] = spent.wall;

@@ -56,16 +56,21 @@ struct Histories {
     std::vector<double> surface, base;
 };
 
-/// The phase itself runs the scene; the base's velocity follows from what it radiates: a second run
-/// monitors it.
-Histories shake(const char* at, double V_base, double rho_base) {
-    const bench::Folder folder;
+/// The pulse as a file that a scene can name.
+std::filesystem::path pulse_in(const bench::Folder& folder) {
     const auto file = folder.path() / "pulse.csv";
     std::ofstream out(file);
     out << "time_s,velocity_m_s\n" << std::setprecision(17);
     for (int i = 0; i <= std::lround(length / dt); ++i)
         out << i * dt << ',' << ricker(i * dt) << '\n';
-    out.close();
+    return file;
+}
+
+/// The phase itself runs the scene; the base's velocity follows from what it radiates: a second run
+/// monitors it.
+Histories shake(const char* at, double V_base, double rho_base) {
+    const bench::Folder folder;
+    const auto file = pulse_in(folder);
     const auto velocity = [&](double level) {
         json scene = column(file, at, V_base, rho_base);
         scene["fem"]["crest"] = {0, level};
@@ -126,12 +131,7 @@ TEST(RickerPulse, PassesALayerOverAHalfSpace) {
 
 TEST(RickerPulse, PassesAStageWithARampThatBringsNothing) {
     const bench::Folder folder;
-    const auto file = folder.path() / "pulse.csv";
-    std::ofstream out(file);
-    out << "time_s,velocity_m_s\n" << std::setprecision(17);
-    for (int i = 0; i <= std::lround(length / dt); ++i)
-        out << i * dt << ',' << ricker(i * dt) << '\n';
-    out.close();
+    const auto file = pulse_in(folder);
     json scene = column(file, "outcrop", V_rock, rho_rock);
     bench::Run whole(scene);
     json& stages = scene["fem"]["stages"];

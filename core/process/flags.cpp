@@ -1,0 +1,29 @@
+#include "core/process/flags.hpp"
+
+namespace breach::process {
+
+using nlohmann::json;
+
+json as_json(const std::vector<fault::Flag>& flags) {
+    json list = json::array();
+    for (const fault::Flag& each : flags) {
+        list.push_back({{"code", each.code},
+                        {"severity", fault::name_of(each.severity)},
+                        {"message", each.message},
+                        {"pointer", each.pointer}});
+    }
+    return list;
+}
+
+std::vector<fault::Flag> flags_from(const json& list) {
+    using fault::Severity;
+    std::vector<fault::Flag> flags;
+    for (const json& each : list) {
+        const bool questionable = each.at("severity") == name_of(Severity::questionable);
+        flags.push_back({each.at("code"), questionable ? Severity::questionable : Severity::warning,
+                         each.at("message"), each.at("pointer")});
+    }
+    return flags;
+}
+
+}  // namespace breach::process
