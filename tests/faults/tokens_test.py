@@ -113,7 +113,9 @@ class Tokens(unittest.TestCase):
             self.assertEqual(self.ask(service, "read-er", "/v1/runs")[0], 200)
             self.assertEqual(self.ask(service, "submit-ter", f"/v1/runs/{run['id']}/cancel", b"")[0], 202)
             events = self.ask(service, "read-er", f"/v1/events?run={run['id']}")[2]["events"]
-            self.assertEqual({each["detail"].get("by") for each in events if each["detail"].get("event") == "submit"}, {"admin"})
+            # An attempt has an event of this name, too: the executor's own, which may come before the cancellation.
+            self.assertEqual([each["detail"].get("by") for each in events
+                              if each["kind"] == "run" and each["detail"].get("event") == "submit"], ["admin"])
 
     def test_5_too_many_requests_are_put_off_and_each_token_has_its_own_count(self):
         with Service(self.here, "--tokens", self.file, "--request-limit", "0.5", "--address-limit", "0.5") as service:
