@@ -147,12 +147,18 @@ test("a polygon is a table of points; a closed ring stays closed; a spreadsheet'
     assert.deepEqual((await ring())[2], [10, 10]);
     await points.locator("tbody tr").nth(2).getByTitle("remove").click();
     assert.equal((await ring()).length, 5);
-    await points.getByLabel("polygon, point 1, x").evaluate((cell) => {
+    const paste = (text) => points.getByLabel("polygon, point 1, x").evaluate((cell, pasted) => {
         const data = new DataTransfer();
-        data.setData("text", "0\t0\n12.5\t0\n6\t8\n0\t0");
+        data.setData("text", pasted);
         cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true }));
-    });
-    assert.deepEqual(await ring(), [[0, 0], [12.5, 0], [6, 8], [0, 0]]);
+    }, text);
+    await paste("0\t0\n11,5\t0\n6\t8\n0\t0");
+    assert.deepEqual((await ring())[1], [11.5, 0], "a decimal comma between tabs");
+    await paste("0.0, 0\n12.5, 0\n6, 8\n0, 0");
+    const pasted = [[0, 0], [12.5, 0], [6, 8], [0, 0]];
+    assert.deepEqual(await ring(), pasted);
+    await paste("1,5\n2,5\n3,5");
+    assert.deepEqual(await ring(), pasted, "one column of decimal commas is no list of points");
     assert.match(await text_of(), /"polygon": \[\[0, 0\], \[12.5, 0\], \[6, 8\], \[0, 0\]\],\n/);
 });
 

@@ -154,6 +154,17 @@ test("gauges stand beside the runout, with a mark that moves along; a mesh has n
     await until("no gauges", () => page.isHidden("#gauges"));
 });
 
+test("a variant's picture shows the scene as that variant has it", async () => {
+    const moved = { ...study, name: "moved", overrides: ["/mpm/gauges/1/x=19"],
+                    variants: [{ name: "as-sent", overrides: [] }, { name: "road-moved", overrides: ["/mpm/gauges/0/x=15", '/mpm/gauges/-={"name": "school", "x": 20}'] }] };
+    await open_run(api.add_run(moved, { began: Date.now() - 60000 }).id);
+    const legend = () => page.locator("#gauge-depth .legend li").allTextContents();
+    await page.selectOption("#view-source", { label: "MPM from t_T = 2 s, as-sent" });
+    await until("the study's gauges", async () => (await legend()).join() === " road (x = 14 m), house (x = 19 m)");
+    await page.selectOption("#view-source", { label: "MPM from t_T = 2 s, road-moved" });
+    await until("the variant's", async () => (await legend()).join() === " road (x = 15 m), house (x = 19 m), school (x = 20 m)");
+});
+
 test("the time is that of the picture that is seen while another one is on its way", async () => {
     let let_go;
     const gate = new Promise((resume) => { let_go = resume; });

@@ -164,11 +164,11 @@ struct Point {
     R G, M_cur;
 };
 
-/// Section 6 without the clip.
+/// Section 6 without the clip. nearest: the back-stress counts as at least so far from its bound [-].
 template <class R>
 [[gnu::always_inline]] inline void plastic_modulus(const Ready& law, const Fixed<R>& f,
                                                    const Point<R>& at, const R& p_hat, const R& M_b,
-                                                   Flow<R>& flow) {
+                                                   double nearest, Flow<R>& flow) {
     using namespace lanes;
     const Parameters& par = law.parameters;
     const R one(1.0);
@@ -182,7 +182,7 @@ template <class R>
     const R x25 = R(2.5) * x_true;
     const R C_KA =
         one + R(par.C_Kaf) * relief * f.C_zpk1 / ((one + x25 * x25) * (relief + f.p_min));
-    const R size = magnitude(flow.B);
+    const R size = larger(magnitude(flow.B), R(nearest));
     const R resistance = p_hat * (exponential(x_app) - one + C_g1) * root(size) *
                          (one + f.slowing * positive(flow.B));
     const auto reloading = dot(at.alpha - f.alpha_prev, at.n) <= R(0.0);
@@ -242,16 +242,16 @@ template <class R>
     return D * smaller(positive(C_pmin2), one);
 }
 
-/// Sections 6 and 7 at a point whose surfaces are known.
+/// Sections 6 and 7 at a point whose surfaces are known. nearest: see plastic_modulus; 0: as OpenSees.
 template <class R>
 [[gnu::always_inline]] inline Flow<R> flow(const Ready& law, const Fixed<R>& f, const Point<R>& at,
-                                           const Surfaces<R>& surface) {
+                                           const Surfaces<R>& surface, double nearest = 0.0) {
     using namespace lanes;
     const Parameters& par = law.parameters;
     const R one(1.0);
     const R p_hat = larger(at.p, f.p_min);
     Flow<R> out;
-    plastic_modulus(law, f, at, p_hat, surface.M_b, out);
+    plastic_modulus(law, f, at, p_hat, surface.M_b, nearest, out);
 
     const R zn = dot(at.z, at.n);
     const R zm = positive(-zn);

@@ -56,6 +56,10 @@ struct Stiffness {
 /// zero: alpha that shrinks with its bounding surface right after a reversal is none.
 inline double reversed_below(const Ready& law) { return -0.01 * law.parameters.m; }
 
+/// The least distance of a back-stress from its bound: a hundredth of the cone. A point on the bound itself has an h without
+/// limit; a step that takes that for its own turns alpha with n, and the stress slides along the bound as if it were elastic.
+inline double nearest_to_bound(const Ready& law) { return 0.01 * law.parameters.m; }
+
 template <class R>
 class Walk {
   public:
@@ -135,7 +139,7 @@ inline typename Walk<R>::Evaluation Walk<R>::evaluate(const Unknowns<R>& y,
     const R M_cur = stress_ratio(p_now, p_now * r, fixed.p_min);
     const R G_now = shear_modulus(law_, memory, p_now, M_cur, surface.M_b, surface.M_d);
     const Point<R> at{p_now, alpha_now, normal_now, y.z, G_now, M_cur};
-    const auto plastic = flow(law_, memory, at, surface);
+    const auto plastic = flow(law_, memory, at, surface, nearest_to_bound(law_));
 
     Evaluation out;
     const R K = R(law_.K_over_G) * G_now;

@@ -9,7 +9,7 @@ import { clock, is_active, number, seconds } from "./format.js";
 import { first_with_frames, picture_tasks, size_canvas, source_name } from "./particles.js";
 import { extents_of, PointView, spacing_of } from "./points.js";
 import { Scale } from "./scale.js";
-import { materials_in, overlay_of, water_of } from "./scene.js";
+import { materials_in, overlay_of, scene_of, water_of } from "./scene.js";
 import { sheet_of } from "./sheet.js";
 import { Snapshots } from "./snapshots.js";
 
@@ -32,12 +32,12 @@ class Side {
         const { run } = await api.read_task(task);
         this.run = await api.read_run(run);
         this.task = this.run.tasks.find(({ id }) => id === task);
+        const scene = scene_of(this.run.study, this.task?.variant);
         if (this.source?.task !== task) {
             this.source?.close();
-            this.source = new Snapshots(task, materials_in(this.run.study?.scene));
+            this.source = new Snapshots(task, materials_in(scene));
             this.snapshot = null;
         }
-        const scene = this.run.study?.scene;
         this.view.overlay = { ...overlay_of(scene), water: water_of(scene) };
         this.row = this.task.phase === "mpm_solver" ? (await api.read_results(run)).rows.find((row) => row.mpm_task === task) : null;
         await this.source.list();

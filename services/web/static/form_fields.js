@@ -173,7 +173,9 @@ export class List {
     child() { return null; }
 
     take() {
-        const pieces = this.control.value.split(this.numeric ? /[\s,;]+/ : /\s*[,;]\s*/).filter(Boolean);
+        // Between semicolons a comma would be a decimal one, which is told instead of read as two numbers.
+        const between = !this.numeric ? /\s*[,;]\s*/ : this.control.value.includes(";") ? /[\s;]+/ : /[\s,]+/;
+        const pieces = this.control.value.split(between).filter(Boolean);
         const values = this.numeric ? pieces.map((piece) => read({ type: "number" }, piece)?.value) : pieces;
         const bad = pieces[values.indexOf(undefined)];
         say_doubt(this, bad === undefined ? "" : `"${bad}" is not a number`);

@@ -5,9 +5,12 @@ import { label_of, new_id } from "./form_fields.js";
 
 const number_in = (text) => (text.trim() === "" ? NaN : Number(text));
 
-/// [[x, y], ...] of lines of two numbers; null when it is anything else.
+/// [[x, y], ...] of lines of two numbers; null when it is anything else. Between tabs or semicolons a comma is a decimal one; a lone column of
+/// 12,5 is no list of points.
 function points_in(text) {
-    const rows = text.trim().split(/\r?\n/).map((line) => line.trim().split(/\s*[\t;]\s*|\s*,\s*|\s+/).map(Number));
+    const in_cells = /[\t;]/.test(text);
+    if (!in_cells && !/[.\s]/.test(text.trim().replaceAll(/\r?\n/g, ""))) return null;
+    const rows = text.trim().split(/\r?\n/).map((line) => (in_cells ? line.trim().replaceAll(",", ".").split(/\s*[\t;]\s*/) : line.trim().split(/\s*,\s*|\s+/)).map(Number));
     return rows.length > 1 && rows.every((row) => row.length === 2 && row.every(Number.isFinite)) ? rows : null;
 }
 

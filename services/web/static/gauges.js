@@ -14,9 +14,9 @@ export class Gauges {
             [quantity, new Plot(by_id(host), { title: y, x: "time since the runout began [s]", y, x_name: "t", x_unit: "s" }, { height: 190, y_from_zero: true })]));
     }
 
-    /// Of a task of the run; nothing for a FEM or a scene without gauges.
-    async show(run, task) {
-        const gauges = task?.phase === "mpm_solver" ? run.study?.scene?.mpm?.gauges ?? [] : [];
+    /// Of a task of the run and the scene that it has; nothing for a FEM or a scene without gauges.
+    async show(run, task, scene) {
+        const gauges = task?.phase === "mpm_solver" ? scene?.mpm?.gauges ?? [] : [];
         by_id("gauges").hidden = gauges.length === 0;
         if (gauges.length === 0) return;
         if (this.task !== task.id) Object.assign(this, { task: task.id, lines: [], next: 0 });

@@ -11,7 +11,7 @@ import { longest_of } from "./overlay.js";
 import { extents_of, PointView, spacing_of } from "./points.js";
 import { Profile } from "./profile.js";
 import { Scale } from "./scale.js";
-import { materials_in, overlay_of, water_of } from "./scene.js";
+import { materials_in, overlay_of, scene_of, water_of } from "./scene.js";
 import { sheet_of } from "./sheet.js";
 import { Snapshots } from "./snapshots.js";
 
@@ -63,8 +63,6 @@ export class Particles {
         mirror(by_id("view-source"), sources, (task) => task.id,
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
         by_id("particles").hidden = sources.length === 0;
-        this.view.overlay = { ...this.view.overlay, ...overlay_of(run.study?.scene) };
-        by_id("view-water-label").hidden = !water_of(run.study?.scene);
         const best = first_with_frames(sources);
         const current = sources.find((task) => task.id === this.task);
         // Until a person chooses, the mesh gives way to the first runout that there is.
@@ -111,7 +109,10 @@ export class Particles {
 
     async open(task) {
         this.forget();
-        this.source = new Snapshots(task, materials_in(this.run.study?.scene));
+        this.scene = scene_of(this.run.study, this.run.tasks.find(({ id }) => id === task)?.variant);
+        this.view.overlay = { ...this.view.overlay, ...overlay_of(this.scene) };
+        by_id("view-water-label").hidden = !water_of(this.scene);
+        this.source = new Snapshots(task, materials_in(this.scene));
         this.source.stride = this.stride();
         by_id("view-source").value = task;
         by_id("view-compare").href = `#/compare/${encodeURIComponent(task)}`;
@@ -119,7 +120,7 @@ export class Particles {
     }
 
     show_gauges() {
-        return this.gauges.show(this.run, this.run.tasks.find(({ id }) => id === this.task));
+        return this.gauges.show(this.run, this.run.tasks.find(({ id }) => id === this.task), this.scene);
     }
 
     async reload() {
@@ -237,7 +238,7 @@ export class Particles {
         const contours = is_mesh && !is_named(this.field) && by_id("view-shading").value === "contours";
         by_id("view-shading-label").hidden = !is_mesh || is_named(this.field);
         by_id("view-vectors-label").hidden = !snapshot.columns.u_x;
-        this.view.overlay.water = by_id("view-water").checked ? water_of(this.run.study?.scene) : null;
+        this.view.overlay.water = by_id("view-water").checked ? water_of(this.scene) : null;
         this.view.overlay.vectors = by_id("view-vectors").checked;
         this.view.show(snapshot, this.scale.of(this.field, [snapshot], [this.source], { contours }), this.spacing ?? 1);
         this.gauges.mark(snapshot.time);

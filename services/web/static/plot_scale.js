@@ -23,7 +23,9 @@ export function log_ticks(low, high) {
 
 export function tick_label(value, step) {
     if (Math.abs(value) < 1e-9 * step) return "0";
-    if (Math.abs(value) >= 1e5 || step < 1e-4) return number(value, 3);
+    // As many digits as tell one tick from the next: coordinates may be 456,230 m with ticks of 10 m.
+    const digits = 1 + Math.floor(Math.log10(Math.abs(value)) + 1e-9) - Math.floor(Math.log10(step) + 1e-9);
+    if ((Math.abs(value) >= 1e5 && digits <= 3) || Math.abs(value) >= 1e7 || step < 1e-4) return number(value, Math.max(3, digits + 1));
     const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
     const fits = Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) < 1e-6;
     return value.toFixed(fits ? decimals : decimals + 1);

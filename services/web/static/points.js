@@ -1,16 +1,15 @@
 // Draws one snapshot, particles or a mesh of quads, on a canvas: equal aspect, pan, zoom, axes in metres.
 import { band_colours, mixed, packed, region_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
 import { fill_contours } from "./contours.js";
-import { number } from "./format.js";
 import { draw_cut, draw_gauges, draw_outlines, draw_toe, draw_vectors, draw_water } from "./overlay.js";
-import { ticks } from "./plot_scale.js";
+import { tick_label, ticks } from "./plot_scale.js";
 import { draw_edge, fill_quad, fill_square } from "./raster.js";
 
 const unknown = packed(unknown_css);
 const region_packed = Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i)));
 const least_edge = 4; // [CSS px] shorter edges of elements are not drawn
 
-const edge = { left: 46, right: 10, top: 10, bottom: 34 }; // room for the axes [CSS px]
+const edge = { left: 52, right: 10, top: 10, bottom: 34 }; // room for the axes [CSS px]
 
 /// {x: [low, high], y: [low, high]} of several snapshots; null without points.
 export function extents_of(snapshots) {
@@ -325,20 +324,21 @@ export class PointView {
         context.lineTo(right, bottom);
         context.textAlign = "center";
         context.textBaseline = "top";
-        const x_values = ticks(x_low, x_high, area.width / (90 * ratio)).values;
-        x_values.forEach((x, i) => {
+        const across = ticks(x_low, x_high, area.width / (90 * ratio));
+        across.values.forEach((x, i) => {
             const [px] = this.to_screen(x, 0);
             context.moveTo(px, bottom);
             context.lineTo(px, bottom + 5 * ratio);
-            context.fillText(`${number(x)}${i === x_values.length - 1 ? " m" : ""}`, px, bottom + 8 * ratio);
+            context.fillText(`${tick_label(x, across.step)}${i === across.values.length - 1 ? " m" : ""}`, px, bottom + 8 * ratio);
         });
         context.textAlign = "right";
         context.textBaseline = "middle";
-        for (const y of ticks(y_low, y_high, area.height / (45 * ratio)).values) {
+        const up = ticks(y_low, y_high, area.height / (45 * ratio));
+        for (const y of up.values) {
             const [, py] = this.to_screen(0, y);
             context.moveTo(area.left - 5 * ratio, py);
             context.lineTo(area.left, py);
-            context.fillText(number(y), area.left - 8 * ratio, py);
+            context.fillText(tick_label(y, up.step), area.left - 8 * ratio, py);
         }
         context.stroke();
     }

@@ -1,4 +1,31 @@
 // What pictures of the soil show of the scene it began with.
+import { parts_of } from "./json_text.js";
+
+/// The scene as a variant of the study has it: with what the study sets, and the variant after it.
+export function scene_of(study, variant) {
+    const scene = structuredClone(study?.scene ?? {});
+    const own = (study?.variants ?? []).find(({ name }) => name === variant)?.overrides ?? [];
+    for (const each of [...(study?.overrides ?? []), ...own]) set(scene, each);
+    return scene;
+}
+
+/// "/pointer=value", as the phases take it: the value is JSON, else text; "-" is a list's new entry.
+function set(scene, override) {
+    const [pointer, text] = [override.slice(0, override.indexOf("=")), override.slice(override.indexOf("=") + 1)];
+    const parts = parts_of(pointer);
+    const last = parts.pop();
+    const place = parts.reduce((at, part) => (at[key_in(at, part)] ??= {}), scene);
+    place[key_in(place, last)] = value_of(text);
+}
+const key_in = (place, part) => (Array.isArray(place) && part === "-" ? place.length : part);
+
+function value_of(text) {
+    try {
+        return JSON.parse(text);
+    } catch {
+        return text;
+    }
+}
 
 /// region -> material
 export const materials_in = (scene) => new Map((scene?.section?.regions ?? []).map(({ name, material }) => [name, material]));
