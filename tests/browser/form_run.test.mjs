@@ -129,6 +129,7 @@ test("a section drawn elsewhere becomes the scene's; what is wrong with the file
     await until("the slope in the scene", async () => (await value()).scene.section.regions[0].polygon.length === 5);
     assert.equal((await value()).scene.materials.sand.density, 1800, "the soils are those that stood there");
     await until("what was guessed", async () => /healed.*guessed: \/section\/element_size/.test(await page.textContent("#options-note")));
+    assert.match(await page.textContent("#options-note"), /read in m \(metres, as nothing says otherwise\): the section is 40 m long and 10 m high/);
     const before = await page.inputValue("#study");
     await send(csv(10).replaceAll("sand", "clay"));
     await until("what is wrong", async () => /clay/.test(await page.textContent("#drawing-faults")));

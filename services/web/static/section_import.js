@@ -14,10 +14,13 @@ const properties = {
 };
 const pieces = (text) => (text ?? "").split(";").map((each) => each.trim()).filter(Boolean);
 
-/// What the service healed and took upon itself, as one line.
-function note_of({ healed = [], guessed = [], remarks = [] }) {
-    const largest = Math.max(...healed.map(({ size }) => size));
-    return [healed.length ? `${healed.length} places healed, the largest ${number(largest, 3)} m` : "nothing had to be healed",
+const unit_sources = { asked: "as asked", drawing: "the drawing's $INSUNITS", default: "metres, as nothing says otherwise" };
+
+/// What the service took, healed and took upon itself, as one line.
+function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [] }) {
+    const largest = Math.max(...healed.map(({ size: off }) => off));
+    return [size ? `read in ${unit} (${unit_sources[unit_from]}): the section is ${number(size[0])} m long and ${number(size[1])} m high` : "",
+            healed.length ? `${healed.length} places healed, the largest ${number(largest, 3)} m` : "nothing had to be healed",
             guessed.length ? `guessed: ${guessed.map(({ pointer, value }) => `${pointer} ${JSON.stringify(value)}`).join(", ")}` : "", ...remarks].filter(Boolean).join("; ");
 }
 
