@@ -116,6 +116,55 @@ void doubt_friction_under_water(const scene::Scene& scene, const std::vector<sce
     }
 }
 
+/// Deepest water that stands on the ground [m].
+double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
+    const scene::Box box = extent(scene);
+    const double near = 1e-6 * (box.high.x() - box.low.x());
+    std::vector<double> xs = abscissae(scene);
+    for (const Vec2& each : line) xs.push_back(each.x());
+    double deepest = 0.0;
+    for (const double at : xs)
+        for (const double x : {at - near, at + near}) {  // both heads of a vertical face
+            const std::vector<Stratum> strata = strata_at(scene, x);
+            if (!strata.empty())
+                deepest = std::max(deepest, level_at(line, x) - strata.front().top);
+        }
+    return deepest;
+}
+
+/// What lies on the ground in the FEM lies on it no longer in the runout.
+void doubt_loads_that_end(const scene::Scene& scene, Findings& findings) {
+    if (!scene.fem || !scene.mpm) return;
+    const scene::Fem& fem = *scene.fem;
+    const auto tell = [&](const std::string& pointer, const std::string& what) {
+        warn(findings, "load_ends", pointer,
+             what +
+                 " ends at the transfer: material points run out under gravity alone; what goes "
+                 "with the soil must be drawn as soil");
+    };
+    std::string of_surcharge = "/fem/surcharge", of_pressures, of_forces;
+    bool loaded = !fem.surcharge.empty(), pressed = false, pushed = false;
+    for (std::size_t s = 0; s < fem.stages.size(); ++s) {
+        const scene::Stage& stage = fem.stages[s];
+        const auto take = [&](const auto& given, const char* name, bool& acts, std::string& where) {
+            if (!given) return;
+            acts = !given->empty();
+            where = "/fem/stages/" + std::to_string(s) + name;
+        };
+        take(stage.surcharge, "/surcharge", loaded, of_surcharge);
+        take(stage.pressures, "/pressures", pressed, of_pressures);
+        take(stage.forces, "/forces", pushed, of_forces);
+    }
+    if (loaded) tell(of_surcharge, "the surcharge");
+    if (pressed) tell(of_pressures, "the pressure on the edges");
+    if (pushed) tell(of_forces, "the force on the nodes");
+    if (!fem.water || fem.stages.empty()) return;
+    const scene::Box box = extent(scene);
+    const double shallow = 0.02 * (box.high.y() - box.low.y());
+    const double pond = deepest_pond(scene, fem.water_in(fem.stages.size() - 1)->line);
+    if (pond > shallow) tell("/fem/water/line", "free water up to " + metres(pond) + " deep");
+}
+
 /// Points keep the mass of the soil that they were.
 void doubt_densities(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
                      Findings& findings) {
@@ -141,6 +190,7 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
     if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     doubt_friction_under_water(scene, soils, findings);
+    doubt_loads_that_end(scene, findings);
     doubt_densities(scene, soils, findings);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;

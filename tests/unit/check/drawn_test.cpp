@@ -213,6 +213,20 @@ TEST(Drawn, WhatATransferDecidesIsToldWhereThePointsFillTheSection) {
     EXPECT_TRUE(has_warning(checked, "needs_fem", "/transfer/mapping/0/saturated"));
 }
 
+TEST(Drawn, LoadsThatEndAtTheTransferAreTold) {
+    const Checked loaded =
+        changed("slope", {R"(/fem/surcharge=[{"from":0,"to":4,"pressure_kPa":10}])"});
+    EXPECT_TRUE(loaded.faults.empty()) << told(loaded.faults);
+    EXPECT_TRUE(has_warning(loaded, "load_ends", "/fem/surcharge"));
+    const Checked lifted = changed(
+        "slope",
+        {R"(/fem/surcharge=[{"from":0,"to":4,"pressure_kPa":10}])", "/fem/stages/1/surcharge=[]"});
+    EXPECT_FALSE(has_warning(lifted, "load_ends", "/fem/surcharge"));
+    EXPECT_FALSE(has_warning(lifted, "load_ends", "/fem/stages/1/surcharge"));
+    const Checked flooded = changed("mochikoshi", {"/fem/water/line=[[0,40],[400,40]]"});
+    EXPECT_TRUE(has_warning(flooded, "load_ends", "/fem/water/line"));
+}
+
 TEST(Drawn, FrictionBelowTheWaterTableIsToldWherePointsFillTheSection) {
     const Checked wet = changed("merriespruit", {});
     EXPECT_TRUE(has_warning(wet, "total_stress", "/materials/embankment"));
