@@ -43,7 +43,9 @@ def main(folder):
         print(times)
         check("every variant is transferred at the same times", len({tuple(sorted(each)) for each in times.values()}) == 1, times)
         check("four variants", sorted(times) == sorted(variants), times)
-        (picked, late) = sorted(t for t in times[variants[0]] if t != ASKED)
+        found = sorted(t for t in times[variants[0]] if t != ASKED)
+        check("both windows picked a time, perhaps the same", len(found) in (1, 2), found)
+        picked, late = found[0], found[-1]
         service.breach("export", run, folder / "run")
         fem = folder / "run/tasks/fem"
         facts = result(fem)
