@@ -41,6 +41,14 @@ bool is_alive(pid_t pid) {
     return line.substr(line.rfind(')') + 2, 1) != "Z";
 }
 
+pid_t parent_of(pid_t pid) {
+    std::ifstream stream("/proc/" + std::to_string(pid) + "/stat");
+    std::string word;
+    pid_t parent = 0;
+    stream >> word >> word >> word >> parent;
+    return parent;
+}
+
 std::string text_of(const fs::path& file) {
     std::ifstream stream(file);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -188,6 +196,20 @@ TEST_P(ExecutorConformance, PhaseThatEndsOnTermIsNotKilled) {
     executor_->stop(folder(), StopReason::cancel);
     ASSERT_TRUE(becomes(folder(), Life::ended));
     EXPECT_EQ(read_exit_record(folder())->exit_code, 143);
+}
+
+TEST_P(ExecutorConformance, TermFromElsewhereEndsThePhaseAndIsNoWordOfTheService) {
+    submit(folder(),
+           "trap 'kill $!; exit 143' TERM; sleep 300 & echo $$ >near; echo $PPID >above; wait", 20);
+    ASSERT_TRUE(eventually([&] { return pid_in(root_ / "above") > 0; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    // Slurm may reach the job's shell alone, which is above the supervisor.
+    const pid_t supervisor = pid_in(root_ / "above");
+    kill(GetParam() == std::string("Local") ? supervisor : parent_of(supervisor), SIGTERM);
+    ASSERT_TRUE(becomes(folder(), Life::ended));
+    const auto record = read_exit_record(folder());
+    EXPECT_EQ(record->exit_code, 143);
+    EXPECT_EQ(record->stopped, StopReason::signal);
 }
 
 TEST_P(ExecutorConformance, StoppedPhaseIsAliveAndCanBeEnded) {

@@ -114,9 +114,7 @@ void Dispatcher::note_exit(Live& live) {
                          .signal = record.signal,
                          .wall_seconds = record.wall_seconds,
                          .cpu_seconds = record.cpu_seconds,
-                         .reason = !record.stopped                         ? ""
-                                   : *record.stopped == StopReason::cancel ? "cancel"
-                                                                           : "shutdown"};
+                         .reason = record.stopped ? std::string(name_of(*record.stopped)) : ""};
     const TaskFault fault = verdict == Verdict::well ? TaskFault{} : fault_of(live, record);
     std::optional<TaskState> stopped;
     reach(Failpoint::exit_before);

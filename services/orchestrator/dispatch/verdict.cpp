@@ -10,6 +10,7 @@ using fault::ExitCode;
 
 Verdict judge(const ExitRecord& record, bool resumed) {
     const bool ours = record.stopped == StopReason::shutdown;
+    const bool asked = ours || record.stopped == StopReason::signal;
     if (!record.exit_code) return ours ? Verdict::interrupted : Verdict::retryable;
     switch (static_cast<ExitCode>(*record.exit_code)) {
         case ExitCode::done:
@@ -18,7 +19,7 @@ Verdict judge(const ExitRecord& record, bool resumed) {
             return Verdict::retryable;
         case ExitCode::interrupted:
         case ExitCode::terminated:  // a checkpoint was saved, so that going on costs little
-            return ours ? Verdict::interrupted : Verdict::retryable;
+            return asked ? Verdict::interrupted : Verdict::retryable;
         case ExitCode::bad_input:
             return resumed ? Verdict::retryable : Verdict::badly;
         case ExitCode::usage:

@@ -19,8 +19,10 @@ using nlohmann::json;
 static constexpr auto words_of(StopReason) {
     using enum StopReason;
     return words::in_order<StopReason>(
-        {{cancel, "cancel"}, {shutdown, "shutdown"}, {revoked, "revoked"}});
+        {{cancel, "cancel"}, {shutdown, "shutdown"}, {revoked, "revoked"}, {signal, "signal"}});
 }
+
+std::string_view name_of(StopReason reason) { return words::name_of(reason); }
 
 namespace {
 

@@ -24,9 +24,10 @@ struct Order {
     std::int64_t priority = 0;   ///< higher goes first
 };
 
-/// Why the service wants an attempt to end. `revoked`: it was given up, and a later attempt may run
-/// already.
-enum class StopReason { cancel, shutdown, revoked };
+/// Why an attempt is to end. `revoked`: it was given up, and a later attempt may run already. `signal`: not the service but
+/// somebody else asked, such as Slurm at a time limit or a machine that goes down.
+enum class StopReason { cancel, shutdown, revoked, signal };
+std::string_view name_of(StopReason reason);
 
 struct ExitRecord {
     std::string attempt;

@@ -38,11 +38,16 @@ std::string script_of(const Batch& batch, const std::string& self) {
                << " folder=" << quoted(folder.root.string()) << " ;;\n";
     }
     // The shell stays, to end what a killed supervisor would leave behind: Slurm does not reach
-    // processes that have left the job's tree. scancel's TERM must not end it before the supervisor.
-    script << "*) exit 64 ;;\nesac\ntrap : TERM\n"
+    // processes that have left the job's tree. TERM must not end it before the supervisor, and where Slurm
+    // holds jobs in control groups it reaches the shell alone, which passes it on.
+    script << "*) exit 64 ;;\nesac\nchild=\ntrap '[ -z \"$child\" ] || kill -TERM $child' TERM\n"
            << "export " << attempt_mark << "=\"$attempt\"\n"
            << "exec >>\"$folder/log.txt\" 2>&1 </dev/null\n"
-           << quoted(self) << " supervise --take-lock \"$folder\" ||\n"
+           << quoted(self)
+           << " supervise --take-lock \"$folder\" &\nchild=$!\n"
+           // A signal ends a wait before the child does.
+           << "while wait $child; code=$?; kill -0 $child 2>/dev/null; do :; done\n"
+           << "[ $code -eq 0 ] ||\n"
            << quoted(self) << " supervise --end-strays \"$folder\"\n";
     return script.str();
 }

@@ -76,7 +76,7 @@ class Supervision {
     bool wait_for_fence() {
         while (true) {
             beat();
-            record_.stopped = asked_by_signal_ ? StopReason::shutdown : read_stop(folder_);
+            record_.stopped = asked_to_stop();
             if (record_.stopped) return false;
             if (auto fence = FileLock::try_take(folder_.fence())) {
                 fence_ = held_by_all_below(std::move(*fence));
@@ -129,9 +129,16 @@ class Supervision {
         _exit(cannot_execute);
     }
 
+    /// The service says why; a signal alone does not.
+    std::optional<StopReason> asked_to_stop() const {
+        const auto reason = read_stop(folder_);
+        if (reason || !asked_by_signal_) return reason;
+        return StopReason::signal;
+    }
+
     void look_for_stop() {
         if (record_.stopped) return;
-        record_.stopped = asked_by_signal_ ? StopReason::shutdown : read_stop(folder_);
+        record_.stopped = asked_to_stop();
         if (record_.stopped)
             kill_at_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(order_.grace_seconds));

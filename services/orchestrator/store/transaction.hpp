@@ -16,7 +16,8 @@ struct AttemptEnd {
     std::optional<std::int64_t> signal;
     std::optional<double> wall_seconds;
     std::optional<double> cpu_seconds;
-    std::string reason;  ///< "cancel", "shutdown" when the service stopped it; else empty
+    std::string
+        reason;  ///< "cancel", "shutdown" when the service stopped it, "signal" when somebody else did; else empty
 };
 
 class Transaction {

@@ -496,6 +496,10 @@ TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
     EXPECT_EQ(verdict(143, {}, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict({}, 9, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict(0, {}, StopReason::shutdown), Verdict::well);
+    // A time limit: what saved a checkpoint goes on; what had to be killed would only begin again.
+    EXPECT_EQ(verdict(143, {}, StopReason::signal), Verdict::interrupted);
+    EXPECT_EQ(verdict({}, 9, StopReason::signal), Verdict::retryable);
+    EXPECT_EQ(verdict({}, 15, StopReason::signal), Verdict::retryable);
     EXPECT_EQ(verdict(70, {}, StopReason::shutdown), Verdict::badly);
 }
 
