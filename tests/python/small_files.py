@@ -77,6 +77,30 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(breach.BreachlineError, "state holds no numbers"):
             comparison.difference("state")
 
+    def test_variants_in_no_row_are_told(self):
+        folder = self.export("a", rows((0.5, "succeeded", 12.5, "loose")))
+        (folder / "results.json").write_text(json.dumps({"columns": COLUMNS, "rows": rows((0.5, "succeeded", 12.5, "loose")),
+                                                         "without_transfer": [{"variant": "dense", "reason": "its trigger expired"}]}))
+        table = breach.run(folder).results
+        self.assertEqual((len(table), [each["variant"] for each in table.without_transfer]), (1, ["dense"]))
+        self.assertIn("no transfer of dense: its trigger expired", repr(table))
+
+    def test_tasks_are_in_the_studys_order_and_sound_ones_come_first(self):
+        folder = self.export("a", [])
+        for label, name, time, state, variant in (("mpm_10", "r-00009", 10.0, "succeeded", "dense"), ("mpm_3_loose", "r-00003", 3.0, "failed", "loose"),
+                                                  ("mpm_3_dense", "r-00004", 3.0, "cached", "dense")):
+            task = folder / "tasks" / label
+            task.mkdir()
+            (task / "task.json").write_text(json.dumps(
+                {"id": name, "label": label, "phase": "mpm_solver", "state": state, "transfer_time": time, "variant": variant, "result": None,
+                 "artifacts": [{"name": "particles_0.000000.vtkhdf"}]}))
+        run = breach.run(folder)
+        self.assertEqual([each.label for each in run.tasks], ["mpm_3_loose", "mpm_3_dense", "mpm_10", "mpm_0.5"])
+        self.assertEqual(run.task("mpm_solver").label, "mpm_3_dense")
+        self.assertEqual(run.task("mpm_solver", 3.0).label, "mpm_3_dense")
+        self.assertEqual(run.task("mpm_solver", 3.0, "loose").label, "mpm_3_loose")
+        self.assertIn("of mpm_3_loose (failed)", repr(run.frames(3.0, "loose")))
+
     def test_frames_are_in_the_order_of_time(self):
         frames = breach.run(str(self.export("a", [])) + os.sep).frames(transfer_time=0.5)
         self.assertEqual(list(frames.times), [0.0, 2.0, 10.0])

@@ -21,7 +21,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Frame:
-    """SI units, tension positive; tensors (xx, yy, zz, xy)."""
+    """SI units, tension positive; stress and strain (xx, yy, zz, xy), velocity_gradient (xx, xy, yx, yy)."""
 
     time: float  #: [s], on the clock of its phase
     position: Array  #: [points, 2] m
@@ -64,7 +64,8 @@ class Frame:
 class Frames(Sequence[Frame]):
     """Ascending in time; a frame is read when it is asked for."""
 
-    def __init__(self, times: list[float], opened: Callable[[int], Path]) -> None:
+    def __init__(self, times: list[float], opened: Callable[[int], Path], whose: str = "") -> None:
+        self.whose = whose  #: label and state of the task
         self.times: NDArray[np.float64] = np.array(times, dtype=np.float64)  #: [s], from the files' names
         self._opened = opened
 
@@ -89,7 +90,7 @@ class Frames(Sequence[Frame]):
         return self[int(np.argmin(np.abs(self.times - time)))]
 
     def __repr__(self) -> str:
-        return f"Frames({len(self)} from {self.times[0]:g} s to {self.times[-1]:g} s)"
+        return f"Frames({len(self)} from {self.times[0]:g} s to {self.times[-1]:g} s of {self.whose or 'a task'})"
 
     def xarray(self) -> xarray.Dataset:
         """All frames at once, over time and point; they must have the same points and fields. Needs xarray."""

@@ -52,7 +52,7 @@ class Run:
 
     @cached_property
     def results(self) -> Table:
-        """One row per transfer time and variant."""
+        """One row per transfer time and variant; `without_transfer` has the variants that are in no row."""
         return Table.of(self._source.results())
 
     @cached_property
@@ -65,13 +65,14 @@ class Run:
                      each.get("result"), [artifact["name"] for artifact in each["artifacts"]]) for each in self._documents]
 
     def task(self, phase: str, transfer_time: float | None = None, variant: str | None = None) -> Task:
-        """The first task of this phase with files; of this transfer time [s] and variant when they are given."""
+        """The first task of this phase with files, one that ended well before one that did not; of this transfer time [s] and
+        variant when they are given."""
         of_phase = [each for each in self.tasks if each.phase == phase]
-        for each in of_phase:
-            if (each.files and (variant is None or each.variant == variant)
-                    and (transfer_time is None
-                         or (each.transfer_time is not None and abs(each.transfer_time - transfer_time) < 1e-6))):
-                return each
+        fitting = [each for each in of_phase if each.files and (variant is None or each.variant == variant)
+                   and (transfer_time is None
+                        or (each.transfer_time is not None and abs(each.transfer_time - transfer_time) < 1e-6))]
+        if fitting:
+            return next((each for each in fitting if each.state in ("succeeded", "cached")), fitting[0])
         there = ", ".join(f"{each.label} ({each.state})" for each in of_phase) or "none"
         raise BreachlineError(f"run {self.id} has no such task of {phase} with files; it has: {there}")
 
@@ -88,12 +89,12 @@ class Run:
 
     def frames(self, transfer_time: float | None = None, variant: str | None = None, phase: str = "mpm_solver") -> Frames:
         """Of one task: the runout's, or with phase="fem_solver" the mesh's snapshots. transfer_time [s] and variant choose
-        among several; otherwise it is the first that has files."""
+        among several; otherwise it is that of `task`, and the frames say whose they are."""
         task = self.task(phase, transfer_time, variant)
         timed = sorted((float(found[1]), name) for name in task.files if (found := _timed.fullmatch(name)))
         if not timed:
             raise BreachlineError(f"{task.label} has no frames; it has " + ", ".join(task.files))
-        return Frames([time for time, _ in timed], lambda k: self.file(task, timed[k][1]))
+        return Frames([time for time, _ in timed], lambda k: self.file(task, timed[k][1]), f"{task.label} ({task.state})")
 
     def compare(self, other: Run) -> Comparison:
         """Row by row; differences are the other's value minus this run's."""

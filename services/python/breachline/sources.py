@@ -56,8 +56,8 @@ class Exported:
         return dict(self._read("results.json"))
 
     def tasks(self) -> list[Document]:
-        names = sorted(each.parent.name for each in self.folder.glob("tasks/*/task.json"))
-        return [self._read(f"tasks/{name}/task.json") for name in names]
+        found = [self._read(f"tasks/{each.parent.name}/task.json") for each in self.folder.glob("tasks/*/task.json")]
+        return sorted(found, key=lambda task: str(task["id"]))  # the study's order, as the service tells them
 
     def file(self, task: Document, name: str) -> Path:
         path = self.folder / "tasks" / str(task["label"]) / name

@@ -1,7 +1,7 @@
 """Results: one row per transfer time and variant, with a unit for each column."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -25,17 +25,19 @@ class Column:
 
 
 class Table:
-    """Rows as dictionaries, columns as arrays: table[0]["runout"] is table["runout"][0]."""
+    """Rows as dictionaries, columns as arrays: table[0]["runout"] is table["runout"][0]. A variant of which nothing was
+    transferred, such as a dam that stands, has no row: statistics over rows are of the others alone."""
 
-    def __init__(self, columns: list[Column], rows: list[Row]) -> None:
+    def __init__(self, columns: list[Column], rows: list[Row], without_transfer: Sequence[Row] = ()) -> None:
         self.columns = columns
         self.rows = rows
+        self.without_transfer = list(without_transfer)  #: with their variant and reason
 
     @classmethod
     def of(cls, answer: Row) -> Table:
         """answer: what the API's results say, which an export keeps as results.json."""
         columns = [Column(each["name"], each["kind"], each["unit"], each["meaning"]) for each in answer["columns"]]
-        return cls(columns, list(answer["rows"]))
+        return cls(columns, list(answer["rows"]), answer.get("without_transfer", []))
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -74,7 +76,9 @@ class Table:
         head = [f"{name} [{self.column(name).unit}]" if self.column(name).unit else name for name in names]
         lines = [head] + [[_cell(row.get(name)) for name in names] for row in self.rows]
         widths = [max(len(line[k]) for line in lines) for k in range(len(names))]
-        return "\n".join("  ".join(text.rjust(width) for text, width in zip(line, widths)) for line in lines)
+        shown = ["  ".join(text.rjust(width) for text, width in zip(line, widths)) for line in lines]
+        shown += [f"no transfer of {each.get('variant') or 'the scene'}: {each.get('reason')}" for each in self.without_transfer]
+        return "\n".join(shown)
 
 
 @dataclass(frozen=True)
