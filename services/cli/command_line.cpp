@@ -212,8 +212,11 @@ class CommandLine {
 
     /// The table of a run that is there, or of one that is submitted and watched for it.
     ExitCode accuracy(Server& server, const Console& console) {
-        if (!a_.id.empty() && a_.check.repeats.empty())
-            return show_accuracy(server, a_.id, a_.check.asked_error, console);
+        if (!a_.id.empty() && a_.check.repeats.empty()) {
+            const ExitCode end = a_.watch ? watch(server, a_.id, doubt(), console) : ExitCode::done;
+            show_accuracy(server, a_.id, a_.check.asked_error, console);
+            return end;
+        }
         const std::string run = a_.id.empty() ? submit(server, a_.submit, console)
                                               : check_accuracy(server, a_.id, a_.check, console);
         if (!a_.watch) return ExitCode::done;
@@ -232,6 +235,8 @@ class CommandLine {
             "--of", a_.id, "instead: the run of an accuracy study or of a check, as far as it is");
         what->require_option(1);
         take_changes(sub);
+        for (const char* of_a_new_run : {"--set", "--key", "--send-files"})
+            sub->get_option(of_a_new_run)->excludes(of);
         take_check(sub, of);
         take_strict(sub);
     }

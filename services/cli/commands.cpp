@@ -50,6 +50,8 @@ json post_wish(Server& server, const std::string& door, const SubmitWish& wish,
     json study = wish.scene.empty() ? read_study(wish.study, wish.overrides)
                                     : study_around(wish.scene, wish.overrides);
     if (!wish.transfer_times.empty()) study["transfer_times"] = wish.transfer_times;
+    for (const std::string& each : overruled(study, wish.overrides))
+        console.notes << harmless(each) << "\n";
     Headers headers;
     if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
     return post_study(server, door, std::move(study), headers,

@@ -79,17 +79,21 @@ ExitCode transfers(Server& server, const TransfersWish& wish, const Console& con
     const std::string path = wish.run.empty()
                                  ? std::string("/v1/transfers")
                                  : path_of({"runs", run_named(server, wish.run), "transfers"});
-    const json list =
-        server.get(path + query_of({{"why", wish.why}, {"limit", std::to_string(wish.most)}}))
-            .at("transfers");
+    const json answer =
+        server.get(path + query_of({{"why", wish.why}, {"limit", std::to_string(wish.most)}}));
+    const json& list = answer.at("transfers");
+    if (answer.at("next").is_string())
+        console.notes << "only the newest " << list.size()
+                      << " transfers, there are more: -n shows up to 500\n";
     if (console.style == Style::json) {
         show_json(list, console);
         return ExitCode::done;
     }
     std::vector<Cells> rows;
     for (const json& each : list)
-        rows.push_back({cell(each, "task"), cell(each, "variant"), cell(each, "transfer_time"),
-                        cell(each, "why"), cell(each, "condition"),
+        rows.push_back({cell(each, "task"), cell(each, "variant"),
+                        whole_cell(each, "transfer_time"), cell(each, "why"),
+                        cell(each, "condition"),
                         each.at("crossed").is_null() ? "-" : harmless(each["crossed"].dump()),
                         cell(each, "start_ms"), cell(each, "state"), runouts_of(each)});
     if (rows.empty())

@@ -71,4 +71,29 @@ json study_around(const std::filesystem::path& scene, const std::vector<std::str
     return study;
 }
 
+std::vector<std::string> overruled(const json& study, const std::vector<std::string>& overrides) {
+    const auto pointer_of = [](const std::string& each) { return each.substr(0, each.find('=')); };
+    const json variants = study.is_object() ? study.value("variants", json()) : json();
+    if (!variants.is_array()) return {};
+    std::vector<std::string> lines;
+    for (const std::string& each : overrides) {
+        const std::string wanted = pointer_of(each);
+        std::string names;
+        for (const json& variant : variants) {
+            if (!variant.is_object() || !variant.value("overrides", json()).is_array()) continue;
+            for (const json& own : variant["overrides"]) {
+                if (!own.is_string()) continue;
+                const std::string set = pointer_of(own.get<std::string>());
+                if (wanted != set && !wanted.starts_with(set + "/")) continue;
+                names += (names.empty() ? "" : ", ") + variant.value("name", std::string("?"));
+                break;
+            }
+        }
+        if (!names.empty())
+            lines.push_back(wanted +
+                            " is set by variants themselves, which keep their own: " + names);
+    }
+    return lines;
+}
+
 }  // namespace breach::cli

@@ -27,4 +27,8 @@ bool names_a_scene(const std::filesystem::path& file);
 /// A scene with its mesh's path resolved.
 nlohmann::json read_scene_document(const std::filesystem::path& file);
 
+/// What of these overrides some variants of the study set themselves, each as one line: they keep their own.
+std::vector<std::string> overruled(const nlohmann::json& study,
+                                   const std::vector<std::string>& overrides);
+
 }  // namespace breach::cli

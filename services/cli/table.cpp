@@ -1,6 +1,7 @@
 #include "services/cli/table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
@@ -49,13 +50,23 @@ std::string as_table(const std::vector<Column>& columns, const std::vector<Cells
     return text;
 }
 
+namespace {
+
+std::string printed(const char* format, double number) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), format, number);
+    return text.data();
+}
+
+}  // namespace
+
 std::string cell(const json& value) {
     if (value.is_null()) return "-";
     if (value.is_string()) return harmless(value.get_ref<const std::string&>());
     if (value.is_number_float()) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.4g", value.get<double>());
-        return text;
+        const double number = value.get<double>();
+        const bool is_long = std::abs(number) >= 1e4 && std::abs(number) < 1e9;  // no 1.235e+04
+        return printed(is_long ? "%.0f" : "%.4g", number);
     }
     return harmless(value.dump(-1, ' ', false, json::error_handler_t::replace));
 }
@@ -63,6 +74,12 @@ std::string cell(const json& value) {
 std::string cell(const json& object, const char* key) {
     const auto found = object.find(key);
     return found == object.end() ? "-" : cell(*found);
+}
+
+std::string whole_cell(const json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number_float()) return cell(object, key);
+    return printed("%.9g", found->get<double>());
 }
 
 void show_json(const json& answer, const Console& console) {

@@ -23,10 +23,12 @@ using Cells = std::vector<std::string>;
 /// Every row has as many cells as there are columns.
 std::string as_table(const std::vector<Column>& columns, const std::vector<Cells>& rows);
 
-/// Numbers with four significant digits, "-" for null, text without control characters.
+/// Numbers with four significant digits or, from 10,000 on, to the unit; "-" for null, text without control characters.
 std::string cell(const nlohmann::json& value);
 /// The member's cell; "-" when there is none.
 std::string cell(const nlohmann::json& object, const char* key);
+/// The same of a number that names a row, such as a transfer time: two of them never look alike.
+std::string whole_cell(const nlohmann::json& object, const char* key);
 
 /// The server's answer as it is.
 void show_json(const nlohmann::json& answer, const Console& console);

@@ -140,7 +140,7 @@ class Legend {
 std::string as_task_table(const json& tasks) {
     std::vector<Cells> rows;
     for (const json& task : tasks) {
-        rows.push_back({cell(task, "id"), cell(task, "phase"), cell(task, "transfer_time"),
+        rows.push_back({cell(task, "id"), cell(task, "phase"), whole_cell(task, "transfer_time"),
                         state_shown(task), percent(task), cpu_seconds(task), note_of(task)});
     }
     return as_table({{"task", Align::left},
@@ -279,6 +279,7 @@ std::string heading_of(const json& column) {
 
 std::string result_cell(const json& row, const json& column) {
     const std::string name = column.at("name");
+    if (name == "transfer_time") return whole_cell(row, "transfer_time");
     const json value = row.value(name, json());
     if (!value.is_boolean()) return cell(value);
     if (name == "at_rest") return value.get<bool>() ? "yes" : "MOVING";
@@ -293,7 +294,8 @@ bool is_unjudged(const json& row) {
 std::string place_of(const json& row) {
     const std::string variant = harmless(row.value("variant", ""));
     if (row.value("transfer_time", json()).is_null()) return variant.empty() ? "the run" : variant;
-    return (variant.empty() ? "" : variant + ", ") + "t_T " + cell(row, "transfer_time") + " s";
+    return (variant.empty() ? "" : variant + ", ") + "t_T " + whole_cell(row, "transfer_time") +
+           " s";
 }
 
 }  // namespace
@@ -373,7 +375,7 @@ std::string as_mean_table(const json& answer) {
     for (const json& row : means) {
         Cells line;
         if (variants) line.push_back(cell(row, "variant"));
-        line.push_back(cell(row, "transfer_time"));
+        line.push_back(whole_cell(row, "transfer_time"));
         line.push_back(cell(row, "state"));
         line.push_back(cell(row, "draws_done") + " of " + cell(row, "draws"));
         for (const char* each : {"runout", "runout_beyond_toe", "runout_largest"}) {
@@ -421,7 +423,8 @@ std::string as_progress_line(const json& run) {
 
 std::string name_of_task(const json& task) {
     std::string text = cell(task, "phase");
-    if (cell(task, "transfer_time") != "-") text += "  t_T " + cell(task, "transfer_time") + " s";
+    if (whole_cell(task, "transfer_time") != "-")
+        text += "  t_T " + whole_cell(task, "transfer_time") + " s";
     return text;
 }
 

@@ -58,6 +58,20 @@ TEST_F(StudyFile, ResolvesPathsInOverridesLikeTheEntriesThatTheyReplace) {
               nlohmann::json({"/fem/motion/file=" + (folder_ / "b.csv").string(), "/x=../c"}));
 }
 
+TEST_F(StudyFile, TellsWhatVariantsOverrule) {
+    const auto study = nlohmann::json::parse(
+        R"({"variants": [{"name": "soft", "overrides": ["/materials/t/law/c_kPa=4"]},
+                         {"name": "stages", "overrides": ["/fem/stages=[]", "/mpm/cfl=0.4"]}, {"name": "plain"}, 3]})");
+    EXPECT_EQ(
+        overruled(study, {"/materials/t/law/c_kPa=12", "/fem/stages/2/time_step=1",
+                          "/mpm/cell_size=1", "/materials=1"}),
+        (std::vector<std::string>{
+            "/materials/t/law/c_kPa is set by variants themselves, which keep their own: soft",
+            "/fem/stages/2/time_step is set by variants themselves, which keep their own: "
+            "stages"}));
+    EXPECT_TRUE(overruled(nlohmann::json::array(), {"/a=1"}).empty());
+}
+
 TEST_F(StudyFile, KeepsASceneThatIsInline) {
     const auto study = read_study(write("study.json", R"({"scene": {"name": "x"}})"), {"/a=1"});
     EXPECT_EQ(study["scene"]["name"], "x");

@@ -21,8 +21,17 @@ TEST(Table, CountsCharactersNotBytes) {
 TEST(Cell, ShowsFourDigitsAndADashForNothing) {
     EXPECT_EQ(cell(nlohmann::json(12.34567)), "12.35");
     EXPECT_EQ(cell(nlohmann::json(1234567)), "1234567");
+    EXPECT_EQ(cell(nlohmann::json(12345.67)), "12346");
     EXPECT_EQ(cell(nlohmann::json()), "-");
     EXPECT_EQ(cell(nlohmann::json::object(), "absent"), "-");
+}
+
+TEST(Cell, TellsNearTransferTimesApart) {
+    const nlohmann::json row{{"late", 100.05}, {"later", 100.08}, {"whole", 3}};
+    EXPECT_EQ(whole_cell(row, "late"), "100.05");
+    EXPECT_EQ(whole_cell(row, "later"), "100.08");
+    EXPECT_EQ(whole_cell(row, "whole"), "3");
+    EXPECT_EQ(whole_cell(row, "absent"), "-");
 }
 
 TEST(Cell, CannotMoveTheCursor) { EXPECT_EQ(harmless("a\033[2Jb\nc\x7F"), "a [2Jb c "); }
