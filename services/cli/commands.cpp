@@ -289,24 +289,22 @@ ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& con
 
 ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& console) {
     const std::string target = console.style == Style::json ? "json" : wish.target;
-    const std::string text =
-        server
-            .get_text(path_of({"runs", run_named(server, wish.run), "hydrograph"}) +
-                      query_of({{"section", wish.section},
-                                {"for", target},
-                                {"transfer_time", wish.transfer_time},
-                                {"variant", wish.variant},
-                                {"breach_width", wish.breach_width},
-                                {"interval", wish.interval},
-                                {"cell", wish.cell},
-                                {"concentration", wish.concentration}}))
-            .body;
-    if (target == "flo-2d")  // whose file has no place for it
-        console.notes << "tailings slurry, not water: volumes are of soil with its pore water\n";
+    const TextAnswer answer =
+        server.get_text(path_of({"runs", run_named(server, wish.run), "hydrograph"}) +
+                        query_of({{"section", wish.section},
+                                  {"for", target},
+                                  {"transfer_time", wish.transfer_time},
+                                  {"variant", wish.variant},
+                                  {"breach_width", wish.breach_width},
+                                  {"interval", wish.interval},
+                                  {"cell", wish.cell},
+                                  {"concentration", wish.concentration}}));
+    // FLO-2D's file has no place for it.
+    if (!answer.warning.empty()) console.notes << harmless(answer.warning) << "\n";
     if (wish.file.empty()) {
-        console.out << text;
+        console.out << answer.body;
     } else {
-        exchange::publish_text(wish.file, text);
+        exchange::publish_text(wish.file, answer.body);
         console.out << wish.file.string() << "\n";
     }
     return ExitCode::done;

@@ -21,14 +21,22 @@ std::string title_of(const std::string& name, const json& statistics) {
            " of " + cell(statistics, "of") + " samples";
 }
 
+/// ">= 12.3" where a sample at or below it still moved.
+std::string marked(const json& value, const json& statistics) {
+    const json bound = statistics.value("bound_from", json());
+    return (bound.is_number() && value.is_number() && value >= bound ? ">= " : "") + cell(value);
+}
+
 std::string percentile_table(const std::string& name, const json& statistics) {
-    std::vector<Cells> rows{{"mean", cell(statistics, "mean"), ""},
+    const bool moves = statistics.value("bound_from", json()).is_number();
+    std::vector<Cells> rows{{"mean", (moves ? ">= " : "") + cell(statistics, "mean"), ""},
                             {"standard deviation", cell(statistics, "sd"), ""}};
     const json& percentiles = statistics.at("percentiles");
     if (percentiles.is_array())
         for (const json& each : percentiles)
-            rows.push_back({"p" + cell(each, "p"), cell(each, "value"),
-                            cell(each, "low") + " to " + cell(each, "high")});
+            rows.push_back({"p" + cell(each, "p"), marked(each.at("value"), statistics),
+                            marked(each.at("low"), statistics) + " to " +
+                                marked(each.at("high"), statistics)});
     std::string text = as_table({{title_of(name, statistics), Align::left},
                                  {"", Align::right},
                                  {"90 % interval", Align::left}},

@@ -62,10 +62,15 @@ std::string clock_of(double seconds) {
 
 }  // namespace
 
+std::string warning_of(const Hydrograph& hydrograph) {
+    return slurry_warning + (hydrograph.doubt.empty() ? "" : " " + hydrograph.doubt);
+}
+
 std::string as_csv(const Hydrograph& hydrograph, const std::optional<BreachWidth>& width) {
     std::ostringstream table;
     table.precision(10);
-    table << "# section " << hydrograph.section << ", per metre of width. " << slurry_warning
+    table << "# section " << hydrograph.section << ", per metre of width. "
+          << warning_of(hydrograph)
           << "\ntime_s,discharge_m2_per_s,depth_m,velocity_m_per_s,volume_m2,mass_kg_per_m";
     if (width)
         table << ",discharge_low_m3_per_s,discharge_m3_per_s,discharge_high_m3_per_s,volume_low_m3,"
@@ -121,7 +126,7 @@ std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interv
           << flows.m3_per_s.size() << " ordinates; section " << hydrograph.section
           << ", breach width " << number("%.10g", width) << " m, volume "
           << number("%.6g", flows.volume) << " m3. The runout begins with ordinate 2.\n# "
-          << slurry_warning << "\nOrdinate,Simulation Time (hh:mm:ss),Flow (m3/s)\n";
+          << warning_of(hydrograph) << "\nOrdinate,Simulation Time (hh:mm:ss),Flow (m3/s)\n";
     for (std::size_t k = 0; k < flows.m3_per_s.size(); ++k)
         table << k + 1 << "," << clock_of(static_cast<double>(k) * interval) << ","
               << number("%.6g", flows.m3_per_s[k]) << "\n";

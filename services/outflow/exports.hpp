@@ -11,6 +11,8 @@ namespace breach::outflow {
 
 /// What everybody must know who routes the numbers as if they were water.
 extern const std::string slurry_warning;
+/// The same, and what speaks against this hydrograph.
+std::string warning_of(const Hydrograph& hydrograph);
 
 /// Every row per metre; with a width the discharges and volumes of its low, best and high, too.
 std::string as_csv(const Hydrograph& hydrograph, const std::optional<BreachWidth>& width);

@@ -104,7 +104,7 @@ function quantity(rows, name, next, parameters) {
     const at = (change) => model({ ...middle, ...change })[name];
     const bars = [["residual strength", 0.69, 1.45], ["viscosity", 140, 2130], ["motion", "option 1", "option 2"]]
         .map(([parameter, low, high]) => ({ parameter, p10: at({ [parameter]: low }), p90: at({ [parameter]: high }) }));
-    return { label, unit, count: values.length, of: rows.length, mean, sd: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1)),
+    return { label, unit, count: values.length, of: rows.length, mean, bound_from: null, sd: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1)),
              percentiles: values.length < needed[50] ? { refused: `${values.length} samples are not enough for the 50th percentile: ${needed[50]} are needed` }
                  : told.map((p) => ({ p, value: quantile(sorted, p / 100), ...resampled(values, next, (list) => quantile(ascending(list), p / 100)) })),
              percentiles_lacking: percentiles.filter((p) => !told.includes(p)).map((p) => ({ p, needs: needed[p] })),

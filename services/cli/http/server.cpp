@@ -129,7 +129,7 @@ json Server::get(const std::string& path) { return parsed(get_text(path).body); 
 TextAnswer Server::get_text(const std::string& path) {
     const auto result = connection_->client.Get(connection_->prefix + path);
     const httplib::Response& response = good(result, connection_->client, connection_->origin);
-    TextAnswer answer{response.body, std::nullopt};
+    TextAnswer answer{response.body, std::nullopt, response.get_header_value("X-Warning")};
     if (response.has_header("X-Next-Offset"))
         answer.next_offset = response.get_header_value("X-Next-Offset");
     return answer;

@@ -45,6 +45,7 @@ class Refused : public std::runtime_error {
 struct TextAnswer {
     std::string body;
     std::optional<std::string> next_offset;  ///< header X-Next-Offset
+    std::string warning;                     ///< header X-Warning; empty: none
 };
 
 struct KnownFile {

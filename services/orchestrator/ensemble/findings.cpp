@@ -50,6 +50,7 @@ json parameters_of(const json& entry) {
 struct Measured {
     std::vector<double> results;
     std::vector<const SampleRow*> samples;
+    std::optional<double> least_bound;  ///< least result of a sample that still moved
 };
 
 Measured measured(const Ensemble& ensemble, std::string_view quantity) {
@@ -59,6 +60,8 @@ Measured measured(const Ensemble& ensemble, std::string_view quantity) {
         if (!value) continue;
         found.results.push_back(*value);
         found.samples.push_back(&each);
+        if (is_lower_bound(each, quantity))
+            found.least_bound = std::min(*value, found.least_bound.value_or(*value));
     }
     return found;
 }
@@ -162,6 +165,7 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
               {"of", ensemble.samples.size()},
               {"mean", repeats.mean},
               {"sd", or_null(repeats.deviation)},
+              {"bound_from", or_null(found.least_bound)},
               {"percentiles", percentiles_of(found.results)},
               {"exceedance", exceedance_of(found.results)}};
     json lacking = json::array();

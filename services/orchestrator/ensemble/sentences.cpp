@@ -57,8 +57,10 @@ const json* percentile_in(const json& statistics, double p) {
 }
 
 std::string interval_in_words(const json& found, const json& statistics) {
-    return with_unit(found.at("value"), statistics) + " (" + shown(found.at("low")) + " to " +
-           shown(found.at("high")) + ")";
+    const json& bound = statistics.at("bound_from");
+    const bool at_least = bound.is_number() && found.at("value") >= bound;
+    return (at_least ? "at least " : "") + with_unit(found.at("value"), statistics) + " (" +
+           shown(found.at("low")) + " to " + shown(found.at("high")) + ")";
 }
 
 std::string percentiles_in_words(const std::string& quantity, const json& statistics) {

@@ -38,7 +38,7 @@ json body_of(const Task& task, const outflow::Hydrograph& hydrograph,
     json body{{"run", task.run},
               {"task", task.id},
               {"section", hydrograph.section},
-              {"warning", outflow::slurry_warning},
+              {"warning", outflow::warning_of(hydrograph)},
               {"time", {{"unit", "s"}, {"values", hydrograph.time}}},
               {"breach_width", nullptr}};
     if (width) body["breach_width"] = {width->low, width->best, width->high};
@@ -47,6 +47,24 @@ json body_of(const Task& task, const outflow::Hydrograph& hydrograph,
                                  body[name] = {{"unit", unit}, {"values", values}};
                              });
     return body;
+}
+
+/// What the runout's row of results says against its numbers.
+std::string doubt_of(const Store& store, const Task& task) {
+    for (const ResultRow& row : store.results(task.run)) {
+        if (value_of(row, "mpm_task") != task.id) continue;
+        std::string codes;
+        for (const json& flag : value_of(row, "flags")) {
+            if (flag.at("severity") != "questionable") continue;
+            codes += (codes.empty() ? "" : ", ") + flag.at("code").get<std::string>();
+        }
+        std::string doubt = codes.empty() ? "" : "Questionable: " + codes + ".";
+        if (value_of(row, "at_rest") == false)
+            doubt += (doubt.empty() ? "" : " ") +
+                     std::string("The runout was cut off in motion: volumes are lower bounds.");
+        return doubt;
+    }
+    return "";
 }
 
 void hydrograph(Service& service, Call& call) {
@@ -66,6 +84,8 @@ void hydrograph(Service& service, Call& call) {
         found = outflow::hydrograph_in(outflow::history_of(output),
                                        call.parameter("section").value_or(""), "runout");
     });
+    found.doubt = doubt_of(service.store, task);
+    call.response.set_header("X-Warning", outflow::warning_of(found));
     const auto width = wanted_width(call, output);
     if (target == "json") return reply(call.response, body_of(task, found, width));
     if (target == "csv") return call.response.set_content(as_csv(found, width), "text/csv");
@@ -107,6 +127,9 @@ void envelopes(const Service& service, Call& call) {
             leave_out("has no envelope.csv: made by an earlier version, or removed");
         }
     }
+    for (const WithoutTransfer& each : service.store.without_transfer(run.id))
+        left_out.push_back(
+            {{"task", each.fem_task}, {"variant", each.variant}, {"reason", each.reason}});
     json body = outflow::as_json(outflow::ensemble_of(samples));
     body["run"] = run.id;
     body["state"] = run.state;

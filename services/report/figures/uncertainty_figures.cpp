@@ -128,6 +128,19 @@ std::optional<Figure> tornado_figure(const json& quantity, const std::string& la
                       "their medians. It is the surrogate's answer, not a run's."};
 }
 
+namespace {
+
+/// " of 64", and that the others count nowhere; "": there are no others.
+std::string without_envelope(const json& envelopes) {
+    const std::size_t others = envelopes.value("left_out", json::array()).size();
+    if (others == 0) return "";
+    const auto all = envelopes.at("samples").get<std::size_t>() + others;
+    return " of " + std::to_string(all) +
+           " (the others, dams that stand among them, are in no percentile)";
+}
+
+}  // namespace
+
 std::vector<Figure> envelope_figures(const json& envelopes) {
     std::vector<Figure> figures;
     const std::vector<double> x = envelopes.at("x");
@@ -150,7 +163,7 @@ std::vector<Figure> envelope_figures(const json& envelopes) {
         const std::size_t least =
             std::ranges::min(band.at("rests_on").get<std::vector<std::size_t>>());
         figure.caption =
-            "Over " + envelopes.at("samples").dump() + " samples" +
+            "Over " + envelopes.at("samples").dump() + " samples" + without_envelope(envelopes) +
             (time ? ". One that the flow never came to arrives after all others, so that a "
                     "percentile ends where too few came; at the far end " +
                         std::to_string(least) + " did."

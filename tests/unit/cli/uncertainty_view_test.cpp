@@ -53,6 +53,15 @@ TEST(UncertaintyView, SaysOnHowManyOfHowManyItRestsAndWhatIsLeftOut) {
     EXPECT_NE(shown.find("60 of 64 samples ended with a result."), std::string::npos) << shown;
 }
 
+TEST(UncertaintyView, MarksWhatIsALowerBound) {
+    json moving = answer({{"refused", "-"}, {"q2", 0.0}});
+    moving["quantities"]["runout_beyond_toe"]["bound_from"] = 12.0;
+    const std::string shown = as_uncertainty_view(moving);
+    EXPECT_NE(shown.find(">= 12.25"), std::string::npos) << shown;
+    EXPECT_NE(shown.find(" 11.5 to >= 13.5"), std::string::npos) << shown;
+    EXPECT_NE(shown.find(">= 12.5"), std::string::npos) << "the mean: " << shown;
+}
+
 TEST(UncertaintyView, OfARefusedTornadoThereIsNoBar) {
     const std::string shown =
         as_uncertainty_view(answer({{"refused", "Q2 is 0.40; 0.70 is needed"}, {"q2", 0.4}}));
