@@ -118,7 +118,7 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
         } else {
             const double off = std::abs(row->value->mean - *ladder.reference);
             row->error = off / std::abs(*ladder.reference);
-            const auto noise = ladder.convergence.noise;
+            const auto& noise = ladder.convergence.noise;
             row->below_noise = noise && off < smallest_told_difference(*noise, row->value->count);
         }
         if (ladder.lacks_sizes)
@@ -343,7 +343,7 @@ json as_json(const LadderSummary& ladder, const std::string& name) {
             {"limit", or_null(c.limit)},
             {"gci", or_null(c.gci)},
             {"error_of_finest", or_null(c.error_of_finest)},
-            {"noise_floor", or_null(c.noise)},
+            {"noise_floor", c.noise ? json(c.noise->deviation) : json()},
             {"spread", or_null(c.spread)},
             {"reference", or_null(ladder.reference)},
             {"error_of_base", or_null(error_of(ladder.of_base))}};

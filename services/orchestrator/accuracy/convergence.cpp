@@ -11,7 +11,7 @@ namespace {
 constexpr double highest_order = 20.0;
 constexpr double factor_of_safety = 1.25;        // Roache's for three grids
 constexpr double factor_of_safety_of_two = 3.0;  // and for two
-constexpr double two_sided_95 = 1.96;            // of the normal distribution
+constexpr double told = 0.95;                    // of pairs that noise alone makes, both sides
 
 /// change_coarse / change_fine of value = limit + C size^p: rises with p.
 double ratio_of_changes(double p, double ratio_coarse, double ratio_fine) {
@@ -19,8 +19,7 @@ double ratio_of_changes(double p, double ratio_coarse, double ratio_fine) {
            std::expm1(p * std::log(ratio_fine));
 }
 
-/// Of one run, over rungs that were repeated; each repeat beyond a rung's first counts once.
-std::optional<double> pooled_noise(std::span<const Rung> rungs) {
+std::optional<Noise> pooled_noise(std::span<const Rung> rungs) {
     double squares = 0.0;
     std::size_t freedom = 0;
     for (const Rung& each : rungs) {
@@ -30,7 +29,7 @@ std::optional<double> pooled_noise(std::span<const Rung> rungs) {
         freedom += of_rung;
     }
     if (freedom == 0) return std::nullopt;
-    return std::sqrt(squares / static_cast<double>(freedom));
+    return Noise{std::sqrt(squares / static_cast<double>(freedom)), freedom};
 }
 
 double spread_of(std::span<const Rung> rungs) {
@@ -79,8 +78,9 @@ std::optional<double> observed_order(double ratio_coarse, double ratio_fine, dou
     return 0.5 * (low + high);
 }
 
-double smallest_told_difference(double noise, std::size_t repeats) {
-    return two_sided_95 * noise * std::sqrt(2.0 / static_cast<double>(repeats));
+double smallest_told_difference(const Noise& noise, std::size_t repeats) {
+    return student_factor(told, noise.freedom) * noise.deviation *
+           std::sqrt(2.0 / static_cast<double>(repeats));
 }
 
 namespace {
@@ -97,7 +97,7 @@ struct Ending {
 };
 
 /// Whether two rungs differ by no more than noise makes them.
-bool is_noise(const Rung& one, const Rung& other, std::optional<double> noise) {
+bool is_noise(const Rung& one, const Rung& other, const std::optional<Noise>& noise) {
     const std::size_t repeats = std::min(one.value.count, other.value.count);
     return noise &&
            std::abs(other.value.mean - one.value.mean) < smallest_told_difference(*noise, repeats);
@@ -108,10 +108,10 @@ double two_grid_error(double change, double ratio) {
 }
 
 /// The last difference is told apart from noise, so more than a standard error of it is left.
-Range order_by_noise(const Ending& e, double noise) {
+Range order_by_noise(const Ending& e, const Noise& noise) {
     const std::size_t repeats =
         std::min({e.coarse.value.count, e.middle.value.count, e.fine.value.count});
-    const double off = noise * std::sqrt(2.0 / static_cast<double>(repeats));
+    const double off = noise.deviation * std::sqrt(2.0 / static_cast<double>(repeats));
     const double coarse = std::abs(e.change_coarse);
     const double fine = std::abs(e.change_fine);
     const auto order = [&](double change_coarse, double change_fine) {
@@ -122,7 +122,7 @@ Range order_by_noise(const Ending& e, double noise) {
 }
 
 /// What the finest rung may be off, in the unit of the value; order and limit where there are any.
-double judge(const Ending& e, std::optional<double> noise, Convergence& found) {
+double judge(const Ending& e, const std::optional<Noise>& noise, Convergence& found) {
     if (e.change_coarse * e.change_fine < 0.0) {
         found.course = Course::oscillating;
         const auto [least, most] =
@@ -146,7 +146,7 @@ double judge(const Ending& e, std::optional<double> noise, Convergence& found) {
 /// Of the finest rung where noise does not tell it from the one before: their difference. Rungs that
 /// are near agree whatever they are off, so with less than a factor of 2 between them it is what it
 /// leaves in first order, or, where a third rung is not told apart either, what that one's leaves.
-double hidden_error(std::span<const Rung> ending, double noise) {
+double hidden_error(std::span<const Rung> ending, const Noise& noise) {
     const Rung& fine = ending.back();
     const auto off = [&](const Rung& other) {
         return std::abs(fine.value.mean - other.value.mean);

@@ -17,6 +17,12 @@ struct Rung {
     Repeats value;
 };
 
+/// How repeats of one setting scatter, from all rungs that were repeated.
+struct Noise {
+    double deviation;     ///< standard deviation of one run
+    std::size_t freedom;  ///< degrees of freedom of that, >= 1: each repeat beyond a rung's first
+};
+
 struct Range {
     double low;
     double high;
@@ -58,8 +64,7 @@ struct Convergence {
     /// otherwise Roache's index for two grids, 3 |difference| / (ratio - 1), of first order
     std::optional<double> error_of_finest;
     std::optional<double> spread;  ///< largest minus smallest value of the rungs
-    /// Standard deviation of one run, pooled over the rungs; nothing: no rung was repeated
-    std::optional<double> noise;
+    std::optional<Noise> noise;    ///< nothing: no rung was repeated
 };
 
 /// rungs: from coarse to fine.
@@ -73,8 +78,9 @@ Convergence convergence_of(std::span<const Rung> rungs);
 std::optional<double> observed_order(double ratio_coarse, double ratio_fine, double change_coarse,
                                      double change_fine);
 
-/// The difference of two means of so many repeats that noise alone exceeds in one of twenty pairs.
-double smallest_told_difference(double noise, std::size_t repeats);
+/// The difference of two means of so many repeats that noise alone exceeds in one of twenty pairs: by
+/// Student's distribution, as the noise is known from few repeats.
+double smallest_told_difference(const Noise& noise, std::size_t repeats);
 
 /// What one ladder says a setting is off, relative, and whether that is told apart from noise.
 struct Share {

@@ -34,7 +34,7 @@ std::string what_tells_the_noise(const AccuracyPlan& plan) {
 
 std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& plan) {
     if (convergence.noise)
-        return "; one run scatters by " + with_unit(*convergence.noise, plan.quantity);
+        return "; one run scatters by " + with_unit(convergence.noise->deviation, plan.quantity);
     const std::string remedy = what_tells_the_noise(plan);
     return remedy.empty() ? "" : "; the noise of one run is not known, " + remedy;
 }

@@ -130,16 +130,19 @@ TEST(Convergence, TwoRungsHaveNoOrder) {
 }
 
 TEST(Convergence, ADifferenceBelowTheNoiseIsNotToldAsAnOrder) {
-    // Differences 3 and 1; the mean of 4 runs that scatter by 1 is told apart from 1.96 / sqrt 2 on.
+    // Differences 3 and 1; the mean of 4 runs that scatter by 1, of 9 degrees of freedom, is told
+    // apart from 2.262 / sqrt 2 on (Student's 97.5 % by any table).
     const auto with_noise = [](double deviation) {
         return convergence_of(std::array{rung(4, 14.0, deviation, 4), rung(2, 11.0, deviation, 4),
                                          rung(1, 10.0, deviation, 4)});
     };
     EXPECT_EQ(with_noise(1.0).course, Course::below_noise);
     EXPECT_FALSE(with_noise(1.0).order);
-    EXPECT_DOUBLE_EQ(*with_noise(1.0).noise, 1.0);
-    EXPECT_EQ(with_noise(0.7).course, Course::monotone);
-    EXPECT_NEAR(smallest_told_difference(1.0, 4), 1.96 / std::sqrt(2.0), 1e-12);
+    EXPECT_DOUBLE_EQ(with_noise(1.0).noise->deviation, 1.0);
+    EXPECT_EQ(with_noise(1.0).noise->freedom, 9u);
+    EXPECT_EQ(with_noise(0.6).course, Course::monotone);
+    EXPECT_NEAR(smallest_told_difference({1.0, 9}, 4), 2.262 / std::sqrt(2.0), 3e-3);
+    EXPECT_NEAR(smallest_told_difference({1.0, 100000}, 4), 1.96 / std::sqrt(2.0), 1e-3);
 }
 
 TEST(Convergence, TwoRungsWithinTheNoiseAreOffByTheirDifference) {
@@ -181,13 +184,14 @@ TEST(Convergence, CoarseRungsThatScatterDoNotHideWhatFineOnesTell) {
     const Convergence found = convergence_of(rungs);
     EXPECT_EQ(found.course, Course::monotone);
     EXPECT_NEAR(*found.order, 1.0, 1e-9);
-    EXPECT_NEAR(*found.noise, std::sqrt((400.0 + 3 * 0.01) / 4.0), 1e-12) << "of the ladder";
+    EXPECT_NEAR(found.noise->deviation, std::sqrt((400.0 + 3 * 0.01) / 4.0), 1e-12)
+        << "of the ladder";
 }
 
 TEST(Convergence, NoiseIsPooledByTheNumberOfRepeats) {
     const Convergence found =
         convergence_of(std::array{rung(2, 1.0, 2.0, 3), rung(1, 1.0, 1.0, 2), rung(0.5, 1.0)});
-    EXPECT_NEAR(*found.noise, std::sqrt((2 * 4.0 + 1 * 1.0) / 3.0), 1e-12);
+    EXPECT_NEAR(found.noise->deviation, std::sqrt((2 * 4.0 + 1 * 1.0) / 3.0), 1e-12);
 }
 
 TEST(Repeats, HaveTheDeviationOfASample) {
