@@ -7,23 +7,11 @@
 
 namespace breach::orchestrator {
 
-namespace {
-
-std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
-    std::error_code error;
-    const auto time = std::filesystem::last_write_time(file, error);
-    return error ? std::filesystem::file_time_type::min() : time;
-}
-
-}  // namespace
-
 Callers::Callers(const std::string& secret, std::filesystem::path file)
     : file_(std::move(file)), looked_(Clock::now()) {
     if (!secret.empty())
         single_.push_back({single_token_name, Right::admin, exchange::sha256_of_text(secret)});
-    if (file_.empty()) return;
-    written_ = time_of(file_);
-    of_file_ = std::make_shared<const std::vector<Token>>(read_tokens(file_));
+    if (!file_.empty()) of_file_ = std::make_shared<const std::vector<Token>>(read_tokens(file_));
 }
 
 std::shared_ptr<const std::vector<Token>> Callers::tokens() const {
@@ -31,14 +19,16 @@ std::shared_ptr<const std::vector<Token>> Callers::tokens() const {
     const auto now = Clock::now();
     if (file_.empty() || now - looked_ < std::chrono::seconds(1)) return of_file_;
     looked_ = now;
-    const auto written = time_of(file_);
-    if (written == written_) return of_file_;
-    written_ = written;
     try {
-        of_file_ = std::make_shared<const std::vector<Token>>(read_tokens(file_));
+        std::vector<Token> found = read_tokens(file_);
+        trouble_.clear();
+        if (found == *of_file_) return of_file_;
+        of_file_ = std::make_shared<const std::vector<Token>>(std::move(found));
         spdlog::info("{}: {} tokens", file_.string(), of_file_->size());
     } catch (const std::exception& error) {
-        spdlog::error("{}; the tokens before this change stay in force", error.what());
+        if (trouble_ != error.what())
+            spdlog::error("{}; the tokens before this change stay in force", error.what());
+        trouble_ = error.what();
     }
     return of_file_;
 }

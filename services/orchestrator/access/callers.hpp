@@ -36,7 +36,7 @@ class Callers {
     std::filesystem::path file_;
     mutable std::mutex mutex_;
     mutable std::shared_ptr<const std::vector<Token>> of_file_;
-    mutable std::filesystem::file_time_type written_;
+    mutable std::string trouble_;  ///< of the last look at the file
     mutable Clock::time_point looked_;
 };
 

@@ -20,6 +20,8 @@ struct Token {
     std::string name;
     Right right = Right::none;
     std::string sha256;  ///< of the secret, 64 hex digits
+
+    bool operator==(const Token&) const = default;
 };
 
 /// The name that events give to whoever has the token of --token-file.
