@@ -275,7 +275,7 @@ std::string entanglement_of(const PhaseFolder& fem) {
     const json facts = fem.result.value("entanglement", json::object());
     std::string text = "The mesh " + entangled_where(fem);
     if (const std::string kind = kind_of(fem); !kind.empty()) text += ", " + kind;
-    std::string state = with(facts, "mean_epsilon_q", "mean epsilon_q ", " %", 0.01) +
+    std::string state = with(facts, "mean_epsilon_q", "mean epsilon_q there ", " %", 0.01) +
                         with(facts, "failure_surfaces", "failure surfaces ", "");
     if (!state.empty()) text += "; then: " + state.substr(2);
     text += ". ";
