@@ -47,12 +47,12 @@ json gauges_json(const Simulation& simulation) {
         const GaugeRecord& record = simulation.records().gauges[k];
         const auto deepest = std::max_element(record.depth.begin(), record.depth.end());
         const auto arrival = arrival_time(times, record.depth, gauge.arrival_depth);
-        result[gauge.name] = {{"x", gauge.x},
-                              {"arrival_time", arrival ? json(*arrival) : json(nullptr)},
-                              {"largest_depth", *deepest},
-                              {"time_of_largest_depth", times[deepest - record.depth.begin()]},
-                              {"largest_velocity",
-                               *std::max_element(record.velocity.begin(), record.velocity.end())}};
+        result[gauge.name] = {
+            {"x", gauge.x},
+            {"arrival_time", arrival ? json(*arrival) : json(nullptr)},
+            {"largest_depth", *deepest},
+            {"time_of_largest_depth", times[deepest - record.depth.begin()]},
+            {"largest_velocity", fastest_of(record.depth, record.velocity, gauge.arrival_depth)}};
     }
     return result;
 }
@@ -80,13 +80,14 @@ json envelope_json(const Simulation& simulation, double arrival_depth) {
 }
 
 /// What passed each section, per metre of width; with a breach width in m3 and m3/s, too.
-json sections_json(const Simulation& simulation, const std::optional<scene::BreachWidth>& width) {
+json sections_json(const Simulation& simulation, const scene::Mpm& mpm) {
+    const auto& width = mpm.breach_width;
     std::vector<double> times;
     for (const Row& row : simulation.records().history) times.push_back(row.time);
     json result = json::object();
     for (std::size_t k = 0; k < simulation.sections().size(); ++k) {
         const SectionRecord& record = simulation.records().sections[k];
-        const auto peak = peak_of(record, times, simulation.view());
+        const auto peak = peak_of(record, times, simulation.view(), mpm.arrival_depth);
         const auto closure = closure_of(record);
         json& entry = result[simulation.sections()[k].name];
         entry = {{"x", simulation.sections()[k].x},
@@ -167,7 +168,7 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["area_beyond_toe"] = row.area_beyond_toe;
     result["gauges"] = gauges_json(simulation);
     result["envelope"] = envelope_json(simulation, mpm.arrival_depth);
-    result["sections"] = sections_json(simulation, mpm.breach_width);
+    result["sections"] = sections_json(simulation, mpm);
     result["at_rest"] = simulation.verdict() == Verdict::rests;
     result["ended"] = simulation.verdict() == Verdict::rests ? "at_rest" : "duration";
     result["end_time"] = clock.time;

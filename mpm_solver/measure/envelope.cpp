@@ -66,7 +66,7 @@ void Envelope::see(double now, const std::vector<Flow>& profile, double arrival_
     for (std::size_t k = 0; k < profile.size(); ++k) {
         const double h = profile[k].depth;
         const double v = std::abs(profile[k].velocity);
-        velocity[k] = std::max(velocity[k], v);
+        if (h >= arrival_depth) velocity[k] = std::max(velocity[k], v);
         flux[k] = std::max(flux[k], h * v * v);
         if (h > depth[k]) {
             depth[k] = h;

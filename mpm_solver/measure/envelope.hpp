@@ -16,7 +16,7 @@ inline constexpr std::size_t most_rows = 256;
 struct Envelope {
     static constexpr double never = -1.0;
     std::vector<double> depth;         ///< largest [m]
-    std::vector<double> velocity;      ///< largest |mean v_x| [m/s]
+    std::vector<double> velocity;      ///< largest |mean v_x| of a flow of arrival depth [m/s]
     std::vector<double> flux;          ///< largest depth x velocity^2 [m3/s2]
     std::vector<double> arrival;       ///< first time with the arrival depth [s]
     std::vector<double> time_of_peak;  ///< of the largest depth, its first [s]

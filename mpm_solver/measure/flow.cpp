@@ -94,11 +94,21 @@ std::vector<Flow> flow_profile(const Points& points, const FlowView& view) {
     return profile;
 }
 
+Flow without_grains(const Flow& flow) {
+    return flow.points < fewest_points_of_a_flow ? Flow{} : flow;
+}
+
 std::vector<Flow> without_grains(std::vector<Flow> profile) {
-    for (Flow& flow : profile) {
-        if (flow.points < fewest_points_of_a_flow) flow = {};
-    }
+    for (Flow& flow : profile) flow = without_grains(flow);
     return profile;
+}
+
+double fastest_of(const std::vector<double>& depths, const std::vector<double>& velocities,
+                  double depth) {
+    double fastest = 0.0;
+    for (std::size_t k = 0; k < depths.size(); ++k)
+        if (depths[k] >= depth) fastest = std::max(fastest, std::abs(velocities[k]));
+    return fastest;
 }
 
 std::vector<double> profile_places(const FlowView& view) {

@@ -38,8 +38,14 @@ std::vector<Flow> flow_profile(const Points& points, const FlowView& view);
 /// flow: a layer one point thick has four.
 inline constexpr std::int32_t fewest_points_of_a_flow = 3;
 
-/// The profile with nothing where there are only grains.
+/// Nothing where there are only grains.
+Flow without_grains(const Flow& flow);
 std::vector<Flow> without_grains(std::vector<Flow> profile);
+
+/// Largest |velocity| of the readings that are at least `depth` deep: what flies ahead of a flow is
+/// faster, and no flow; 0 when none is [m/s].
+double fastest_of(const std::vector<double>& depths, const std::vector<double>& velocities,
+                  double depth);
 
 /// x of the columns of a profile [m].
 std::vector<double> profile_places(const FlowView& view);

@@ -6,7 +6,7 @@ void read_gauges(const std::vector<scene::Gauge>& gauges, const Points& points,
                  const FlowView& view, GaugeRecords& records) {
     records.resize(gauges.size());
     for (std::size_t k = 0; k < gauges.size(); ++k) {
-        const Flow flow = flow_at(points, view, gauges[k].x);
+        const Flow flow = without_grains(flow_at(points, view, gauges[k].x));
         records[k].depth.push_back(flow.depth);
         records[k].velocity.push_back(flow.velocity);
     }

@@ -17,7 +17,7 @@ struct GaugeRecord {
 /// In the order of Mpm::gauges.
 using GaugeRecords = std::vector<GaugeRecord>;
 
-/// Adds what every gauge sees now.
+/// Adds what every gauge sees now; of grains (flow.hpp) nothing.
 void read_gauges(const std::vector<scene::Gauge>& gauges, const Points& points,
                  const FlowView& view, GaugeRecords& records);
 

@@ -76,7 +76,7 @@ void read_sections(const std::vector<scene::FlowSection>& sections, const Points
         const double passed = there.volume - record.start.volume;
         const double before = first ? 0.0 : record.volume.back();
         record.discharge.push_back(now > since ? (passed - before) / (now - since) : 0.0);
-        const Flow flow = flow_at(points, view, sections[k].x);
+        const Flow flow = without_grains(flow_at(points, view, sections[k].x));
         record.depth.push_back(flow.depth);
         record.velocity.push_back(flow.velocity);
         record.volume.push_back(passed);
@@ -85,9 +85,9 @@ void read_sections(const std::vector<scene::FlowSection>& sections, const Points
 }
 
 std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
-                            const FlowView& view) {
-    double fastest = 0.0;
-    for (const double v : record.velocity) fastest = std::max(fastest, std::abs(v));
+                            const FlowView& view, double arrival_depth) {
+    double fastest = fastest_of(record.depth, record.velocity, arrival_depth);
+    if (fastest == 0.0) fastest = fastest_of(record.depth, record.velocity, 0.0);
     if (fastest == 0.0 || times.size() < 2) return std::nullopt;
     const double window = 2.0 * view.width / fastest;
     const auto passed = [&](double at) {

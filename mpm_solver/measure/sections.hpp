@@ -58,9 +58,10 @@ struct Peak {
     double time = 0.0;       ///< middle of the window [s]
     double window = 0.0;     ///< [s]
 };
-/// `times`: of the rows. Nothing when nothing passed towards +x.
+/// `times`: of the rows. The fastest flow is one of `arrival_depth`, where any is so deep: what flies
+/// ahead of it would shorten the time. Nothing when nothing passed towards +x.
 std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
-                            const FlowView& view);
+                            const FlowView& view, double arrival_depth);
 
 /// What the momentum carried through, less what has come to lie beyond, as a share of all that moved
 /// to and fro [-]. Nothing when nothing passed.

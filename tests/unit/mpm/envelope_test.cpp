@@ -27,7 +27,7 @@ TEST(Envelope, KeepsTheLargestAndWhenItCame) {
     envelope.see(2.0, depths({1.0, 3.0, 0.0}), 0.5);
     envelope.see(2.0, depths({9.0, 9.0, 9.0}), 0.5);  // has been seen
     EXPECT_EQ(envelope.depth, (std::vector<double>{2.0, 3.0, 0.0}));
-    EXPECT_EQ(envelope.velocity, (std::vector<double>{3.0, 3.0, 3.0}));
+    EXPECT_EQ(envelope.velocity, (std::vector<double>{3.0, 3.0, 0.0}));
     EXPECT_EQ(envelope.flux, (std::vector<double>{13.5, 12.0, 0.0}));
     EXPECT_EQ(envelope.arrival, (std::vector<double>{0.0, 0.5, Envelope::never}));
     EXPECT_EQ(envelope.time_of_peak, (std::vector<double>{0.0, 2.0, Envelope::never}));
@@ -39,6 +39,15 @@ TEST(Envelope, GrainsAreNoFlow) {
     EXPECT_EQ(profile[0].depth, 0.0);
     EXPECT_EQ(profile[1].velocity, 0.0);
     EXPECT_EQ(profile[2].depth, 0.5);
+}
+
+TEST(Envelope, VelocitiesAreThoseOfAFlow) {
+    Envelope envelope;
+    envelope.see(0.0, {{0.0, 0.0, 0}}, 0.1);
+    envelope.see(1.0, {{0.006, 16.9, 3}}, 0.1);  // ahead of the front
+    EXPECT_EQ(envelope.velocity[0], 0.0) << "as it has not arrived";
+    envelope.see(2.0, {{0.2, -4.9, 8}}, 0.1);
+    EXPECT_EQ(envelope.velocity[0], 4.9);
 }
 
 TEST(Envelope, KeepsABoundedNumberOfRowsOfEvenTimes) {
@@ -96,11 +105,16 @@ TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
     EXPECT_NEAR(records[1].discharge.back(), 7.5, 1e-9);
     std::vector<double> times;
     for (int k = 0; k <= 10; ++k) times.push_back(0.1 * k);
-    const auto peak = peak_of(records[1], times, view);
+    const auto peak = peak_of(records[1], times, view, 0.1);
     ASSERT_TRUE(peak);
     EXPECT_NEAR(peak->window, 2.0 / v, 1e-12);
     EXPECT_NEAR(peak->discharge, 7.5, 1e-9);
-    EXPECT_FALSE(peak_of(records[3], times, view));
+    EXPECT_FALSE(peak_of(records[3], times, view, 0.1));
+    records[1].velocity.front() = 10.0 * v;  // of next to nothing
+    records[1].depth.front() = 0.01;
+    EXPECT_NEAR(peak_of(records[1], times, view, 0.1)->window, 2.0 / v, 1e-12);
+    EXPECT_NEAR(peak_of(records[1], times, view, 9.0)->window, 0.2 / v, 1e-12)
+        << "of a flow that is never so deep";
 }
 
 TEST(Sections, SoilThatGoesBackIsNegative) {

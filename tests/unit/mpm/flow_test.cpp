@@ -113,6 +113,28 @@ TEST(Flow, FrontLiesWhereTheDepthIsReachedLast) {
     EXPECT_EQ(front_of(profile, view, 9.0), nowhere);
 }
 
+TEST(Gauges, SeeAFlowAndNoGrains) {
+    const scene::Scene scene = layer();
+    Body body = moving_layer(scene);
+    const FlowView view = flow_view(scene, body.grid);
+    body.points.x[0] = 9.0;
+    body.points.vx[0] = 50.0;
+    EXPECT_GT(flow_at(body.points, view, 9.0).depth, 0.1) << "one point, so deep";
+    GaugeRecords records;
+    read_gauges({{"far", 9.0, 0.1}, {"in", 3.0, 0.1}}, body.points, view, records);
+    EXPECT_EQ(records[0].depth.back(), 0.0);
+    EXPECT_EQ(records[0].velocity.back(), 0.0);
+    EXPECT_NEAR(records[1].velocity.back(), v, 1e-12);
+}
+
+TEST(Gauges, TheLargestVelocityIsThatOfAFlow) {
+    const std::vector<double> depths{0.0, 0.006, 0.2, 3.0, 3.0};
+    const std::vector<double> velocities{0.0, 16.9, -4.9, 3.0, 0.0};
+    EXPECT_EQ(fastest_of(depths, velocities, 0.1), 4.9);
+    EXPECT_EQ(fastest_of(depths, velocities, 0.0), 16.9);
+    EXPECT_EQ(fastest_of(depths, velocities, 9.0), 0.0);
+}
+
 TEST(Gauges, ArrivalIsBetweenTheReadingsAroundIt) {
     const std::vector<double> times{0.0, 1.0, 2.0, 3.0};
     EXPECT_DOUBLE_EQ(*arrival_time(times, {0.0, 0.0, 1.0, 0.0}, 0.5), 1.5);
