@@ -73,8 +73,7 @@ void add_hydrographs(const Run& run, const std::string& name, Chapter& chapter) 
                           bounded(nearest, rounded(nearest.result.at(name).get<double>(), 4)) +
                           ": one run, no envelope. The hydrograph of a percentile of the runout "
                           "is not the percentile of the hydrographs."};
-        for (const json& section :
-             asked_scene(run).value("/mpm/sections"_json_pointer, json::array())) {
+        for (const json& section : run.scene.value("/mpm/sections"_json_pointer, json::array())) {
             const std::string of = section.at("name");
             const auto found = archive.reals.find("section." + of + ".discharge");
             if (found == archive.reals.end() || found->second.size() != times->second.size())

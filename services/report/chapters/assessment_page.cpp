@@ -43,7 +43,7 @@ std::string safety_of(const Run& run) {
 }
 
 std::string what_fails(const Run& run) {
-    const json& scene = asked_scene(run);
+    const json& scene = run.scene;
     std::string text = run.title;
     const json liquefied = scene.value("/transfer/liquefied"_json_pointer, json());
     if (liquefied.is_object()) {
@@ -99,7 +99,7 @@ std::vector<std::string> fact_row(const Run& run, const std::string& what, const
 }
 
 void add_gauges(const Run& run, Table& table) {
-    for (const json& gauge : asked_scene(run).value("/mpm/gauges"_json_pointer, json::array())) {
+    for (const json& gauge : run.scene.value("/mpm/gauges"_json_pointer, json::array())) {
         const std::string name = gauge.at("name"), at = "/gauges/" + name;
         const std::string where =
             "Gauge " + name + " (x = " + short_number(gauge.at("x")) + " m): ";
@@ -120,7 +120,7 @@ std::string breach_text(const json& width) {
 }
 
 void add_sections(const Run& run, Table& table) {
-    const json& scene = asked_scene(run);
+    const json& scene = run.scene;
     const json width = scene.value("/mpm/breach_width"_json_pointer, json());
     for (const json& section : scene.value("/mpm/sections"_json_pointer, json::array())) {
         const std::string name = section.at("name"), at = "/sections/" + name;
@@ -199,7 +199,7 @@ Table assumptions_of(const Run& run) {
 }
 
 Table cases_of(const Run& run) {
-    const bool liquefies = asked_scene(run).contains("/transfer/liquefied"_json_pointer);
+    const bool liquefies = run.scene.contains("/transfer/liquefied"_json_pointer);
     const bool keeps = !liquefies && !is_static(run);
     return {
         "assessment_cases",

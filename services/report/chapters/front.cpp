@@ -396,7 +396,7 @@ std::string identity_of(const Run& run) {
 }  // namespace
 
 Front front_of(const Run& run) {
-    const json& scene = asked_scene(run);
+    const json& scene = run.scene;
     Table found{
         "found", "What comes out", {"quantity", "here", "in the whole run", "to be known"}, {}};
     if (auto sampled = sampled_answer(run)) found.rows.push_back(std::move(*sampled));

@@ -190,11 +190,8 @@ std::vector<Table> materials_of(const json& scene, const std::vector<SceneEntry>
 /// The section that the study asks about. It was computed: a file that is not there any more, such as
 /// a motion on another machine, is only not drawn.
 std::string drawing_of(const Run& run) {
-    BaseScene base{asked_scene(run), {}, ""};
-    if (&asked_scene(run) != &run.scene)
-        base.overrides = run.study.value("overrides", std::vector<std::string>{});
-    check::Checked checked =
-        check::checked_document(base.scene, "scene", run.folder, base.overrides);
+    BaseScene base{run.scene, {}, ""};
+    check::Checked checked = check::checked_document(base.scene, "scene", run.folder, {});
     checked.faults.clear();
     const Draft draft = draft_of(std::move(base), std::move(checked));
     return can_be_drawn(draft) ? as_svg(draft, {}) : "";
@@ -203,7 +200,7 @@ std::string drawing_of(const Run& run) {
 }  // namespace
 
 void add_inputs(const Material& from, Document& document) {
-    const json& scene = asked_scene(from.run);
+    const json& scene = from.run.scene;
     const std::vector<SceneEntry> entries = entries_read(from.run, scene);
     const auto defaults = std::ranges::count_if(entries, &SceneEntry::is_default);
     Chapter chapter{"Inputs",

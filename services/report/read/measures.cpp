@@ -176,14 +176,30 @@ static const PhaseFolder* phase_behind(const Run& run, const PhaseFolder* runout
     return runout;
 }
 
+/// The FEM that the service says this variant waited for in vain; null: it does not say.
+static const PhaseFolder* fem_without_transfer(const Run& run, const std::string& variant) {
+    for (const json& each : run.without_transfer) {
+        if (each.at("variant") != variant) continue;
+        const auto fem =
+            std::ranges::find(run.phases, each.value("fem_task", ""), &PhaseFolder::task);
+        return fem == run.phases.end() || fem->task.empty() ? nullptr : &*fem;
+    }
+    return nullptr;
+}
+
 const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
                                     const std::string& variant) {
-    for (const PhaseFolder* each : phases_named(run, phase)) {
+    const auto all = phases_named(run, phase);
+    for (const PhaseFolder* each : all) {
         if (each->variant == variant || each->variant.empty()) return each;
     }
-    for (const PhaseFolder* each : runouts_of(run, variant))
-        if (const PhaseFolder* behind = phase_behind(run, each, phase)) return behind;
-    return phase_named(run, phase);
+    if (all.size() == 1) return all.front();
+    for (const char* later : {phases::mpm.program, phases::transfer.program})
+        for (const PhaseFolder* each : phases_named(run, later)) {
+            if (each->variant != variant) continue;
+            if (const PhaseFolder* behind = phase_behind(run, each, phase)) return behind;
+        }
+    return phase == phases::fem.program ? fem_without_transfer(run, variant) : nullptr;
 }
 
 const PhaseFolder* farthest_runout(const Run& run) {
@@ -194,18 +210,24 @@ const PhaseFolder* farthest_runout(const Run& run) {
     return farthest;
 }
 
-const PhaseFolder* phase_shown(const Run& run, const std::string& phase) {
+/// Null when the run has no runout, or what it came from is not known.
+static const PhaseFolder* behind_farthest(const Run& run, const std::string& phase) {
     const PhaseFolder* farthest = farthest_runout(run);
-    if (!farthest) return phase_named(run, phase);
+    if (!farthest) return nullptr;
     const PhaseFolder* behind = phase_behind(run, farthest, phase);
     return behind ? behind : phase_of_variant(run, phase, farthest->variant);
+}
+
+const PhaseFolder* phase_shown(const Run& run, const std::string& phase) {
+    const PhaseFolder* behind = behind_farthest(run, phase);
+    return behind ? behind : phase_named(run, phase);
 }
 
 std::string which_of_several(const Run& run, const PhaseFolder& shown, const std::string& plural) {
     const std::size_t count = phases_named(run, shown.phase).size();
     if (count < 2) return "";
     return "Of " + std::to_string(count) + " " + plural + " the " +
-           (farthest_runout(run) ? "one behind the farthest runout: " : "first: ") +
+           (behind_farthest(run, shown.phase) ? "one behind the farthest runout: " : "first: ") +
            (shown.variant.empty() ? shown.label : shown.variant) + ". ";
 }
 

@@ -21,9 +21,9 @@ struct Measure {
 };
 using Measures = std::map<std::string, Measure>;
 
-/// The phase whose results a variant uses: its own, the one that serves all, the one that its runouts
-/// came from (what serves some is called by the first of them), or the first; null when the run has
-/// none.
+/// The phase whose results a variant uses: its own, the one that serves all, the only one, or of those
+/// that serve some (called by the first of them) the one that its runouts or transfers came from, or
+/// that nothing was transferred of; null when none is known.
 const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
                                     const std::string& variant);
 /// Telemetry of a FEM; conditions may ask for the critical depth of the run's stability analysis.
@@ -56,7 +56,7 @@ double runout_of(const PhaseFolder* mpm);  ///< of one of them [m]
 const PhaseFolder* farthest_runout(const Run& run);
 
 /// Of several phases of a kind the one that is looked at closely: what the farthest runout came
-/// from, or the first of a run without runouts; null when there is none.
+/// from, or the first where there is no runout or that is not known; null when there is none.
 const PhaseFolder* phase_shown(const Run& run, const std::string& phase);
 /// "Of 2 finite element analyses the one behind the farthest runout: loose. "; empty where there is
 /// one.

@@ -59,6 +59,7 @@ void take_apart(const std::string& label, PhaseFolder& phase) {
 
 /// What a task says of itself goes before its label, also that it has no transfer time.
 void take_task(const json& task, PhaseFolder& phase) {
+    phase.task = task.value("id", "");
     phase.variant = task.value("variant", phase.variant);
     if (task.contains("transfer_time")) {
         const json& time = task.at("transfer_time");
@@ -160,6 +161,16 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     }
 }
 
+/// The study's, without its variants' changes: a phase's own may be that of the run which its result
+/// came from. Of a folder without one that of the first phase that has begun; null: none has.
+json asked_scene(const Run& run) {
+    if (run.study.is_object() && run.study.value("scene", json()).is_object())
+        return run.study.at("scene");
+    const auto begun = std::ranges::find_if(
+        run.phases, [](const PhaseFolder& phase) { return phase.scene.is_object(); });
+    return begun == run.phases.end() ? json() : begun->scene;
+}
+
 }  // namespace
 
 Run read_run(const fs::path& folder) {
@@ -184,9 +195,7 @@ Run read_run(const fs::path& folder) {
             return std::tuple(rank_of(p.phase), p.transfer_time.value_or(0.0), p.variant, p.label);
         });
         run.study = read_if_there(folder / "study.json");
-        const auto begun = std::ranges::find_if(
-            run.phases, [](const PhaseFolder& p) { return p.scene.is_object(); });
-        run.scene = begun != run.phases.end() ? begun->scene : asked_scene(run);
+        run.scene = asked_scene(run);
         for (PhaseFolder& each : run.phases)  // one that has not begun has the study's
             if (!each.scene.is_object()) each.scene = run.scene;
         const json about = read_if_there(folder / "run.json");
@@ -212,12 +221,6 @@ Run read_run(const fs::path& folder) {
     } catch (const json::exception& error) {
         throw fault::BadInput(folder.string(), {{"", error.what(), "export the run again"}});
     }
-}
-
-const json& asked_scene(const Run& run) {
-    const bool is_there =
-        run.study.is_object() && run.study.contains("scene") && run.study.at("scene").is_object();
-    return is_there ? run.study.at("scene") : run.scene;
 }
 
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase) {

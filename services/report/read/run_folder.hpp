@@ -25,16 +25,19 @@ struct PhaseFolder {
     std::string runout_error_from = {};
     std::string fault;                        ///< why there is no result; empty when there is one
     std::vector<std::string> artifacts = {};  ///< SHA-256 of its files, where it is an export's
+    std::string task = {};                    ///< its id with the service, likewise
 };
 
 struct Run {
     std::filesystem::path folder;
     std::string name;
     std::string title;
-    std::string id;                   ///< empty: not known to a service
-    std::string state = {};           ///< of the run as the service told it; empty: not known
-    std::string finished = {};        ///< when; empty: not known, or it has not
-    nlohmann::json scene;             ///< completed, of the first phase
+    std::string id;             ///< empty: not known to a service
+    std::string state = {};     ///< of the run as the service told it; empty: not known
+    std::string finished = {};  ///< when; empty: not known, or it has not
+    /// Completed: the one that the study asks about, with its overrides and without its variants'
+    /// changes; of a folder without a study that of its first phase
+    nlohmann::json scene;
     nlohmann::json study;             ///< null when the folder has none
     std::vector<PhaseFolder> phases;  ///< by phase, then transfer time, then variant
     /// Over the draws of each runout, as the service tells them; empty: the study has no draws, or
@@ -53,10 +56,6 @@ struct Run {
 /// has not begun is a phase without a result; one that its FEM did not reach is none. Throws IoError when the folder cannot be
 /// read, BadInput when no phase is in it or a file in it is not what it should be.
 Run read_run(const std::filesystem::path& folder);
-
-/// The scene that the study asks about, without its variants' changes; of a run without a study that
-/// of its first phase.
-const nlohmann::json& asked_scene(const Run& run);
 
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.

@@ -336,6 +336,7 @@ std::string how_it_ended(const PhaseFolder& phase) {
 }
 
 std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts) {
+    if (runouts.empty()) return "none";
     std::vector<Flag> doubts;
     std::size_t questionable = 0, unknown = 0, moved = 0;
     for (const PhaseFolder* each : runouts) {

@@ -31,7 +31,7 @@ std::string bounded(const PhaseFolder& mpm, const std::string& distance);
 /// "well", "well, with warnings: implausible", "questionable: still moving", "entangled at 6.7 s in
 /// element 212 ...", or why there is no result.
 std::string how_it_ended(const PhaseFolder& phase);
-/// The same of several runouts: "well", "3 of 8 questionable: still moving".
+/// The same of several runouts: "well", "3 of 8 questionable: still moving"; "none" of none.
 std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts);
 
 /// How the mesh of a FEM ended, in a sentence; empty when it did not entangle.

@@ -76,6 +76,20 @@ class WetRun : public testing::Test {
         std::ofstream(file) << result.dump();
     }
 
+    void edit_study(const nlohmann::json& entries) const {
+        nlohmann::json study = nlohmann::json::parse(text_of(folder_ / "study.json"));
+        study.update(entries);
+        std::ofstream(folder_ / "study.json") << study.dump();
+    }
+
+    nlohmann::json scene_of(const std::string& label) const {
+        return nlohmann::json::parse(text_of(folder_ / "tasks" / label / "scene.completed.json"));
+    }
+    void write_scene(const std::string& label, const nlohmann::json& scene) const {
+        fs::create_directories(folder_ / "tasks" / label);
+        std::ofstream(folder_ / "tasks" / label / "scene.completed.json") << scene.dump();
+    }
+
     /// As the phases of this version write it: all runouts warn, one still moves, the FEM entangled.
     void flag_all() const {
         const nlohmann::json moving = {{"code", "still_moving"},
@@ -146,6 +160,46 @@ TEST_F(WetRun, IsMeasuredWhereItsTelemetryCrosses) {
     EXPECT_EQ(m.at("plateau_begin:softened").value, 16);
     EXPECT_EQ(m.at("plateau_ratio").value, 7);
     EXPECT_EQ(m.at("plateau_ratio").error, "between 7 and 7 by the runouts of either");
+}
+
+TEST_F(WetRun, GoesByTheSceneThatItsStudyAsksAboutAndNotByACachedPhases) {
+    nlohmann::json asked = scene_of("fem");
+    asked["title"] = "What is asked";
+    asked["transfer"]["window"] = {{"lower", "liquefaction_depth >= 12"},
+                                   {"upper", "jacobian_least_avg < 0.97"}};
+    edit_study({{"scene", asked}, {"triggers", nlohmann::json::array()}});
+    nlohmann::json others = scene_of("fem");
+    others["name"] = "another-dam";
+    others.erase("title");
+    others.erase("transfer");
+    write_scene("lem", others);
+    fs::remove(folder_ / "run.json");
+    const auto run = read_run(folder_);
+    EXPECT_EQ(run.phases.front().phase, "lem_tool") << "the first, from the cache";
+    EXPECT_EQ(run.name, "mochikoshi-small");
+    EXPECT_EQ(run.title, "What is asked");
+    const Measures m = measures_of(run, {});
+    EXPECT_EQ(m.at("window_lower").value, 11);
+    EXPECT_EQ(m.at("window_upper").value, 20);
+    ASSERT_EQ(thresholds_in(run).size(), 2u);
+    EXPECT_EQ(thresholds_in(run).front().value, 12);
+    const Document d = document();
+    EXPECT_TRUE(d.front.of.starts_with("Scene mochikoshi-small")) << d.front.of;
+    EXPECT_NO_THROW(table(d, "comparison")) << "the paper is the asked scene's";
+}
+
+TEST_F(WetRun, DrawsWhatItsStudyAppendsOnce) {
+    const std::string road = R"(/mpm/gauges/-={"name":"road","x":40})";
+    const auto asked = nlohmann::json::parse(
+        scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json", {road}).completed);
+    const auto drawing = [&](const std::vector<std::string>& overrides) {
+        edit_study({{"scene", asked}, {"overrides", overrides}});
+        const Document d = document();
+        return std::ranges::find(d.chapters, "Inputs", &Chapter::title)->drawing;
+    };
+    const std::string once = drawing({});
+    EXPECT_NE(once.find("road (x = 40)"), std::string::npos);
+    EXPECT_EQ(drawing({road}), once) << "the stored scene has it already";
 }
 
 TEST_F(WetRun, TellsTheEndsOfManyFemsInOneRow) {
@@ -573,6 +627,34 @@ TEST_F(WetRun, LooksAtTheFemBehindTheFarthestRunout) {
     std::ofstream(tasks / "fem_dense/task.json")
         << R"({"phase": "fem_solver", "artifacts": [{"name": "snapshot.vtkhdf", "sha256": "2b"}]})";
     EXPECT_EQ(phase_shown(read_run(folder_), "fem_solver")->label, "fem_dense") << "by content";
+}
+
+TEST_F(WetRun, TellsAVariantWithoutARunoutNoOtherVariantsFem) {
+    const fs::path tasks = folder_ / "tasks";
+    fs::copy(tasks / "fem", tasks / "fem_dense", fs::copy_options::recursive);
+    fs::rename(tasks / "fem", tasks / "fem_softened");
+    edit_study({{"variants",
+                 {{{"name", "softened"}},
+                  {{"name", "stands"}},
+                  {{"name", "broken"}},
+                  {{"name", "not_begun"}}}}});
+    std::ofstream(tasks / "fem_dense/task.json") << R"({"id": "f2", "variant": "dense"})";
+    std::ofstream(folder_ / "results.json") << R"({"rows": [], "without_transfer": [
+        {"variant": "stands", "fem_task": "f2", "stood": true, "reason": "window: never met"}]})";
+    std::ofstream(tasks / "transfer_14.000000/task.json")
+        << R"({"phase": "transfer_tool", "transfer_time": 14, "variant": "broken"})";
+    edit_result("transfer_14.000000",
+                {{"provenance",
+                  {{"inputs", {{{"path", "/data/fem_softened/snapshot.h5"}, {"sha256", "2b"}}}}}}});
+    const auto run = read_run(folder_);
+    EXPECT_EQ(phase_of_variant(run, "fem_solver", "stands")->label, "fem_dense") << "it waited";
+    EXPECT_EQ(phase_of_variant(run, "fem_solver", "broken")->label, "fem_softened");
+    EXPECT_EQ(phase_of_variant(run, "fem_solver", "not_begun"), nullptr);
+    const Document d = document();
+    EXPECT_EQ(cell(d, "variants", 1, "window opens [s]"), "15");
+    EXPECT_EQ(cell(d, "variants", 3, "window opens [s]"), "-");
+    EXPECT_EQ(cell(d, "variants", 3, "FEM ended"), "-");
+    EXPECT_EQ(cell(d, "variants", 3, "how the runouts ended"), "none");
 }
 
 TEST_F(WetRun, TellsABadCornerFromAFailure) {
