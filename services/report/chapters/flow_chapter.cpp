@@ -46,15 +46,15 @@ Table gauge_table(const Run& run) {
         {},
         "Arrival: first time at which the flow is as deep as the gauge's arrival_depth, in "
         "seconds since the transfer; - when it never is, or was not yet where the soil still "
-        "moved at the end."};
+        "moved at the end. \u2265: a lower bound, the soil still moved."};
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (!each->result.is_object() || !each->result.contains("gauges")) continue;
         for (const auto& [name, seen] : each->result.at("gauges").items()) {
             table.rows.push_back(
                 {each->label, each->transfer_time ? short_number(*each->transfer_time) : "-",
                  each->variant, name, fact(seen, "/x"), fact(seen, "/arrival_time"),
-                 fact(seen, "/largest_depth"), fact(seen, "/time_of_largest_depth"),
-                 fact(seen, "/largest_velocity")});
+                 bounded(*each, fact(seen, "/largest_depth")), fact(seen, "/time_of_largest_depth"),
+                 bounded(*each, fact(seen, "/largest_velocity"))});
         }
     }
     return table;

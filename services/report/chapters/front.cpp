@@ -126,8 +126,8 @@ std::string counted(std::size_t count, std::size_t all) {
     return " (" + std::to_string(count) + " of " + std::to_string(all) + ")";
 }
 
-/// "3 to 12.5 (8 of 9)": least and largest of a fact over the phases that have it; a lower bound
-/// where the largest is one.
+/// "3 to 12.5 (8 of 9)": least and largest of a fact over the phases that have it. Of one that grows
+/// the largest is a lower bound while any soil moves: it may yet be another's.
 std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::string& pointer,
                      bool grows) {
     const PhaseFolder *least = nullptr, *largest = nullptr;
@@ -143,11 +143,13 @@ std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::s
         if (!largest || value(each) > value(largest)) largest = each;
     }
     if (count == 0) return "-" + counted(0, phases.size());
-    const auto text = [&](const PhaseFolder* one) {
-        const std::string value = rounded(one->result.at(at).get<double>(), 4);
-        return grows ? bounded(*one, value) : value;
+    const auto text = [&](const PhaseFolder* one, bool bound) {
+        return (grows && bound ? at_least : "") + rounded(one->result.at(at).get<double>(), 4);
     };
-    return text(least) + (count > 1 ? " to " + text(largest) : "") + counted(count, phases.size());
+    const bool moves = any_moves(phases);
+    const std::string all = counted(count, phases.size());
+    if (count == 1) return text(least, moves) + all;
+    return text(least, still_moves(*least)) + " to " + text(largest, moves) + all;
 }
 
 std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
@@ -183,12 +185,13 @@ void add_mean(const Run& run, Table& table) {
     if (!largest) return;
     const json error = largest->value("runout_error", json());
     const std::string variant = largest->at("variant");
+    const bool moves = any_moves(draws_of(run, *largest));
     const std::string doubt =
         largest->value("missing_draws", "") + largest->value("questionable_draws", "");
     table.rows.push_back(
         {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " draws" +
              (variant.empty() ? "" : ", " + variant) + " [m]",
-         rounded(largest->at("runout").get<double>(), 4), "-",
+         (moves ? at_least : "") + rounded(largest->at("runout").get<double>(), 4), "-",
          (error.is_number() ? "\u00b1 " + rounded(error.get<double>(), 2) + " m (nine of ten)"
                             : std::string("its error is not known")) +
              (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
@@ -253,7 +256,10 @@ void add_runouts(const Run& run, Table& table) {
                           still_moves(shown) ? "distances and volumes are lower bounds" : ""});
     add_gauge_rows(shown, asked, table);
     table.caption = "Here: the largest runout of all (" + of_transfer(shown) +
-                    "). In the whole run: least to largest, and how many have a result. "
+                    (any_moves(asked) && !still_moves(shown)
+                         ? "), unless one whose soil still moved would have gone farther. "
+                         : "). ") +
+                    "In the whole run: least to largest, and how many have a result. "
                     "\u2265: a lower bound, the soil still moved.";
 }
 

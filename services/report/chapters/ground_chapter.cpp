@@ -18,7 +18,7 @@ const json* terrain_of(const PhaseFolder& mpm) {
     return settings.contains("terrain") ? &settings.at("terrain") : nullptr;
 }
 
-/// The longest runout of each variant whose ground no earlier variant has.
+/// The longest runout of all variants on each ground; in the order of the grounds' first variants.
 std::vector<const PhaseFolder*> one_per_ground(const Run& run) {
     std::vector<const PhaseFolder*> found;
     for (const std::string& variant : variants_of(run)) {
@@ -26,11 +26,14 @@ std::vector<const PhaseFolder*> one_per_ground(const Run& run) {
         if (runouts.empty()) continue;
         const PhaseFolder* longest = *std::ranges::max_element(runouts, {}, runout_of);
         const json* terrain = terrain_of(*longest);
-        const bool known = std::ranges::any_of(found, [&](const PhaseFolder* each) {
+        const auto same = std::ranges::find_if(found, [&](const PhaseFolder* each) {
             const json* other = terrain_of(*each);
             return (!terrain && !other) || (terrain && other && *terrain == *other);
         });
-        if (!known) found.push_back(longest);
+        if (same == found.end())
+            found.push_back(longest);
+        else if (runout_of(longest) > runout_of(*same))
+            *same = longest;
     }
     return found;
 }
@@ -93,7 +96,7 @@ std::vector<Row> rows_of(const json& scene) {
         const std::string name = each.at("name"), at = "/gauges/" + name;
         const std::string place = name + " (x = " + short_number(each.at("x")) + " m)";
         rows.push_back({"arrival at " + place + " [s]", at + "/arrival_time"});
-        rows.push_back({"largest depth at " + place + " [m]", at + "/largest_depth"});
+        rows.push_back({"largest depth at " + place + " [m]", at + "/largest_depth", true});
     }
     return rows;
 }
@@ -137,7 +140,7 @@ void add_ground(const Material& from, Document& document) {
             figure.chart.series.push_back(ground_of(*other, shown));
         }
         figure.chart.series.push_back(section_at_rest(each->scene));
-        figure.caption += " Runout " + fact(each->result, "/runout") +
+        figure.caption += " Runout " + bounded(*each, fact(each->result, "/runout")) +
                           " m; lines: the section at rest and the ground of each variant.";
         chapter.figures.push_back(std::move(figure));
     }

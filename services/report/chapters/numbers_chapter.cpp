@@ -76,12 +76,12 @@ Table errors_of(const Run& run) {
     return table;
 }
 
-/// "12.5 +- 0.3"; "-" for what is not known.
-std::string with_scatter(const json& mean, const std::string& measure) {
+/// "12.5 +- 0.3", marked where soil of a draw still moved; "-" for what is not known.
+std::string with_scatter(const Run& run, const json& mean, const std::string& measure) {
     const json value = mean.value(measure, json());
     if (!value.is_number()) return "-";
     const json deviation = mean.value(measure + "_deviation", json());
-    return rounded(value.get<double>(), 4) +
+    return (any_moves(draws_of(run, mean)) ? at_least : "") + rounded(value.get<double>(), 4) +
            (deviation.is_number() ? " +- " + rounded(deviation.get<double>(), 2) : "");
 }
 
@@ -94,7 +94,8 @@ Table means_of(const Run& run) {
                 {},
                 "Mean +- standard deviation of one draw. A draw is the same setting on another "
                 "lattice of points. Off by: nine of ten such means, by Student's distribution for "
-                "so few draws, with the bias where an accuracy study tells it."};
+                "so few draws, with the bias where an accuracy study tells it. \u2265: a lower "
+                "bound, soil of a draw still moved."};
     for (const json& mean : run.means) {
         const json error = mean.value("runout_error", json());
         std::string doubt;
@@ -108,8 +109,9 @@ Table means_of(const Run& run) {
                               variant.empty() ? "all" : variant,
                               rounded(mean.at("draws_done").get<double>(), 4) + " of " +
                                   rounded(mean.at("draws").get<double>(), 4),
-                              with_scatter(mean, "runout"), with_scatter(mean, "runout_beyond_toe"),
-                              with_scatter(mean, "runout_largest"),
+                              with_scatter(run, mean, "runout"),
+                              with_scatter(run, mean, "runout_beyond_toe"),
+                              with_scatter(run, mean, "runout_largest"),
                               error.is_number() ? rounded(error.get<double>(), 3) : "no estimate",
                               doubt.empty() ? "-" : doubt});
     }

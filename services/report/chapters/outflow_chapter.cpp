@@ -6,6 +6,7 @@
 #include "services/outflow/envelopes.hpp"
 #include "services/outflow/exports.hpp"
 #include "services/report/chapters/chapters.hpp"
+#include "services/report/read/verdict.hpp"
 
 namespace breach::report {
 
@@ -88,17 +89,21 @@ Table section_table(const Run& run) {
         {},
         "Per metre of width, net towards +x, of soil as it lay; breach: its best width, and "
         "discharge and volume times it. Closure: what the momentum carried through less what has "
-        "come to "
-        "lie beyond, as a share of all that moved."};
+        "come to lie beyond, as a share of all that moved. \u2265: a lower bound, the soil still "
+        "moved."};
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (!each->result.is_object() || !each->result.contains("sections")) continue;
-        for (const auto& [name, seen] : each->result.at("sections").items()) {
+        for (const auto& [name, section] : each->result.at("sections").items()) {
+            const json& seen = section;
+            const auto grown = [&](const char* pointer) {
+                return bounded(*each, fact(seen, pointer));
+            };
             table.rows.push_back(
                 {each->label, each->transfer_time ? short_number(*each->transfer_time) : "-",
-                 each->variant, name, fact(seen, "/x"), fact(seen, "/largest_discharge"),
-                 fact(seen, "/time_of_largest_discharge"), fact(seen, "/volume"),
-                 fact(seen, "/mass"), fact(seen, "/closure"), fact(seen, "/breach/width/1"),
-                 fact(seen, "/breach/largest_discharge/1"), fact(seen, "/breach/volume/1")});
+                 each->variant, name, fact(seen, "/x"), grown("/largest_discharge"),
+                 fact(seen, "/time_of_largest_discharge"), grown("/volume"), grown("/mass"),
+                 fact(seen, "/closure"), fact(seen, "/breach/width/1"),
+                 grown("/breach/largest_discharge/1"), grown("/breach/volume/1")});
         }
     }
     return table;

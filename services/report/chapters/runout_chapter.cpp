@@ -46,9 +46,9 @@ double number_in(const json& row, const char* key) {
 }
 
 /// Mean and scatter of the draws, one curve per variant.
-std::vector<Series> curves_of_means(const json& means) {
+std::vector<Series> curves_of_means(const Run& run) {
     std::vector<Series> curves;
-    for (const json& mean : means) {
+    for (const json& mean : run.means) {
         if (!mean.at("runout").is_number()) continue;
         const std::string variant = mean.at("variant");
         const std::string name = variant.empty() ? "mean of the draws" : variant;
@@ -59,7 +59,9 @@ std::vector<Series> curves_of_means(const json& means) {
         curve->y.push_back(mean.at("runout"));
         curve->error.push_back(number_in(mean, "runout_deviation"));
         const bool whole = mean.at("missing_draws") == "" && mean.at("questionable_draws") == "";
-        curve->certainty.push_back(whole ? Certainty::certain : Certainty::doubtful);
+        curve->certainty.push_back(any_moves(draws_of(run, mean)) ? Certainty::at_least
+                                   : whole                        ? Certainty::certain
+                                                                  : Certainty::doubtful);
     }
     return curves;
 }
@@ -89,8 +91,8 @@ Figure runout_against_time(const Material& from) {
     const char* of_means =
         "99th percentile of the mobile soil's distance beyond the toe, by mass: mean over the "
         "draws, each on a lattice of points of its own; the band is the standard deviation of "
-        "one draw. Hollow and dashed: a draw has no result, or one that is questionable (table "
-        "of means).";
+        "one draw. Hollow with an arrow: soil of a draw still moved, the mean is a lower bound; "
+        "hollow and dashed: a draw has no result, or one that is questionable (table of means).";
     const char* of_runs =
         "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
         "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
@@ -161,7 +163,7 @@ std::string window_text(const Measures& measures) {
 }  // namespace
 
 std::vector<Series> runout_curves(const Run& run) {
-    return run.means.empty() ? curves_of_runs(run) : curves_of_means(run.means);
+    return run.means.empty() ? curves_of_runs(run) : curves_of_means(run);
 }
 
 std::string file_word(const PhaseFolder& mpm) {

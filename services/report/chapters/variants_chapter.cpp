@@ -81,9 +81,7 @@ std::string or_dash(const std::optional<double>& value) {
 }
 
 bool is_bound(const std::optional<Plateau>& plateau) {
-    return plateau && std::ranges::any_of(plateau->runouts, [](const PhaseFolder* each) {
-               return still_moves(*each);
-           });
+    return plateau && any_moves(plateau->runouts);
 }
 
 /// Median of a fact over the plateau's runouts.

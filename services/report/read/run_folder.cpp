@@ -141,19 +141,31 @@ std::vector<fs::path> phase_folders(const fs::path& folder) {
     return found;
 }
 
+/// Null: the points fill the section.
+bool is_at(const PhaseFolder& mpm, const json& transfer_time) {
+    constexpr double same_time = 5e-7;  // [s]; tables and folders spell times to the microsecond
+    if (transfer_time.is_null() || !mpm.transfer_time)
+        return transfer_time.is_null() && !mpm.transfer_time;
+    return std::abs(*mpm.transfer_time - transfer_time.get<double>()) <= same_time;
+}
+
+/// Of a repeated variant its own name.
+std::string repeated_variant(const json& variant) {
+    const std::string name = variant.at("name");
+    if (variant.value("made_by", "") != "draws") return name;
+    const std::size_t suffix = name.rfind("_d");
+    return suffix == std::string::npos ? "" : name.substr(0, suffix);
+}
+
 /// What only the service knows of a runout, from the table that `breach export` wrote.
 void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     if (!table.is_object()) return;
-    constexpr double same_time = 5e-7;  // [s]; tables and folders spell times to the microsecond
     for (const json& row : table.at("rows")) {
         const json error = row.value("runout_error", json());
         for (PhaseFolder& each : phases) {
             if (each.phase != phases::mpm.program || json(each.variant) != row.at("variant"))
                 continue;
-            const json& at = row.at("transfer_time");  // null: the points fill the section
-            if (at.is_null() != !each.transfer_time) continue;
-            if (each.transfer_time && std::abs(*each.transfer_time - at.get<double>()) > same_time)
-                continue;
+            if (!is_at(each, row.at("transfer_time"))) continue;
             if (error.is_number()) each.runout_error = error;
             if (const json from = row.value("runout_error_from", json()); from.is_string())
                 each.runout_error_from = from;
@@ -227,6 +239,18 @@ std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& 
     std::vector<const PhaseFolder*> found;
     for (const PhaseFolder& each : run.phases) {
         if (each.phase == phase) found.push_back(&each);
+    }
+    return found;
+}
+
+std::vector<const PhaseFolder*> draws_of(const Run& run, const json& mean) {
+    std::vector<const PhaseFolder*> found;
+    if (!run.study.is_object()) return found;
+    for (const json& variant : run.study.value("variants", json::array())) {
+        if (json(repeated_variant(variant)) != mean.at("variant")) continue;
+        for (const PhaseFolder* each : phases_named(run, phases::mpm.program))
+            if (json(each->variant) == variant.at("name") && is_at(*each, mean.at("transfer_time")))
+                found.push_back(each);
     }
     return found;
 }

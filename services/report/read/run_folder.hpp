@@ -58,6 +58,8 @@ struct Run {
 Run read_run(const std::filesystem::path& folder);
 
 std::vector<const PhaseFolder*> phases_named(const Run& run, const std::string& phase);
+/// The runouts that this row of the means is over.
+std::vector<const PhaseFolder*> draws_of(const Run& run, const nlohmann::json& mean);
 /// The first one, null when there is none. Of several FEMs (variants that change it) the first.
 const PhaseFolder* phase_named(const Run& run, const std::string& phase);
 

@@ -259,6 +259,10 @@ bool still_moves(const PhaseFolder& mpm) {
     return flags && std::ranges::find(*flags, moving, &Flag::code) != flags->end();
 }
 
+bool any_moves(const std::vector<const PhaseFolder*>& runouts) {
+    return std::ranges::any_of(runouts, [](const PhaseFolder* each) { return still_moves(*each); });
+}
+
 Certainty certainty_of(const PhaseFolder& mpm) {
     if (still_moves(mpm)) return Certainty::at_least;
     const auto flags = flags_of(mpm);

@@ -19,6 +19,8 @@ std::optional<std::vector<fault::Flag>> flags_of(const PhaseFolder& phase);
 
 /// Whether the soil of a runout still moved at its end, so that its distances are lower bounds.
 bool still_moves(const PhaseFolder& mpm);
+/// Of several: the largest of their distances is a lower bound then, whoever has it.
+bool any_moves(const std::vector<const PhaseFolder*>& runouts);
 
 /// What the distances of a runout are worth.
 Certainty certainty_of(const PhaseFolder& mpm);

@@ -371,6 +371,24 @@ TEST_F(WetRun, ShowsDifferentGroundsOnOneScale) {
               (std::vector<std::string>{"runout [m]", "210", "30", "> 800"}));
 }
 
+TEST_F(WetRun, ShowsTheLongestRunoutOnEachGroundWhicheverVariantHasIt) {
+    const fs::path farther = folder_ / "tasks/mpm_16.000000_wetter";
+    fs::copy(folder_ / "tasks/mpm_16.000000_softened", farther, fs::copy_options::recursive);
+    std::ofstream(farther / "task.json")
+        << R"({"phase": "mpm_solver", "variant": "wetter", "transfer_time": 16})";
+    edit_result("mpm_16.000000_wetter", {{"runout", 250.0}, {"runout_largest", 250.0}});
+    edit_study(
+        {{"variants", {{{"name", "softened"}}, {{"name", "not_softened"}}, {{"name", "wetter"}}}}});
+    const Document d = document();
+    EXPECT_EQ(
+        table(d, "ground").columns,
+        (std::vector<std::string>{"quantity", "t_T = 16 s, wetter", "t_T = 16 s, not_softened",
+                                  "case history, valley of about 20 %"}));
+    EXPECT_EQ(cell(d, "ground", 0, "t_T = 16 s, wetter"), "250");
+    EXPECT_NO_THROW(figure(d, "ground_wetter"));
+    EXPECT_THROW(figure(d, "ground_softened"), std::runtime_error);
+}
+
 TEST_F(WetRun, CarriesTheVariantsOfACompanion) {
     Choice choice;
     choice.companions = {folder_};
@@ -535,6 +553,72 @@ TEST_F(WetRun, MarksLowerBoundsWhereverTheyStand) {
     bool compared = false;
     for (const auto& row : table(d, "comparison").rows) compared |= row[3] == "\u2265 210";
     EXPECT_TRUE(compared);
+}
+
+TEST_F(WetRun, TakesNoLargestRunoutForCertainWhileAnotherStillMoves) {
+    flag_all();
+    edit_result("mpm_16.000000_softened", {{"at_rest", true}, {"flags", nlohmann::json::array()}});
+    edit_result("mpm_13.000000_softened", {{"at_rest", false}});
+    const Front front = front_of(read_run(folder_));
+    const auto runout = std::ranges::find_if(
+        front.found.rows, [](const auto& row) { return row[0].starts_with("Runout: 99 %"); });
+    ASSERT_NE(runout, front.found.rows.end());
+    EXPECT_EQ((*runout)[1], "210") << "it has come to rest";
+    EXPECT_EQ((*runout)[2], "30 to \u2265 210 (3 of 3)") << "that at 13 s may go farther";
+    EXPECT_NE(front.found.caption.find("unless one whose soil still moved"), std::string::npos)
+        << front.found.caption;
+}
+
+TEST_F(WetRun, MarksLowerBoundsAtGaugesSectionsAndOnEachGround) {
+    flag_all();
+    edit_result(
+        "mpm_16.000000_softened",
+        {{"sections",
+          {{"toe",
+            {{"x", 2.0}, {"volume", 30.0}, {"largest_discharge", 4.0}, {"closure", 0.25}}}}}});
+    const Document d = document();
+    EXPECT_EQ(cell(d, "gauges", 2, "largest depth [m]"), "\u2265 0.75");
+    EXPECT_EQ(cell(d, "gauges", 2, "largest velocity [m/s]"), "-");
+    EXPECT_EQ(cell(d, "gauges", 2, "arrival [s]"), "0.5");
+    EXPECT_EQ(cell(d, "gauges", 0, "largest depth [m]"), "0.75") << "it came to rest";
+    EXPECT_EQ(cell(d, "sections", 0, "passed [m2]"), "\u2265 30");
+    EXPECT_EQ(cell(d, "sections", 0, "largest discharge [m2/s]"), "\u2265 4");
+    EXPECT_EQ(cell(d, "sections", 0, "closure"), "0.25");
+    EXPECT_EQ(cell(d, "sections", 0, "passed [m3]"), "-") << "no breach";
+    EXPECT_EQ(cell(d, "ground", 7, "quantity"), "largest depth at toe (x = 2 m) [m]");
+    EXPECT_EQ(cell(d, "ground", 7, "t_T = 16 s, softened"), "\u2265 0.75");
+    EXPECT_EQ(cell(d, "ground", 7, "t_T = 16 s, not_softened"), "0.75");
+    EXPECT_NE(figure(d, "ground_softened").caption.find("Runout \u2265 210 m"), std::string::npos);
+}
+
+TEST_F(WetRun, MarksAMeanAsALowerBoundWhereADrawStillMoved) {
+    flag_all();
+    edit_result("mpm_16.000000_softened", {{"at_rest", true}, {"flags", nlohmann::json::array()}});
+    const fs::path second = folder_ / "tasks/mpm_13.000000_softened_d2";
+    fs::copy(folder_ / "tasks/mpm_13.000000_softened", second, fs::copy_options::recursive);
+    std::ofstream(second / "task.json")
+        << R"({"phase": "mpm_solver", "variant": "softened_d2", "transfer_time": 13})";
+    edit_result("mpm_13.000000_softened_d2", {{"at_rest", false}});
+    std::ofstream(folder_ / "study.json") << R"({"variants": [{"name": "softened"},
+        {"name": "softened_d2", "made_by": "draws"}, {"name": "not_softened"}]})";
+    const auto mean = [](double time, double runout) {
+        return nlohmann::json{
+            {"transfer_time", time}, {"variant", "softened"},    {"draws", 2.0},
+            {"draws_done", 2.0},     {"runout", runout},         {"runout_deviation", 2.5},
+            {"missing_draws", ""},   {"questionable_draws", ""}, {"runout_error", nullptr}};
+    };
+    std::ofstream(folder_ / "results.json") << nlohmann::json{
+        {"rows", nlohmann::json::array()}, {"means", {mean(13, 220), mean(16, 210)}}};
+    const Document d = document();
+    EXPECT_EQ(cell(d, "numbers_means", 0, "runout [m]"), "\u2265 220 +- 2.5");
+    EXPECT_EQ(cell(d, "numbers_means", 1, "runout [m]"), "210 +- 2.5");
+    EXPECT_EQ(figure(d, "runout_against_transfer_time").chart.series.front().certainty,
+              (std::vector{Certainty::at_least, Certainty::certain}));
+    const auto& rows = d.front.found.rows;
+    const auto row = std::ranges::find_if(
+        rows, [](const auto& each) { return each[0].starts_with("Runout, mean of 2 draws"); });
+    ASSERT_NE(row, rows.end());
+    EXPECT_EQ((*row)[1], "\u2265 220");
 }
 
 TEST_F(WetRun, DrawsTheMeanOfItsDrawsWithTheirScatter) {
