@@ -1,6 +1,9 @@
 #include "services/report/figures/stability_figures.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
@@ -28,13 +31,58 @@ Figure safety_against_depth(const json& result) {
     return {"safety_against_depth", chart};
 }
 
-/// The lower arc between its ends, 60 chords. Composite surfaces are not cut at their floor.
-Series arc(const json& facts, const std::string& name) {
+/// /lem/floor, level beyond its first and last point; -infinity without one [m].
+double floor_at(const json& floor, double x) {
+    if (floor.empty()) return -std::numeric_limits<double>::infinity();
+    const auto point = [&](std::size_t k) { return floor[k].get<std::array<double, 2>>(); };
+    if (x <= point(0)[0]) return point(0)[1];
+    for (std::size_t k = 0; k + 1 < floor.size(); ++k) {
+        const auto [x0, y0] = point(k);
+        const auto [x1, y1] = point(k + 1);
+        if (x <= x1) return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+    }
+    return point(floor.size() - 1)[1];
+}
+
+/// The surface where its arc would go below the floor: along it, with its kinks. The corners, where the
+/// two meet, lie on the chords.
+Series held_by(const json& floor, const Series& arc) {
+    if (floor.empty()) return arc;
+    Series s{arc.name, {}, {}};
+    const auto add = [&](double x, double y) { s.x.push_back(x), s.y.push_back(y); };
+    for (std::size_t i = 0; i < arc.x.size(); ++i) {
+        add(arc.x[i], std::max(arc.y[i], floor_at(floor, arc.x[i])));
+        if (i + 1 == arc.x.size()) break;
+        const double x0 = arc.x[i], dx = arc.x[i + 1] - x0, dy = arc.y[i + 1] - arc.y[i];
+        std::vector<double> places{0.0, 1.0};  // shares of the chord
+        for (const json& each : floor)
+            if (const double t = (each.at(0).get<double>() - x0) / dx; t > 0.0 && t < 1.0)
+                places.push_back(t);
+        std::ranges::sort(places);
+        const auto above = [&](double t) {
+            return arc.y[i] + t * dy - floor_at(floor, x0 + t * dx);
+        };
+        for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+            const double begin = above(places[k]), end = above(places[k + 1]);
+            if (begin * end < 0.0) {
+                const double t = places[k] + (places[k + 1] - places[k]) * begin / (begin - end);
+                add(x0 + t * dx, arc.y[i] + t * dy);
+            }
+            if (k + 2 < places.size() && end <= 0.0)
+                add(x0 + places[k + 1] * dx, floor_at(floor, x0 + places[k + 1] * dx));
+        }
+    }
+    return s;
+}
+
+/// The lower arc between its ends, 60 chords; where the floor is higher, along that.
+Series arc(const json& facts, const json& floor, const std::string& name) {
     const double x_c = facts.at("circle").at("center").at(0);
     const double y_c = facts.at("circle").at("center").at(1);
     const double R = facts.at("circle").at("radius");
-    const auto angle = [&](const json& p) {
-        return std::atan2(p.at(1).get<double>() - y_c, p.at(0).get<double>() - x_c);
+    const auto angle = [&](const json& p) {  // of an end on the floor that of the arc below it
+        const double u = std::clamp((p.at(0).get<double>() - x_c) / R, -1.0, 1.0);
+        return -std::acos(u);
     };
     const double from = angle(facts.at("entry"));
     const double to = angle(facts.at("exit"));
@@ -44,7 +92,7 @@ Series arc(const json& facts, const std::string& name) {
         s.x.push_back(x_c + R * std::cos(theta));
         s.y.push_back(y_c + R * std::sin(theta));
     }
-    return s;
+    return held_by(floor, s);
 }
 
 /// The optimised surface of straight pieces, where there is one.
@@ -73,13 +121,14 @@ Figure section_with_circles(const json& scene, const json& result) {
         }
         chart.series.push_back(s);
     }
+    const json floor = scene.value(json::json_pointer("/lem/floor"), json::array());
     if (!result.contains("stages")) {
-        chart.series.push_back(arc(result, "critical"));
+        chart.series.push_back(arc(result, floor, "critical"));
         add_polyline(result, "non-circular", chart);
     }
     for (const json& stage : result.value("stages", json::array())) {
         chart.series.push_back(arc(
-            stage,
+            stage, floor,
             short_number(stage.at("liquefied_depth")) + " m liquefied, FS " +
                 short_number(std::round(1e3 * stage.at("factor_of_safety").get<double>()) / 1e3)));
         add_polyline(stage, short_number(stage.at("liquefied_depth")) + " m, non-circular", chart);

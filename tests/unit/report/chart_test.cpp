@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -111,6 +113,30 @@ TEST(Report, DrawsTheSurfaceOfStraightPiecesBesideTheCircle) {
     EXPECT_EQ(drawn.name, "non-circular, FS 1.25");
     EXPECT_EQ(drawn.x, (std::vector<double>{0, 6, 10}));
     EXPECT_EQ(drawn.y, (std::vector<double>{0, 2, 10}));
+}
+
+TEST(Report, DrawsACompositeSurfaceAlongItsFloor) {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("breach_floor_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "scene.completed.json")
+        << R"({"section": {"regions": []}, "lem": {"floor": [[0, 2], [3, 2], [7, 4]]}})";
+    std::ofstream(folder / "result.json")
+        << R"({"circle": {"center": [0, 10], "radius": 10}, "entry": [10, 10], "exit": [-2, 2]})";
+    const auto figures = stability_figures(folder);
+    std::filesystem::remove_all(folder);
+    const Series& drawn = figures.at(0).chart.series.back();
+    EXPECT_NEAR(drawn.x.front(), 10.0, 1e-12);
+    EXPECT_NEAR(drawn.y.front(), 10.0, 1e-12);
+    EXPECT_NEAR(drawn.x.back(), -2.0, 1e-12);
+    EXPECT_NEAR(drawn.y.back(), 2.0, 1e-12) << "it ends on the floor, above its circle";
+    EXPECT_TRUE(std::ranges::any_of(drawn.x, [](double x) { return std::abs(x - 3) < 1e-12; }))
+        << "the floor's kink";
+    for (std::size_t i = 0; i < drawn.x.size(); ++i) {
+        const double x = drawn.x[i], arc = 10 - std::sqrt(std::max(0.0, 100 - x * x));
+        const double floor = x <= 3 ? 2 : std::min(4.0, 2 + (x - 3) / 2);
+        EXPECT_NEAR(drawn.y[i], std::max(arc, floor), 0.01) << "at x = " << x;
+    }
 }
 
 }  // namespace
