@@ -66,7 +66,8 @@ std::string when_it_fails(const Run& run) {
     const std::string first = short_number(*times.begin());
     return "The failing mesh becomes material points at t_T = " + first +
            (times.size() > 1 ? " to " + short_number(*times.rbegin()) : std::string()) +
-           " s after the beginning of the shaking. Times below count from t_T.";
+           " s after the beginning of the " + (is_shaken(run) ? "shaking" : "dynamic analysis") +
+           ". Times below count from t_T.";
 }
 
 std::string spread_text(const std::optional<double>& value, bool bound) {

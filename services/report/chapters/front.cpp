@@ -349,7 +349,24 @@ void add_fems(const Run& run, Table& table) {
 
 // ---------------------------------------------------------------- limits
 
-std::vector<std::string> limits_of(const Run& run, const json& scene) {
+/// What the runouts leave out of what went on around them; variants may differ in it.
+std::string limit_at_transfer(const Run& run) {
+    const std::string nothing = "Nothing liquefies after the transfer";
+    if (!is_shaken(run)) return nothing + ".";
+    const auto runouts = phases_named(run, phases::mpm.program);
+    const auto shaken = std::ranges::count_if(runouts, [](const PhaseFolder* each) {
+        return each->scene.value("/mpm/shaking"_json_pointer, "off") == "on";
+    });
+    if (shaken == 0) return nothing + ", and the shaking ends with it.";
+    if (static_cast<std::size_t>(shaken) == runouts.size())
+        return nothing + "; the ground shakes on.";
+    return nothing + "; the ground shakes on in " + std::to_string(shaken) + " of " +
+           std::to_string(runouts.size()) +
+           " runouts (/mpm/shaking), in the others the shaking "
+           "ends with the transfer.";
+}
+
+std::vector<std::string> limits_of(const Run& run) {
     std::vector<std::string> limits;
     if (asks_for_runouts(run) && !has_samples(run))
         limits.emplace_back(
@@ -369,10 +386,8 @@ std::vector<std::string> limits_of(const Run& run, const json& scene) {
         "what strain softens; no pore pressure builds or drains.");
     if (!phase_named(run, phases::fem.program))
         limits.emplace_back("Static: whether and when the section fails is not asked.");
-    else if (scene.value("/mpm/shaking"_json_pointer, "off") == "on")
-        limits.emplace_back("Nothing liquefies after the transfer; the ground shakes on.");
     else
-        limits.emplace_back("Nothing liquefies after the transfer, and the shaking ends with it.");
+        limits.push_back(limit_at_transfer(run));
     return limits;
 }
 
@@ -409,7 +424,7 @@ Front front_of(const Run& run) {
     add_runouts(run, found);
     add_factors(run, found);
     add_fems(run, found);
-    return {identity_of(run), asked_of(run, scene), std::move(found), limits_of(run, scene)};
+    return {identity_of(run), asked_of(run, scene), std::move(found), limits_of(run)};
 }
 
 }  // namespace breach::report

@@ -69,6 +69,34 @@ motion::Series arias_course(const motion::Series& a) {
     return motion::integral(squares);
 }
 
+/// When the FEM ended [s], if the record goes on then; of an analysis without a result, where its
+/// telemetry ends.
+std::optional<double> end_within(const motion::Series& record, const PhaseFolder& fem) {
+    std::optional<double> end;
+    if (fem.result.is_object() && fem.result.value("end_time", json()).is_number()) {
+        end = fem.result.at("end_time").get<double>();
+    } else if (has_telemetry(fem)) {
+        const Telemetry telemetry(fem.files / phases::files::telemetry);
+        if (!telemetry.lines().empty()) end = telemetry.lines().back().time;
+    }
+    const double last = static_cast<double>(record.values.size()) - 1.0;
+    return end && *end < (last - 0.5) * record.dt ? end : std::nullopt;
+}
+
+/// What of the record came before the FEM's end.
+std::string felt_of(const motion::Series& a, double end) {
+    motion::Series felt = a;
+    felt.values.resize(static_cast<std::size_t>(end / a.dt + 1e-9) + 1);
+    const double whole = motion::arias_intensity(a);
+    std::string text = " That is of the whole record. The finite elements ended at " +
+                       short_number(end) + " s: until then PGA " +
+                       rounded(motion::peak(felt) / g, 3) + " g";
+    if (felt.values.size() > 1 && whole > 0.0)
+        text += " and " + rounded(100.0 * motion::arias_intensity(felt) / whole, 3) +
+                " % of the Arias intensity";
+    return text + ".";
+}
+
 std::string facts_of(const motion::Series& a) {
     const motion::StrongPart strong = motion::strong_part(a);
     return "PGA " + rounded(motion::peak(a) / g, 3) + " g, PGV " +
@@ -105,17 +133,25 @@ void add_motion(const Material& from, Document& document) {
     const motion::Recording recording = motion::read_motion(found->file);
     const std::string name = std::filesystem::path(named).filename();
     Chapter chapter{"Motion"};
+    const auto end = end_within(recording.series, *fem);
     if (const auto a = acceleration_of(recording, found->as, wanted)) {
         chapter.text = name + ", as the FEM took it: " + facts_of(*a);
+        if (end) chapter.text += felt_of(*a, *end);
         chapter.figures = figures_of(*a);
     } else {
         chapter.text = name + ", a velocity: PGV " +
                        rounded(100.0 * motion::peak(recording.series), 3) + " cm/s.";
+        if (end)
+            chapter.text += " That is of the whole record; the finite elements ended at " +
+                            short_number(*end) + " s.";
         chapter.figures = {velocity_figure(recording.series)};
         document.left_out.push_back(
             {"acceleration and Arias intensity of the motion",
              "the scene gives its velocity (" + found->file.string() + ")"});
     }
+    if (end)
+        for (Figure& each : chapter.figures)
+            each.chart.marks.push_back({Mark::At::x, *end, "finite elements end"});
     document.chapters.push_back(std::move(chapter));
 }
 

@@ -12,13 +12,27 @@ using nlohmann::json;
 
 namespace {
 
+/// Of a task of a service what the study gives its variant, or the first of those that it serves: its
+/// result may be that of another run's task, which says what that one was given. Null: not known.
+json asked_overrides(const Run& run, const PhaseFolder& phase) {
+    if (phase.task.empty() || !run.study.is_object()) return {};
+    const json variants = run.study.value("variants", json::array());
+    if (variants.empty()) return phase.variant.empty() ? json::array() : json();
+    if (phase.variant.empty()) return variants.front().value("overrides", json::array());
+    for (const json& each : variants)
+        if (each.at("name") == phase.variant) return each.value("overrides", json::array());
+    return {};
+}
+
 /// The overrides that the phase was given, without those that only say when to write.
-std::string settings_of(const PhaseFolder& phase) {
-    const json::json_pointer at("/provenance/overrides");
+std::string settings_of(const Run& run, const PhaseFolder& phase) {
     if (!phase.result.is_object()) return "not known: no result.json";
-    if (!phase.result.contains(at)) return "";
+    json overrides = asked_overrides(run, phase);
+    if (overrides.is_null())
+        overrides = phase.result.value(json::json_pointer("/provenance/overrides"), json());
+    if (overrides.is_null()) return "";
     std::string text;
-    for (const json& each : phase.result.at(at)) {
+    for (const json& each : overrides) {
         const std::string override = each;
         if (override.starts_with("/fem/snapshot_")) continue;
         text += (text.empty() ? "" : "; ") + override;
@@ -47,8 +61,8 @@ Table table_of(const Run& run, const std::string& phase, const std::string& titl
             const std::string value = fact(each->result, column.pointer, column.unit);
             row.push_back(column.grows ? bounded(*each, value) : value);
         }
-        row.insert(row.end(),
-                   {settings_of(*each), fact(each->result, "/cpu_seconds"), how_it_ended(*each)});
+        row.insert(row.end(), {settings_of(run, *each), fact(each->result, "/cpu_seconds"),
+                               how_it_ended(*each)});
         table.rows.push_back(std::move(row));
     }
     return table;

@@ -289,6 +289,12 @@ bool is_static(const Run& run) {
            });
 }
 
+bool is_shaken(const Run& run) {
+    return std::ranges::any_of(phases_named(run, phases::fem.program), [](const auto* each) {
+        return each->scene.contains(json::json_pointer("/fem/motion"));
+    });
+}
+
 bool has_telemetry(const PhaseFolder& phase) {
     return fs::is_regular_file(phase.files / phases::files::telemetry);
 }

@@ -70,6 +70,8 @@ const PhaseFolder* source_of(const Run& run, const PhaseFolder& phase);
 /// Without a FEM there is nothing to shake and nothing to transfer: points fill the section. Runouts
 /// that have a transfer time came from a FEM, also where its folder is not there.
 bool is_static(const Run& run);
+/// Some FEM of the run has a motion.
+bool is_shaken(const Run& run);
 
 /// False for a phase that ended before its first line.
 bool has_telemetry(const PhaseFolder& phase);

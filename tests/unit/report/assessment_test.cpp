@@ -225,6 +225,21 @@ TEST_F(Sampled, TellsOfManyMeshesAndAnalysesHowManyAndFromWhereToWhere) {
               "which is the mesh's doing and not the section's failure.");
 }
 
+TEST_F(Sampled, CountsItsTransferTimesFromAShakingOnlyWhereThereIsOne) {
+    const auto when = [&] { return row(document(), "assessment_what", "When")[1]; };
+    write(folder_ / "tasks/mpm_s0001/task.json",
+          {{"phase", "mpm_solver"}, {"variant", "s0001"}, {"transfer_time", 3.0}});
+    write(folder_ / "tasks/fem/task.json", {{"phase", "fem_solver"}});
+    EXPECT_NE(when().find("t_T = 3 s after the beginning of the dynamic analysis."),
+              std::string::npos)
+        << when();
+    json scene = json::parse(std::ifstream(folder_ / "study.json")).at("scene");
+    scene["fem"]["motion"]["file"] = "shake.csv";
+    write(folder_ / "tasks/fem/scene.completed.json", scene);
+    EXPECT_NE(when().find("t_T = 3 s after the beginning of the shaking."), std::string::npos)
+        << when();
+}
+
 TEST_F(Sampled, SaysWhatTheNumbersDoNot) {
     const std::string all = cautions(document());
     EXPECT_NE(all.find("2 samples of 64 left no result"), std::string::npos) << all;

@@ -485,6 +485,22 @@ TEST_F(WetRun, OpensWithWhatWasAskedWhatComesOutAndWhatItIsWorth) {
         EXPECT_LT(html.find(before), html.find("<nav>")) << before;
 }
 
+TEST_F(WetRun, SaysWhichRunoutsAreShakenOnAndOfAnUnshakenSectionNothing) {
+    const auto limits = [&] { return in_one(front_of(read_run(folder_)).limits); };
+    EXPECT_NE(limits().find("and the shaking ends with it."), std::string::npos) << limits();
+    nlohmann::json shaken = scene_of("mpm_16.000000_softened");
+    shaken["mpm"]["shaking"] = "on";
+    write_scene("mpm_16.000000_softened", shaken);
+    EXPECT_NE(limits().find("the ground shakes on in 1 of 3 runouts (/mpm/shaking)"),
+              std::string::npos)
+        << limits();
+    nlohmann::json still = scene_of("fem");
+    still["fem"].erase("motion");
+    write_scene("fem", still);
+    EXPECT_NE(limits().find("Nothing liquefies after the transfer."), std::string::npos);
+    EXPECT_EQ(limits().find("shak"), std::string::npos) << limits();
+}
+
 TEST_F(WetRun, ThatHasNotEndedIsNotTakenForAnother) {
     fs::remove_all(folder_ / "tasks/mpm_13.000000_softened");
     fs::create_directories(folder_ / "tasks/mpm_13.000000_softened");
@@ -686,6 +702,24 @@ TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
     EXPECT_NE(chapter->text.find("it is no fault"), std::string::npos) << chapter->text;
 }
 
+TEST_F(WetRun, TellsTheSettingsOfItsOwnStudyOfAResultFromAnEarlierRun) {
+    edit_study({{"variants",
+                 {{{"name", "softened"}, {"overrides", {"/mpm/cell_size=2"}}},
+                  {{"name", "not_softened"}, {"overrides", nlohmann::json::array()}}}}});
+    for (const std::string variant : {"softened", "not_softened"})
+        std::ofstream(folder_ / "tasks" / ("mpm_16.000000_" + variant) / "task.json")
+            << nlohmann::json{{"id", "t_" + variant},
+                              {"phase", "mpm_solver"},
+                              {"transfer_time", 16},
+                              {"variant", variant},
+                              {"same_as", "of another run"}};
+    const Document d = document();
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 0, "settings"), "/mpm/cell_size=1")
+        << "of no service: what its result says";
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 1, "settings"), "as in the scene");
+    EXPECT_EQ(cell(d, "numbers_mpm_solver", 2, "settings"), "/mpm/cell_size=2");
+}
+
 TEST_F(WetRun, LooksAtTheFemBehindTheFarthestRunout) {
     const fs::path tasks = folder_ / "tasks";
     fs::copy(tasks / "fem", tasks / "fem_dense", fs::copy_options::recursive);
@@ -803,6 +837,22 @@ TEST_F(WetRun, TakesTheMotionThatTheFemKept) {
     std::ofstream(folder_ / "tasks/fem/motion.csv") << "time_s,acceleration_g\n0,0\n1,0.25\n2,0\n";
     const Series a = figure(document(), "motion_acceleration").chart.series.front();
     EXPECT_NEAR(a.y[1], 0.25, 1e-12) << "as applied: not scaled again";
+}
+
+TEST_F(WetRun, TellsHowMuchOfTheMotionCameBeforeTheFemEnded) {
+    const auto text = [&] {
+        const Document d = document();
+        return std::ranges::find(d.chapters, "Motion", &Chapter::title)->text;
+    };
+    EXPECT_EQ(text().find("whole record"), std::string::npos) << "the FEM outlasted it";
+    flag_all();
+    edit_result("fem", {{"end_time", 1.25}});
+    // trapezoids of 0, 0.15, -0.3 of 0, 0.15, -0.3, 0.15, 0 g: 0.0675 / 2 of 0.0675
+    EXPECT_NE(text().find("That is of the whole record. The finite elements ended at 1.25 s: until "
+                          "then PGA 0.3 g and 50 % of the Arias intensity."),
+              std::string::npos)
+        << text();
+    EXPECT_EQ(figure(document(), "motion_arias").chart.marks.front().value, 1.25);
 }
 
 TEST_F(WetRun, OfAnotherNameHasNoPaper) {
