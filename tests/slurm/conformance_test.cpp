@@ -155,6 +155,24 @@ TEST_P(ExecutorConformance, SameAttemptIsNotTakenTwice) {
     EXPECT_EQ(std::ranges::count(lines, '\n'), 1);
 }
 
+TEST_P(ExecutorConformance, RemainsOfAnAttemptThatTheStoreDoesNotKnowAreNotTheEndOfTheNext) {
+    submit(folder(), "echo old; exit 3");
+    ASSERT_TRUE(becomes(folder(), Life::ended));
+    ASSERT_TRUE(eventually([&] { return !is_held(folder().lock()); }));
+    write_stop(folder(), StopReason::cancel);
+    executor_.reset();
+    executor_ = made();  // and the store is that of a backup
+    submit(folder(), "echo new; echo $$ >near; while [ ! -e go ]; do sleep 0.05; done; exit 5");
+    EXPECT_NE(executor_->probe(folder()).life, Life::ended);
+    ASSERT_TRUE(eventually([&] { return pid_in(root_ / "near") > 0; }));
+    EXPECT_NE(executor_->probe(folder()).life, Life::ended);
+    std::ofstream(root_ / "go") << "\n";
+    ASSERT_TRUE(becomes(folder(), Life::ended));
+    EXPECT_EQ(read_exit_record(folder())->exit_code, 5);
+    EXPECT_FALSE(read_exit_record(folder())->stopped);
+    EXPECT_EQ(text_of(folder().lines()), "new\n");
+}
+
 TEST_P(ExecutorConformance, ClearingAwayReachesWhatIsForkedMeanwhile) {
     clear_away_reaches_all_of(
         "for i in 0 1 2 3 4 5 6 7 8 9; do for j in 0 1 2 3 4 5 6 7 8 9; do sleep 300 & "
@@ -262,6 +280,44 @@ TEST_P(ExecutorConformance, TwoAttemptsOfATaskNeverRunTogether) {
     EXPECT_TRUE(becomes(folder(1), Life::ended));
     EXPECT_TRUE(becomes(folder(2), Life::ended));
     EXPECT_GT(pid_in(root_ / "second"), 0);
+}
+
+class OrderFile : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        std::string pattern = fs::temp_directory_path() / "breach-order-XXXXXX";
+        folder_.root = mkdtemp(pattern.data());
+    }
+    void TearDown() override { fs::remove_all(folder_.root); }
+    AttemptFolder folder_;
+};
+
+TEST_F(OrderFile, SaysWhatTheNextServiceNeedsToAskSlurmAgain) {
+    write_order(folder_, {.attempt = "run-00000.1",
+                          .program = "/bin/sh",
+                          .arguments = {"-c", "true"},
+                          .grace_seconds = 2.5,
+                          .cores = 4,
+                          .memory_mb = 3000,
+                          .priority = 30});
+    const Order read = read_order(folder_);
+    EXPECT_EQ(read.attempt, "run-00000.1");
+    EXPECT_EQ(read.program, "/bin/sh");
+    EXPECT_EQ(read.arguments, (std::vector<std::string>{"-c", "true"}));
+    EXPECT_EQ(read.grace_seconds, 2.5);
+    EXPECT_EQ(read.cores, 4);
+    EXPECT_EQ(read.memory_mb, 3000);
+    EXPECT_EQ(read.priority, 30);
+}
+
+TEST_F(OrderFile, OfAnEarlierVersionIsRead) {
+    std::ofstream(folder_.order())
+        << R"({"attempt":"run-00000.1","program":"/bin/sh","arguments":[],"grace_seconds":2})";
+    const Order read = read_order(folder_);
+    EXPECT_EQ(read.attempt, "run-00000.1");
+    EXPECT_EQ(read.cores, 1);
+    EXPECT_EQ(read.memory_mb, 0);
+    EXPECT_EQ(read.priority, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(On, ExecutorConformance, ::testing::Values("Local", "FakeSlurm"),

@@ -216,6 +216,44 @@ TEST_F(SlurmFaults, RefusalFailsTheTaskWithSlurmsReason) {
         << end.at("message");
 }
 
+TEST_F(SlurmFaults, AFullQuotaOfQueuedJobsIsWaitedForAndTakenPieceByPiece) {
+    fs::create_directories(slurm());
+    std::ofstream(slurm() / "quota") << "2\n";  // the four transfers would be one array
+    const auto service = this->service({"--slots", "8", "--tries", "1"});
+    json wanted = study("", four_times);
+    wanted["stability"] = false;
+    const std::string run = service->submit(wanted);
+    expect_whole(*service, run);
+    for (const json& each : tasks_of(*service, run))
+        EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
+}
+
+TEST_F(SlurmFaults, JobThatTheNextServiceSubmitsAsksForWhatItsTaskWants) {
+    begin("down");
+    json wanted = study("", {0.5});
+    wanted["stability"] = false;
+    wanted["resources"]["fem_solver"] = {{"cores", 2}, {"memory_MB", 300}};
+    wanted["priority"] = 30;
+    auto first = service();
+    const std::string run = first->submit(wanted);
+    const auto fem = [&](Service& of) {
+        const json end = of.get("/v1/runs/" + run).body;
+        return task_labelled(end, "fem");
+    };
+    ASSERT_TRUE(eventually([&] {
+        return fem(*first).at("message").get<std::string>().starts_with("in doubt for ");
+    })) << fem(*first);
+    first->kill_at_once();
+    end("down");
+    const auto second = service();
+    expect_whole(*second, run);
+    ASSERT_FALSE(asked().empty());
+    EXPECT_EQ(asked()[0].at("cpus-per-task"), "2");
+    EXPECT_EQ(asked()[0].at("mem"), "300M");
+    EXPECT_EQ(asked()[0].at("nice"), "70");
+    EXPECT_EQ(fem(*second).at("attempts").size(), 1u);
+}
+
 TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
     // What the controller forgets is lost in the queue, but goes on where it runs; its numbers are
     // given to other jobs.

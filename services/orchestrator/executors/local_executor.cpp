@@ -60,6 +60,7 @@ void LocalExecutor::submit(const AttemptFolder& folder, const Order& order) {
     const auto lock = FileLock::try_take(folder.lock());
     if (!lock)
         throw fault::IoError(folder.lock().string() + ": is held; the attempt was started before");
+    remove_remains(folder);
     write_order(folder, order);
 
     FileActions actions;

@@ -36,11 +36,17 @@ std::optional<std::string> text_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+void remove_remains(const AttemptFolder& folder) {
+    for (const auto& each : {folder.exit_record(), folder.slurm_job(), folder.stop(),
+                             folder.heartbeat(), folder.lines()})
+        std::filesystem::remove(each);
+}
+
 void write_order(const AttemptFolder& folder, const Order& order) {
-    const json document{{"attempt", order.attempt},
-                        {"program", order.program.string()},
-                        {"arguments", order.arguments},
-                        {"grace_seconds", order.grace_seconds}};
+    const json document{{"attempt", order.attempt},     {"program", order.program.string()},
+                        {"arguments", order.arguments}, {"grace_seconds", order.grace_seconds},
+                        {"cores", order.cores},         {"memory_MB", order.memory_mb},
+                        {"priority", order.priority}};
     // Not forced onto the disk: when the machine goes down before the supervisor has read it, the
     // attempt is lost with it, and the wait for the disk would delay every start.
     std::ofstream stream(folder.order(), std::ios::binary);
@@ -56,7 +62,10 @@ Order read_order(const AttemptFolder& folder) {
     return {.attempt = document.at("attempt"),
             .program = document.at("program").get<std::string>(),
             .arguments = document.at("arguments"),
-            .grace_seconds = document.at("grace_seconds")};
+            .grace_seconds = document.at("grace_seconds"),
+            .cores = document.value("cores", std::int64_t{1}),
+            .memory_mb = document.value("memory_MB", std::int64_t{0}),
+            .priority = document.value("priority", std::int64_t{0})};
 }
 
 void write_exit_record(const AttemptFolder& folder, const ExitRecord& record) {

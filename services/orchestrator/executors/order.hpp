@@ -49,7 +49,12 @@ struct Heartbeat {
 /// The environment variable that marks every process of an attempt.
 constexpr const char* attempt_mark = "BREACHLINE_ATTEMPT";
 
+/// What an attempt of the same number has left, of which the store does not know (it was restored
+/// from a backup): its end would be taken for that of the one which begins.
+void remove_remains(const AttemptFolder& folder);
+
 void write_order(const AttemptFolder& folder, const Order& order);
+/// Of an earlier version, without cores, memory and priority: as by default.
 Order read_order(const AttemptFolder& folder);
 
 void write_exit_record(const AttemptFolder& folder, const ExitRecord& record);

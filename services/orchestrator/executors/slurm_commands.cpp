@@ -53,10 +53,10 @@ std::string script_of(const Batch& batch, const std::string& self) {
 }
 
 bool is_passing_trouble(const std::string& said) {
-    constexpr std::array signs{"nable to contact", "timed out",    "onnection refused",
-                               "uthentication",    "temporarily",  "Zero Bytes",
-                               "ommunication",     "ocket timed",  "not responding",
-                               "unavailable",      "is in backup", "try again"};
+    constexpr std::array signs{
+        "nable to contact", "timed out",    "onnection refused", "uthentication",  "temporarily",
+        "Zero Bytes",       "ommunication", "ocket timed",       "not responding", "unavailable",
+        "is in backup",     "try again",    "SubmitJob"};  // as many are queued as may be, for now
     return std::ranges::any_of(
         signs, [&](const char* sign) { return said.find(sign) != std::string::npos; });
 }

@@ -78,8 +78,11 @@ std::optional<std::vector<QueuedJob>> SlurmExecutor::jobs() {
 
 void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
     std::filesystem::create_directories(folder.root);
-    if (is_held(folder.lock()) || std::filesystem::exists(folder.slurm_job()))
+    const bool may_come = std::filesystem::exists(folder.slurm_job()) &&
+                          !std::filesystem::exists(folder.exit_record());
+    if (is_held(folder.lock()) || may_come)
         throw fault::IoError(folder.root.string() + ": the attempt was submitted before");
+    remove_remains(folder);
     write_order(folder, order);
     const std::lock_guard lock(mutex_);
     jobs_[folder.root] = {.folder = folder, .order = order, .since = Clock::now()};
@@ -257,21 +260,28 @@ bool SlurmExecutor::must_be_found() {
 }
 
 void SlurmExecutor::submit_what_waits() {
-    // Equal resources and priority may go as one array.
-    std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>,
-             std::vector<std::filesystem::path>>
-        groups;
+    // Equal resources and priority may go as one array; asked again, as a smaller one: of jobs that a
+    // user may have in the queue there may be room for some.
+    struct Like {
+        std::int64_t cores, memory_mb, priority;
+        int asked;
+        auto operator<=>(const Like&) const = default;
+    };
+    std::map<Like, std::vector<std::filesystem::path>> groups;
     {
         const std::lock_guard lock(mutex_);
         for (const auto& [root, job] : jobs_) {
             if (job.stage != Stage::waiting) continue;
-            groups[{job.order.cores, job.order.memory_mb, job.order.priority}].push_back(root);
+            groups[{job.order.cores, job.order.memory_mb, job.order.priority, job.asked}].push_back(
+                root);
         }
     }
     for (const auto& [like, roots] : groups) {
-        for (std::size_t first = 0; first < roots.size(); first += largest_array) {
+        const std::size_t most =
+            std::clamp(roots.size() >> std::min(like.asked, 30), std::size_t{1}, largest_array);
+        for (std::size_t first = 0; first < roots.size(); first += most) {
             const auto begin = roots.begin() + static_cast<std::ptrdiff_t>(first);
-            const auto count = std::min(largest_array, roots.size() - first);
+            const auto count = std::min(most, roots.size() - first);
             submit_together({begin, begin + static_cast<std::ptrdiff_t>(count)});
         }
     }

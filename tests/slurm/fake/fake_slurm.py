@@ -6,6 +6,7 @@ Files in the folder make it misbehave for as long as they are there:
     hang         commands give no answer at all
     drained      no job starts
     refuse       sbatch refuses for good
+    quota        so many jobs may be in the queue; sbatch refuses what would be more
     lose_answer  sbatch takes the job but says that it timed out (once)
     drop         sbatch says that it timed out and takes nothing (once)
     forget       the controller loses its memory and gives its numbers again (once); what runs goes on
@@ -91,6 +92,12 @@ def sbatch(words):
         number = max([job["number"] for job in all_jobs()], default=0) + 1
         match = re.fullmatch(r"0-(\d+)(?:%(\d+))?", wanted.get("array", ""))
         indices = range(int(match[1]) + 1) if match else [None]
+        if (folder / "quota").exists():
+            queued = sum(job["state"] in ("PENDING", "RUNNING") for job in all_jobs())
+            if queued + len(indices) > int((folder / "quota").read_text()):
+                fail("sbatch: error: QOSMaxSubmitJobPerUserLimit\n"
+                     "sbatch: error: Batch job submission failed: Job violates accounting/QOS policy "
+                     "(job submit limit, user's size and/or time limits)")
         throttle = int(match[2]) if match and match[2] else 0
         for index in indices:
             path = jobs / f"{number:06}_{index or 0:04}.json"
