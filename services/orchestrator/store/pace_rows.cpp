@@ -19,15 +19,17 @@ std::optional<double> pace_of(Connection& database, const std::string& run,
 
 }  // namespace
 
+/// What waits in a cluster's queue does not run yet; what runs has run as long as its attempts did.
 std::vector<PhaseLeft> Store::left_of(const std::string& run) const {
     std::vector<PhaseLeft> left;
     read([&](Connection& database) {
         std::vector<std::string> phases;
         database.query(
-            "SELECT phase, sum(NOT runs), sum(runs), coalesce(sum(CASE WHEN runs THEN "
-            "(julianday('now') - julianday(started)) * 86400.0 END), 0.0) FROM (SELECT phase, "
-            "started, state IN ('starting', 'running', 'finalizing', 'cancelling') AS runs FROM "
-            "tasks WHERE run=? AND finished IS NULL) GROUP BY phase",
+            "SELECT phase, sum(NOT runs), sum(runs), total(iif(runs, ran_for, 0.0)) FROM (SELECT "
+            "phase, state IN ('running', 'finalizing', 'cancelling') AS runs, (SELECT "
+            "total(coalesce(wall_seconds, iif(finished IS NULL, (julianday('now') - "
+            "julianday(started)) * 86400.0, NULL))) FROM attempts WHERE attempts.task=tasks.id) AS "
+            "ran_for FROM tasks WHERE run=? AND finished IS NULL) GROUP BY phase",
             {run}, [&](const Row& row) {
                 phases.push_back(row.text(0));
                 left.push_back({.waiting = row.integer(1),

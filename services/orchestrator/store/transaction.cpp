@@ -123,6 +123,10 @@ void Transaction::set_state(const std::string& task, TaskState from, TaskEvent e
          std::int64_t{event == TaskEvent::claim ? 1 : 0}, now,
          to == TaskState::ready ? Value(epoch_ms()) : Value(nullptr),
          is_final(to) ? Value(now) : Value(nullptr), task});
+    if (event == TaskEvent::start)
+        database_.change(
+            "UPDATE attempts SET started=coalesce(started, ?) WHERE task=? AND finished IS NULL",
+            {now, task});
     if (detail.is_null()) detail = json::object();
     detail["event"] = name_of(event);
     detail["from"] = name_of(from);
@@ -174,7 +178,7 @@ void Transaction::pass_over_task(const std::string& task, const std::string& why
 void Transaction::finish_task(const std::string& task, const json& result,
                               const std::vector<Artifact>& artifacts,
                               const std::string& input_sha256) {
-    keep_artifacts(artifacts);
+    keep_artifacts(task, artifacts);
     database_.change("UPDATE tasks SET result=?, input_sha256=? WHERE id=?",
                      {text_of(result), input_sha256, task});
     move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
@@ -182,11 +186,16 @@ void Transaction::finish_task(const std::string& task, const json& result,
 
 void Transaction::keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
                                const std::string& input_sha256) {
-    keep_artifacts(artifacts);
+    if (!holds(task)) return;  // its run was removed
+    const TaskState state = state_of(task);
+    if (state != TaskState::failed && state != TaskState::cancelled) return;  // tried again
+    keep_artifacts(task, artifacts);
     database_.change("UPDATE tasks SET input_sha256=? WHERE id=?", {input_sha256, task});
 }
 
-void Transaction::keep_artifacts(const std::vector<Artifact>& artifacts) {
+/// In place of what it had.
+void Transaction::keep_artifacts(const std::string& task, const std::vector<Artifact>& artifacts) {
+    database_.change("DELETE FROM artifacts WHERE task=?", {task});
     for (const Artifact& each : artifacts) {
         database_.change(
             "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) VALUES (?,?,?,?)",
@@ -242,13 +251,15 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
                           std::string(name_of(event)) + " is not allowed");
     }
     const std::string now = utc_now();
-    const Value started = event == AttemptEvent::submit ? Value(now) : Value(nullptr);
     const Value finished = is_live(*to) ? Value(nullptr) : Value(now);
+    // Of one that began and ended between two looks.
+    Value started(nullptr);
+    if (end.wall_seconds)
+        started = utc_text(epoch_ms() - static_cast<std::int64_t>(1000.0 * *end.wall_seconds));
     const bool was_exhausted = !end.cpu_seconds || is_exhausted(run_of(task));
     database_.change(
         "UPDATE attempts SET state=?, started=coalesce(started, ?), finished=?, exit_code=?, "
-        "signal=?, "
-        "wall_seconds=?, cpu_seconds=coalesce(?, cpu_seconds) WHERE task=? AND number=?",
+        "signal=?, wall_seconds=?, cpu_seconds=coalesce(?, cpu_seconds) WHERE task=? AND number=?",
         {std::string(name_of(*to)), started, finished, value_or_null(end.exit_code),
          value_or_null(end.signal), value_or_null(end.wall_seconds), value_or_null(end.cpu_seconds),
          task, number});

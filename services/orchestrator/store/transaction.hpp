@@ -53,7 +53,7 @@ class Transaction {
     /// tried again meanwhile.
     bool reuse_task(const std::string& task, const Task& earlier);
     void note_cache_refusal(const std::string& task, const std::string& why);
-    /// What a task that ended badly has left.
+    /// What a task that ended badly has left. Nothing happens: it was tried again meanwhile.
     void keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
                       const std::string& input_sha256);
 
@@ -111,8 +111,8 @@ class Transaction {
     void shrink(std::int64_t pages);
     /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; what was not
     /// reached stays so. Triggers that the cancelling disarmed are armed again, and those that had
-    /// expired on a FEM that now runs again; what fired stays. Returns how many tasks; nothing: no
-    /// such run.
+    /// expired on something that now runs again (hangs_on); what fired stays. Returns how many
+    /// tasks; nothing: no such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 
     /// On one FEM of the run; an empty name is made up. Returns its id.
@@ -140,6 +140,7 @@ class Transaction {
     void disarm_triggers(const std::string& run, const std::string& why);
     std::vector<Trigger> triggers_to_rearm(const std::string& run,
                                            const std::set<std::string>& tasks_tried_again) const;
+    bool hangs_on(const Trigger& trigger, const std::set<std::string>& tasks) const;
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
     std::string add_fired_task(const std::string& run, const TaskPlan& task,
                                const std::string& parent, std::int64_t priority);
@@ -153,7 +154,7 @@ class Transaction {
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);
-    void keep_artifacts(const std::vector<Artifact>& artifacts);
+    void keep_artifacts(const std::string& task, const std::vector<Artifact>& artifacts);
     void add_event(const std::string& run, const std::optional<std::string>& task,
                    const std::string& kind, nlohmann::json detail);
 

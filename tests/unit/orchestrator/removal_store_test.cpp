@@ -29,8 +29,6 @@ class RemovalStore : public ::testing::Test {
             t.keep_idempotency_key("key-" + run.id, std::string(64, 'b'), run.id);
             t.move_task(task_id(run.id, 0), TaskEvent::claim);
             t.add_attempt(task_id(run.id, 0));
-            t.keep_remains(task_id(run.id, 0), {{task_id(run.id, 0), "x", std::string(64, 'c'), 1}},
-                           "");
         });
         return run.id;
     }
@@ -40,6 +38,7 @@ class RemovalStore : public ::testing::Test {
             t.cancel_run(run, "");
             t.move_attempt(task_id(run, 0), 1, AttemptEvent::vanish);
             t.move_task(task_id(run, 0), TaskEvent::stopped);
+            t.keep_remains(task_id(run, 0), {{task_id(run, 0), "x", std::string(64, 'c'), 1}}, "");
         });
     }
 

@@ -93,6 +93,129 @@ TEST_F(StoreTest, CostsAndPaceOfASweepAreNotThoseOfItsFirstRunouts) {
     EXPECT_DOUBLE_EQ(*left[0].pace, 10.0);
 }
 
+TEST_F(StoreTest, WhatWaitsInAClustersQueueHasNotBegun) {
+    Store store(file());
+    const NewRun run = small_run();
+    const std::string fem = task_id(run.id, 0);
+    store.write([&](Transaction& t) {
+        t.add_run(run);
+        t.move_task(fem, TaskEvent::claim);
+        t.move_attempt(fem, t.add_attempt(fem), AttemptEvent::submit);
+    });
+    EXPECT_FALSE(store.attempts_of(fem)[0].started);
+    const auto left_of_fem = [&] { return store.left_of(run.id).at(0); };
+    EXPECT_EQ(left_of_fem().waiting, 1);
+    EXPECT_EQ(left_of_fem().running, 0);
+    EXPECT_EQ(left_of_fem().running_for, 0.0);
+
+    store.write([&](Transaction& t) { t.move_task(fem, TaskEvent::start); });
+    const auto started = store.attempts_of(fem)[0].started;
+    EXPECT_TRUE(started);
+    EXPECT_EQ(left_of_fem().running, 1);
+    EXPECT_LT(left_of_fem().running_for, 3600.0);
+    // As when a service that was started again notes it once more.
+    store.write([&](Transaction& t) {
+        t.cancel_run(run.id, "");
+        t.move_task(fem, TaskEvent::start);
+    });
+    EXPECT_EQ(store.attempts_of(fem)[0].started, started);
+}
+
+TEST_F(StoreTest, TimeForWhichNothingRanIsNotTimeThatATaskHasRun) {
+    Store store(file());
+    const NewRun run = small_run();
+    const std::string fem = task_id(run.id, 0);
+    store.write([&](Transaction& t) {
+        t.add_run(run);
+        t.move_task(fem, TaskEvent::claim);
+        const auto number = t.add_attempt(fem);
+        t.move_attempt(fem, number, AttemptEvent::submit);
+        t.move_task(fem, TaskEvent::start);
+        AttemptEnd stopped;
+        stopped.exit_code = 143;
+        stopped.wall_seconds = 40.0;
+        stopped.reason = "shutdown";
+        t.move_attempt(fem, number, AttemptEvent::exit, stopped);
+        t.move_task(fem, TaskEvent::interrupt);
+    });
+    {
+        Connection database(file(), Access::read_write);
+        database.change("UPDATE tasks SET started='2020-01-01T00:00:00.000Z' WHERE id=?", {fem});
+        database.change("UPDATE attempts SET started='2020-01-01T00:00:00.000Z' WHERE task=?",
+                        {fem});
+    }
+    store.write([&](Transaction& t) {
+        t.move_task(fem, TaskEvent::claim);
+        t.move_attempt(fem, t.add_attempt(fem), AttemptEvent::submit);
+        t.move_task(fem, TaskEvent::start);
+    });
+    const PhaseLeft left = store.left_of(run.id).at(0);
+    EXPECT_EQ(left.running, 1);
+    EXPECT_GT(left.running_for, 39.9);
+    EXPECT_LT(left.running_for, 3600.0);
+    EXPECT_EQ(store.attempts_of(fem)[0].started, "2020-01-01T00:00:00.000Z");
+}
+
+TEST_F(StoreTest, AttemptThatBeganAndEndedBetweenTwoLooksHasItsBeginning) {
+    Store store(file());
+    const NewRun run = small_run();
+    const std::string fem = task_id(run.id, 0);
+    store.write([&](Transaction& t) {
+        t.add_run(run);
+        t.move_task(fem, TaskEvent::claim);
+        AttemptEnd end;
+        end.exit_code = 0;
+        end.wall_seconds = 90.0;
+        t.move_attempt(fem, t.add_attempt(fem), AttemptEvent::exit, end);
+        t.move_task(fem, TaskEvent::exit_well);
+    });
+    const Attempt attempt = store.attempts_of(fem)[0];
+    ASSERT_TRUE(attempt.started);
+    EXPECT_LT(*attempt.started, utc_text(epoch_ms() - 89000));
+    EXPECT_LT(*attempt.started, *attempt.finished);
+}
+
+TEST_F(StoreTest, OutputsAreThoseOfTheLastAttemptAndOfNoneThatGoesOn) {
+    Store store(file());
+    const NewRun run = small_run();
+    const std::string fem = task_id(run.id, 0);
+    const auto artifact = [&](const char* name) {
+        return Artifact{fem, name, std::string(64, 'a'), 10};
+    };
+    const auto names = [&] {
+        std::vector<std::string> found;
+        for (const Artifact& each : store.artifacts_of(fem)) found.push_back(each.name);
+        return found;
+    };
+    using Names = std::vector<std::string>;
+    store.write([&](Transaction& t) {
+        t.add_run(run);
+        t.move_task(fem, TaskEvent::claim);
+        t.fail_task(fem, TaskEvent::exit_badly, {74, "no space"});
+        t.keep_remains(fem, {artifact("fault.json"), artifact("snapshot_1")}, "");
+    });
+    EXPECT_EQ(names(), (Names{"fault.json", "snapshot_1"}));
+    store.write([&](Transaction& t) { t.retry_run(run.id); });
+    EXPECT_TRUE(names().empty());
+    // The registrar has read the remains, and comes to the store after the retry.
+    store.write([&](Transaction& t) { t.keep_remains(fem, {artifact("fault.json")}, "old"); });
+    EXPECT_TRUE(names().empty());
+    store.write([&](Transaction& t) {
+        t.move_task(fem, TaskEvent::claim);
+        t.fail_task(fem, TaskEvent::exit_badly, {74, "no space"});
+        t.keep_remains(fem, {artifact("fault.json"), artifact("snapshot_1")}, "");
+        t.keep_remains(fem, {artifact("snapshot_1")}, "");
+    });
+    EXPECT_EQ(names(), Names{"snapshot_1"});
+    store.write([&](Transaction& t) { t.retry_run(run.id); });
+    Connection(file(), Access::read_write)
+        .change("INSERT INTO artifacts (task, name, sha256, bytes) VALUES (?, 'old', ?, 1)",
+                {fem, std::string(64, 'b')});
+    bring_to_success(store, fem, {{"number", 1}});
+    EXPECT_EQ(names(), Names{"result.json"});
+    store.write([&](Transaction& t) { t.keep_remains("nobody-00000", {artifact("x")}, ""); });
+}
+
 TEST_F(StoreTest, SpendingIsThatOfEveryAttemptAndBudgetsHoldBackNewOnes) {
     Store store(file());
     NewRun run = small_run();
