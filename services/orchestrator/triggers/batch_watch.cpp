@@ -81,9 +81,19 @@ Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
 bool BatchWatch::look() {
     const std::int64_t newest = store_.last_event();
     if (newest == seen_event_) return false;
-    seen_event_ = newest;
     bool added = false;
-    for (const Trigger& each : store_.open_batches()) added |= settle(each);
+    std::map<std::string, std::string> troubles;
+    for (const Trigger& each : store_.open_batches()) {
+        try {
+            added |= settle(each);
+        } catch (const std::exception& error) {
+            troubles[each.run] = error.what();
+            if (troubles_[each.run] != error.what())
+                spdlog::error("{}: no more variants for now: {}", each.run, error.what());
+        }
+    }
+    troubles_ = std::move(troubles);
+    if (troubles_.empty()) seen_event_ = newest;
     return added;
 }
 

@@ -7,6 +7,9 @@
 // after a kill -9 it comes to the same.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/study/study.hpp"
@@ -32,7 +35,8 @@ class BatchWatch {
         : store_(store), data_(data), numerics_(numerics) {}
 
     /// Looks at the runs whose samples have all ended; true: tasks were added. Cheap when nothing was
-    /// stored since the last look.
+    /// stored since the last look. A run that cannot go on (a full disk) holds up no other, and is
+    /// looked at again.
     bool look();
 
   private:
@@ -47,7 +51,8 @@ class BatchWatch {
     Store& store_;
     const DataFolder& data_;
     const Numerics& numerics_;
-    std::int64_t seen_event_ = -1;
+    std::int64_t seen_event_ = -1;                 ///< until then all are settled
+    std::map<std::string, std::string> troubles_;  ///< of the last look, by run
 };
 
 }  // namespace breach::orchestrator
