@@ -501,7 +501,8 @@ TEST(Trigger, MistakesAreNamedWithPointerAndColumn) {
     EXPECT_EQ(faults(json::array()).at("pointer"), "/transfer_times");
 }
 
-/// The critical depth of the fake stability analysis is the residual strength of its variant.
+/// The critical depth of the fake stability analysis is the residual strength of its variant. While a
+/// file `lem_fails` lies in the sandbox, it ends with 74.
 void make_depths(const Live& live) {
     const auto program = live.sandbox.bin() / "lem_tool";
     std::filesystem::remove(program);
@@ -515,6 +516,7 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
+[ -e "$(dirname "$0")/../lem_fails" ] && exit 74
 mkdir -p "$out"
 printf '{"phase":"lem_tool","safety":1.2,"critical_depth":%s}' "$depth" > "$out/result.json"
 )sh";
@@ -550,6 +552,114 @@ TEST(Trigger, TakesTheCriticalDepthOfItsOwnVariant) {
     EXPECT_NE(task_labelled(end, "fem_firm").at("same_as").is_null(),
               task_labelled(end, "fem_deep").at("same_as").is_null())
         << "equal FEMs are computed once";
+}
+
+TEST(Trigger, AStabilityAnalysisThatFailedIsNoDamThatStandsAndTheRetryDecides) {
+    const Live live;
+    make_depths(live);
+    const auto fails = live.sandbox.root() / "lem_fails";
+    std::ofstream(fails) << "\n";
+    Service service(live.sandbox);
+    json wanted = of_two_depths({{{"kind", "criterion"},
+                                  {"name", "deep"},
+                                  {"when", "crest_displacement >= critical_depth"},
+                                  {"snapshot_interval_s", 0.1}}});
+    wanted.erase("variants");
+    const std::string run = service.submit(wanted);
+    service.wait_for_end(run, 60);
+    const json expired = triggers_of(service, run).at(0);
+    EXPECT_EQ(expired.at("state"), "expired") << expired;
+    EXPECT_TRUE(expired.at("reason").get<std::string>().starts_with(
+        "its stability analysis gave no critical depth ("))
+        << expired;
+    EXPECT_TRUE(expired.at("result").is_null()) << expired;
+    const json missing = service.get("/v1/runs/" + run + "/results").body.at("without_transfer");
+    ASSERT_EQ(missing.size(), 1u);
+    EXPECT_EQ(missing[0].at("stood"), false) << missing;
+
+    std::filesystem::remove(fails);
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").status, 202);
+    const json trigger = settled(service, run).at(0);
+    ASSERT_EQ(trigger.at("state"), "fired") << trigger;
+    EXPECT_NEAR(trigger.at("firings")[0].at("transfer_time"), 1.0, 0.0501);
+    EXPECT_EQ(service.table(run).size(), 1u);
+}
+
+TEST(Trigger, ABisectIsNotDecidedByARunoutThatTheMachineLost) {
+    const Live live;
+    // While a file `mpm_fails` lies in the sandbox, the MPM ends as on a full disk.
+    const auto fails = live.sandbox.root() / "mpm_fails";
+    const auto program = live.sandbox.bin() / "mpm_solver";
+    std::ofstream(fails) << "\n";
+    std::filesystem::remove(program);
+    std::ofstream(program) << R"sh(#!/bin/bash
+[ "$1" != --version ] && [ -e "$(dirname "$0")/../mpm_fails" ] && { echo 'the disk is full' >&2; exit 74; }
+exec -a "$0" )sh" << (std::filesystem::path(BREACH_BIN) / "fake_phase").string()
+                           << " \"$@\"\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    Service service(live.sandbox);
+    const std::string run = service.submit(
+        with_triggers({{{"kind", "bisect"}, {"share", 0.75}, {"tolerance_s", 0.1}, {"seeds", 3}}}));
+    service.wait_for_end(run, 60);
+    const json expired = triggers_of(service, run).at(0);
+    EXPECT_EQ(expired.at("state"), "expired") << expired;
+    const std::string reason = expired.at("reason");
+    EXPECT_TRUE(reason.starts_with("the runout at ")) << reason;
+    EXPECT_NE(reason.find("the disk is full"), std::string::npos) << reason;
+    EXPECT_EQ(count_tasks(service, run, "mpm_solver"), 3) << "no halving by what is not known";
+
+    std::filesystem::remove(fails);
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").status, 202);
+    const json trigger = settled(service, run).at(0);
+    ASSERT_EQ(trigger.at("state"), "fired") << trigger;
+    EXPECT_EQ(trigger.at("result").at("complete"), true);
+    EXPECT_NEAR(trigger.at("result").at("lower").at("on"), 1.9, 0.0501);  // 1.838 s
+}
+
+TEST(Trigger, OfAFemThatAnExtensionComputedAgainFiresWithItsTransfers) {
+    const Live live;
+    live.set_exit_code(74);
+    Service service(live.sandbox);
+    json plain = study("mpm_steps=2", {0.5, 1.0});
+    plain["stability"] = false;
+    const std::string run = service.submit(plain);
+    service.wait_for_end(run, 60);
+    live.set_exit_code(0);
+    const Answer more = service.post("/v1/sweeps/" + run + "/extend", R"({"transfer_times": [2]})");
+    ASSERT_EQ(more.status, 202) << more.text;
+    service.wait_for_end(run, 60);
+    const std::string path = "/v1/runs/" + run + "/triggers";
+    EXPECT_EQ(service
+                  .post(path, R"({"kind":"criterion","name":"late","when":"time > 2.5",)"
+                              R"("within_s":10})")
+                  .status,
+              202);
+    EXPECT_EQ(
+        service.post(path, R"({"kind":"bisect","name":"edges","share":0.75,"seeds":3})").status,
+        202);
+    ASSERT_TRUE(eventually([&] {
+        return std::ranges::all_of(triggers_of(service, run), [](const json& each) {
+            return each.at("state") == "fired" || each.at("state") == "expired";
+        });
+    })) << triggers_of(service, run);
+    service.wait_for_end(run, 60);
+    const json body = service.get("/v1/runs/" + run).body;
+    const std::string again = task_labelled(body, "fem_2").at("id");
+    int fired = 0;
+    for (const json& each : triggers_of(service, run)) {
+        const bool on_the_second = each.at("fem_task") == again;
+        EXPECT_EQ(each.at("state"), on_the_second ? "fired" : "expired") << each;
+        fired += on_the_second ? 1 : 0;
+        if (on_the_second && each.at("kind") == "bisect") {
+            EXPECT_EQ(each.at("result").at("runs"), 4) << each;
+            EXPECT_EQ(each.at("result").at("complete"), true);
+        }
+    }
+    EXPECT_EQ(fired, 2);
+    const json rows = service.table(run);
+    ASSERT_EQ(rows.size(), 4u) << "0.5, 1, 2 and 2.8 s: " << rows;
+    for (const json& row : rows) EXPECT_EQ(row.at("state"), "succeeded") << row;
+    EXPECT_NEAR(rows[3].at("transfer_time"), 2.8, 1e-6);
 }
 
 TEST(Trigger, OnACriticalDepthIsRefusedWhereVariantsOfSeveralShareTheFem) {

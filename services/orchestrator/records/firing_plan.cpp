@@ -42,6 +42,17 @@ TaskPlan at_time(TaskPlan open, double time) {
     return open;
 }
 
+std::optional<std::size_t> place_of_fem(const std::vector<TaskPlan>& plan, const std::string& label,
+                                        const std::string& variant) {
+    std::optional<std::size_t> of_variant;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        if (plan[i].parent) continue;
+        if (plan[i].label == label) return i;
+        if (!of_variant && plan[i].variant == variant) of_variant = i;
+    }
+    return of_variant;
+}
+
 std::vector<TaskPlan> read_firing_plan(const json& document) {
     const bool by_label = !document.empty() && document[0].at("parent").is_string();
     return by_label ? from_labels(document) : document.get<std::vector<TaskPlan>>();

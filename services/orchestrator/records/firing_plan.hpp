@@ -10,6 +10,11 @@ namespace breach::orchestrator {
 /// The task with its time put in, and what is named after that: its label, its snapshot.
 TaskPlan at_time(TaskPlan open, double time);
 
+/// Place of the task that stands for this FEM of the run. One computed again for more transfer times
+/// has a label of its own ("fem_2") and goes by its variant. Nothing: none does.
+std::optional<std::size_t> place_of_fem(const std::vector<TaskPlan>& plan, const std::string& label,
+                                        const std::string& variant);
+
 /// From a database; also as version 0.1.0 wrote it.
 std::vector<TaskPlan> read_firing_plan(const nlohmann::json& document);
 

@@ -330,6 +330,8 @@ struct Sample {
     bool ended;                   ///< all of them
     std::vector<double> runouts;  ///< of the draws that have one
     std::size_t draws;            ///< so many were asked for; 1: the study has none
+    /// One of them ended by a fault of the machine, which says nothing of the runout: how.
+    std::optional<std::string> lost_by = {};
 };
 
 }  // namespace breach::orchestrator

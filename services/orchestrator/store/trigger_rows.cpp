@@ -1,4 +1,7 @@
 // Triggers and their firings in the store: the writing and the reading half.
+#include <algorithm>
+
+#include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -26,6 +29,28 @@ Trigger trigger_from(const Row& row) {
                     .result = std::nullopt};
     if (!row.is_null(8)) trigger.result = json::parse(row.text(8));
     return trigger;
+}
+
+/// The FEMs of the same variant, that one included: a run extended by times has several, and one
+/// transfer at each time, behind the first that has its snapshot.
+std::string fems_alike(const std::string& fem) {
+    return "(SELECT alike.id FROM tasks AS fem JOIN tasks AS alike ON alike.run=fem.run AND "
+           "alike.phase=fem.phase AND alike.variant=fem.variant WHERE fem.id=" +
+           fem + ")";
+}
+
+/// A task's state, exit code and summary, from this column on: how it was lost, which no input can
+/// help and a retry may mend. Nothing: it was not.
+std::optional<std::string> lost_by(const Row& row, int column) {
+    const TaskState state = task_state_named(row.text(column));
+    if (state == TaskState::cancelled) return "cancelled";
+    if (state != TaskState::failed) return std::nullopt;
+    const auto code = row.optional_integer(column + 1).value_or(0);
+    const bool answers = code == static_cast<std::int64_t>(fault::ExitCode::breakdown) ||
+                         code == static_cast<std::int64_t>(fault::ExitCode::bad_input);
+    if (answers) return std::nullopt;
+    const std::string summary = row.text(column + 2);
+    return summary.empty() ? std::string(name_of(state)) : summary;
 }
 
 }  // namespace
@@ -129,22 +154,21 @@ bool Transaction::add_firing(const Trigger& trigger, const Firing& firing) {
 /// What is there already (an at-time transfer, another trigger on the same snapshot) is shared.
 void Transaction::add_transfer(const std::string& run, const std::string& fem_task, double time) {
     std::vector<TaskPlan> plan;
-    std::string fem_label;
+    std::string label, variant;
     std::int64_t priority = 0;
     database_.query(
-        "SELECT firing_plans.tasks, tasks.label, tasks.priority FROM tasks JOIN firing_plans ON "
-        "firing_plans.run = tasks.run WHERE tasks.id=?",
+        "SELECT firing_plans.tasks, tasks.label, tasks.variant, tasks.priority FROM tasks JOIN "
+        "firing_plans ON firing_plans.run = tasks.run WHERE tasks.id=?",
         {fem_task}, [&](const Row& row) {
             plan = read_firing_plan(json::parse(row.text(0)));
-            fem_label = row.text(1);
-            priority = row.integer(2);
+            label = row.text(1);
+            variant = row.text(2);
+            priority = row.integer(3);
         });
     std::vector<std::string> ids(plan.size());  // empty: of another variant's FEM
+    if (const auto fem = place_of_fem(plan, label, variant)) ids[*fem] = fem_task;
     for (std::size_t i = 0; i < plan.size(); ++i) {
-        if (!plan[i].parent) {
-            if (plan[i].label == fem_label) ids[i] = fem_task;
-            continue;
-        }
+        if (!plan[i].parent) continue;
         const std::string& parent = ids[*plan[i].parent];
         if (parent.empty()) continue;
         const TaskPlan task = at_time(plan[i], time);
@@ -179,12 +203,29 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
     std::vector<Trigger> found;
     database_.query(
         std::string(trigger_columns) + "WHERE run=? AND state IN ('disarmed', 'expired')", {run},
-        [&](const Row& row) {
-            Trigger trigger = trigger_from(row);
-            if (trigger.state == TriggerState::disarmed ||
-                tasks_tried_again.contains(trigger.fem_task))
-                found.push_back(std::move(trigger));
-        });
+        [&](const Row& row) { found.push_back(trigger_from(row)); });
+    std::erase_if(found, [&](const Trigger& each) {
+        return each.state == TriggerState::expired && !hangs_on(each, tasks_tried_again);
+    });
+    return found;
+}
+
+/// What it decides by: its FEM, that one's stability analysis (as Store::stability_of has it), and for
+/// a bisect the runouts.
+bool Transaction::hangs_on(const Trigger& trigger, const std::set<std::string>& tasks) const {
+    bool found = tasks.contains(trigger.fem_task);
+    const auto note = [&](const Row& row) { found |= tasks.contains(row.text(0)); };
+    database_.query(
+        "SELECT id FROM tasks WHERE run=?1 AND phase=?2 ORDER BY variant=(SELECT variant FROM "
+        "tasks "
+        "WHERE id=?3) DESC, variant='' DESC, id LIMIT 1",
+        {trigger.run, phases::lem.program, trigger.fem_task}, note);
+    if (trigger.kind == "bisect")
+        database_.query(
+            "SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm ON mpm.parent=transfer.id "
+            "WHERE transfer.parent IN " +
+                fems_alike("?"),
+            {trigger.fem_task}, note);
     return found;
 }
 
@@ -200,6 +241,18 @@ std::vector<Trigger> Store::open_triggers() const {
                        {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
     });
     return found;
+}
+
+bool Store::plans_transfers_of(const Task& fem) const {
+    bool planned = false;
+    read([&](Connection& database) {
+        database.query("SELECT tasks FROM firing_plans WHERE run=?", {fem.run},
+                       [&](const Row& row) {
+                           const auto plan = read_firing_plan(json::parse(row.text(0)));
+                           planned = place_of_fem(plan, fem.label, fem.variant).has_value();
+                       });
+    });
+    return planned;
 }
 
 std::vector<Trigger> Store::open_batches() const {
@@ -252,11 +305,14 @@ std::vector<Sample> Store::samples_of(const std::string& trigger) const {
     read([&](Connection& database) {
         database.query(
             "SELECT firings.transfer_time, coalesce(variants.draw_of, mpm.variant), mpm.state, "
+            "mpm.fault_exit, coalesce(mpm.fault_summary, ''), transfer.state, "
+            "transfer.fault_exit, coalesce(transfer.fault_summary, ''), "
             "json_extract(mpm.result, '$.runout') FROM firings JOIN triggers ON triggers.id = "
-            "firings.trigger JOIN tasks AS transfer ON transfer.parent = triggers.fem_task AND "
-            "transfer.input = firings.snapshot JOIN tasks AS mpm ON mpm.parent = transfer.id LEFT "
-            "JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant WHERE "
-            "firings.trigger=? ORDER BY firings.transfer_time, mpm.id",
+            "firings.trigger JOIN tasks AS transfer ON transfer.parent IN " +
+                fems_alike("triggers.fem_task") +
+                " AND transfer.input = firings.snapshot JOIN tasks AS mpm ON mpm.parent = "
+                "transfer.id LEFT JOIN variants ON variants.run = mpm.run AND variants.name = "
+                "mpm.variant WHERE firings.trigger=? ORDER BY firings.transfer_time, mpm.id",
             {trigger}, [&](const Row& row) {
                 if (found.empty() || found.back().transfer_time != row.real(0)) {
                     found.push_back({row.real(0), true, {}, 0});
@@ -266,7 +322,9 @@ std::vector<Sample> Store::samples_of(const std::string& trigger) const {
                 Sample& sample = found.back();
                 ++sample.draws;
                 sample.ended &= is_final(task_state_named(row.text(2)));
-                if (const auto runout = row.optional_real(3)) sample.runouts.push_back(*runout);
+                for (const int task : {2, 5})
+                    if (!sample.lost_by) sample.lost_by = lost_by(row, task);
+                if (const auto runout = row.optional_real(8)) sample.runouts.push_back(*runout);
             });
     });
     return found;

@@ -14,7 +14,8 @@
 
 namespace breach::orchestrator {
 
-/// A transfer that did not come through: no runout, so never on the plateau.
+/// A transfer or a runout that broke down or was refused: never on the plateau. (One that a machine
+/// fault ended is no answer: the bisection does not go on without it.)
 inline constexpr double no_runout = -std::numeric_limits<double>::infinity();
 
 struct Edge {

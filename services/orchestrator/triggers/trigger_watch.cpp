@@ -41,10 +41,16 @@ bool was_cut_short(const Task& fem) {
     return is_final(fem.state) && !has_output(fem.state);
 }
 
+std::string until_a_retry(const std::string& what_failed, const std::string& how) {
+    return what_failed + " (" + how + "); a retry of the run arms this trigger again";
+}
+
+std::string how_it_ended(const Task& task) {
+    return task.fault ? task.fault->summary : std::string(name_of(task.state));
+}
+
 std::string cut_short_text(const Task& fem) {
-    return "the FEM did not come to its end (" +
-           (fem.fault ? fem.fault->summary : std::string(name_of(fem.state))) +
-           "); a retry of the run arms this trigger again";
+    return until_a_retry("the FEM did not come to its end", how_it_ended(fem));
 }
 
 bool has_regular_snapshots(const Task& fem, const json& scene) {
@@ -141,7 +147,10 @@ void TriggerWatch::look_alone(Fem& fem) {
         read_on(fem);
         for (Armed& each : fem.armed) {
             feed(fem, each);
-            if (each.lines_taken == fem.lines.size()) settle(fem, each);
+            if (lacks_depth(fem, each))
+                expire_without_depth(fem, each);
+            else if (each.lines_taken == fem.lines.size())
+                settle(fem, each);
         }
     } catch (const fault::IoError& error) {
         trouble = error.what();
@@ -186,10 +195,12 @@ void TriggerWatch::load_open_triggers() {
             const auto output = data_.output(task);
             const bool regular =
                 has_regular_snapshots(task, json::parse(store_.scene_of(task.run).value()));
+            const bool planned = store_.plans_transfers_of(task);
             Fem fem{.task = std::move(task),
                     .output = output,
                     .tail = telemetry::Tail(output / phases::files::telemetry),
-                    .regular = regular};
+                    .regular = regular,
+                    .planned = planned};
             found = fems_.emplace(trigger.fem_task, std::move(fem)).first;
         }
         arm(found->second, trigger);
@@ -221,12 +232,17 @@ void TriggerWatch::read_on(Fem& fem) {
         fem.snapshots.push_back({each.time, std::move(each.name)});
 }
 
-/// Only when a trigger asks: a run may be large.
+/// Only when a trigger asks: a run may be large. One that failed says nothing of the dam: it is
+/// looked at again, as it may be retried while the FEM runs.
 void TriggerWatch::look_for_stability(Fem& fem) {
     const auto asks = [](const Armed& each) { return asks_for_critical_depth(each.work); };
     if (!std::ranges::any_of(fem.armed, asks)) return;
     const std::optional<Task> lem = store_.stability_of(fem.task.run, fem.task.variant);
-    if (lem && !is_final(lem->state)) return;
+    fem.why_no_depth.clear();
+    if (lem && !has_output(lem->state)) {
+        if (is_final(lem->state)) fem.why_no_depth = how_it_ended(*lem);
+        return;
+    }
     double depth = std::numeric_limits<double>::quiet_NaN();
     if (lem && lem->result && lem->result->contains("critical_depth")) {
         depth = lem->result->at("critical_depth");
@@ -234,10 +250,22 @@ void TriggerWatch::look_for_stability(Fem& fem) {
     fem.critical_depth = depth;
 }
 
+bool TriggerWatch::lacks_depth(const Fem& fem, const Armed& armed) {
+    return asks_for_critical_depth(armed.work) && !fem.critical_depth;
+}
+
+/// Not before the FEM's end: until then a retry of the stability analysis is in time.
+void TriggerWatch::expire_without_depth(const Fem& fem, Armed& armed) {
+    if (!fem.ended || fem.why_no_depth.empty() || is_final(armed.trigger.state)) return;
+    const std::string why =
+        until_a_retry("its stability analysis gave no critical depth", fem.why_no_depth);
+    move(armed, TriggerEvent::expire, {{"why", why}});
+}
+
 /// A trigger that asks for the critical depth takes no line before that is known, so that what it
 /// decides does not depend on which phase was faster.
 void TriggerWatch::feed(const Fem& fem, Armed& armed) {
-    if (asks_for_critical_depth(armed.work) && !fem.critical_depth) return;
+    if (lacks_depth(fem, armed)) return;
     for (; armed.lines_taken < fem.lines.size(); ++armed.lines_taken) {
         take_line(fem, armed, fem.lines[armed.lines_taken]);
     }
@@ -293,6 +321,12 @@ void TriggerWatch::take_line(const Fem& fem, Armed& armed, const telemetry::Line
 
 void TriggerWatch::settle(Fem& fem, Armed& armed) {
     if (is_final(armed.trigger.state)) return;
+    if (!fem.planned) {
+        move(armed, TriggerEvent::expire,
+             {{"why", "the run has no plan of transfers from its " + fem.task.label +
+                          "; submit the study with this trigger"}});
+        return;
+    }
     std::visit([&](auto& work) { settle_work(fem, armed, work); }, armed.work);
 }
 
@@ -408,6 +442,12 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
         if (found != times.end())
             runouts[static_cast<std::size_t>(found - times.begin())] =
                 each.runouts.empty() ? no_runout : repeats_of(each.runouts).mean;
+    }
+    const auto is_lost = [](const Sample& each) { return each.lost_by.has_value(); };
+    if (const auto lost = std::ranges::find_if(samples, is_lost); lost != samples.end()) {
+        const std::string what = "the runout at " + spelt(lost->transfer_time) + " s failed";
+        move(armed, TriggerEvent::expire, {{"why", until_a_retry(what, *lost->lost_by)}});
+        return;
     }
     if (times.empty()) {
         move(armed, TriggerEvent::expire, {{"why", "no snapshot lies in the range"}});

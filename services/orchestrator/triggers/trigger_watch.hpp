@@ -8,7 +8,9 @@
 // there is none and the FEM runs, it is asked for one (the file snapshot_request in its output
 // folder), unless it takes regular ones anyway. When the FEM has ended, what exists must serve; a
 // snapshot later than the trigger's within_s makes it expire. The end of a FEM that was cut short
-// (it failed, and not by a breakdown) closes no window and begins no bisection: they expire.
+// (it failed, and not by a breakdown) closes no window and begins no bisection: they expire. So
+// does what waits for a stability analysis or a runout that failed like this: nothing is decided by
+// a fault of the machine, and a retry decides.
 #pragma once
 
 #include <chrono>
@@ -57,11 +59,13 @@ class TriggerWatch {
         std::vector<Armed> armed = {};
         bool ended = false;
         bool regular = false;  ///< takes snapshots at an interval
+        bool planned = false;  ///< the run knows which tasks a firing on it makes
         std::vector<Snapshot> snapshots = {};
         std::chrono::steady_clock::time_point asked{};
-        /// Of the run's stability analysis once that has ended; NaN when there is none [m].
+        /// Of the run's stability analysis once that has come through; NaN when there is none [m].
         std::optional<double> critical_depth{};
-        std::string trouble = {};  ///< what kept the last look from its end
+        std::string why_no_depth = {};  ///< how the stability analysis failed; empty: it has not
+        std::string trouble = {};       ///< what kept the last look from its end
     };
 
     void load_open_triggers();
@@ -73,6 +77,9 @@ class TriggerWatch {
     static criteria::Line line_for(const Fem& fem, const criteria::Expression& condition,
                                    const telemetry::Line& line);
     void look_for_stability(Fem& fem);
+    /// It asks for the critical depth, and that is not known (yet).
+    static bool lacks_depth(const Fem& fem, const Armed& armed);
+    void expire_without_depth(const Fem& fem, Armed& armed);
     void settle(Fem& fem, Armed& armed);
     void settle_work(Fem& fem, Armed& armed, Manual& manual);
     void settle_work(Fem& fem, Armed& armed, When& when);

@@ -9,10 +9,12 @@
 #include <set>
 #include <thread>
 
+#include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/store/migrations.hpp"
 #include "services/orchestrator/store/versions.hpp"
+#include "services/orchestrator/triggers/batch_watch.hpp"
 #include "tests/folder.hpp"
 #include "tests/unit/orchestrator/small_run.hpp"
 
@@ -214,6 +216,63 @@ TEST_F(StoreTest, OutputsAreThoseOfTheLastAttemptAndOfNoneThatGoesOn) {
     bring_to_success(store, fem, {{"number", 1}});
     EXPECT_EQ(names(), Names{"result.json"});
     store.write([&](Transaction& t) { t.keep_remains("nobody-00000", {artifact("x")}, ""); });
+}
+
+TEST_F(StoreTest, AStudyThatCannotGoOnHoldsUpNoOtherAndIsLookedAtAgain) {
+    Store store(file());
+    const DataFolder data(folder_ / "data");
+    const Numerics numerics;
+    std::vector<NewRun> runs{small_run(), small_run()};
+    const char* sound =
+        R"({"uncertainty": {"samples": 4, "drawn": 2, "parameters": []}, "variants": []})";
+    runs[1].study = sound;  // the other one's cannot be read
+    for (NewRun& each : runs) {
+        each.batches = TriggerPlan{"until (samples)",
+                                   "criterion",
+                                   {{"when", "narrow"},
+                                    {"quantity", "runout"},
+                                    {"percentile", 50},
+                                    {"half_width", 0.1},
+                                    {"batch", 2}}};
+        store.write([&](Transaction& t) { t.add_run(each); });
+        for (std::size_t i = 0; i < each.tasks.size(); ++i)
+            bring_to_success(store, task_id(each.id, i), {{"runout", 12.5}});
+    }
+    const auto state = [&](std::size_t i) { return store.triggers_of(runs[i].id).at(0).state; };
+    BatchWatch watch(store, data, numerics);
+    EXPECT_FALSE(watch.look());
+    EXPECT_EQ(state(0), TriggerState::armed);
+    EXPECT_EQ(state(1), TriggerState::expired);
+    EXPECT_FALSE(watch.look());
+    EXPECT_EQ(state(0), TriggerState::armed);
+    Connection(file(), Access::read_write)
+        .change("UPDATE runs SET study=? WHERE id=?", {sound, runs[0].id});
+    watch.look();  // though nothing was stored that tells of it
+    EXPECT_EQ(state(0), TriggerState::expired);
+}
+
+TEST(FiringPlan, AFemComputedAgainStandsWhereItsVariantsStands) {
+    const auto fem = [](const char* label, const char* variant) {
+        TaskPlan plan{.phase = "fem_solver",
+                      .label = label,
+                      .transfer_time = {},
+                      .parent = {},
+                      .release = Release::at_once,
+                      .input = {},
+                      .overrides = {}};
+        plan.variant = variant;
+        return plan;
+    };
+    TaskPlan transfer = fem("transfer_firm", "firm");
+    transfer.parent = 0;
+    const std::vector<TaskPlan> plan{fem("fem_firm", "firm"), transfer, fem("fem_deep", "deep")};
+    EXPECT_EQ(place_of_fem(plan, "fem_firm", "firm"), 0u);
+    EXPECT_EQ(place_of_fem(plan, "fem_deep", "deep"), 2u);
+    EXPECT_EQ(place_of_fem(plan, "fem_deep_2", "deep"), 2u);
+    EXPECT_FALSE(place_of_fem(plan, "fem_wet", "wet"));
+    EXPECT_FALSE(place_of_fem({}, "fem", ""));
+    // Version 0.1.0 noted no variants: there the label decides.
+    EXPECT_EQ(place_of_fem({fem("fem_firm", ""), fem("fem_deep", "")}, "fem_deep", ""), 1u);
 }
 
 TEST_F(StoreTest, SpendingIsThatOfEveryAttemptAndBudgetsHoldBackNewOnes) {
