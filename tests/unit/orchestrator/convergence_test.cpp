@@ -57,9 +57,9 @@ TEST(Convergence, SaysWhatTheOrderCouldBeByTheNoise) {
     EXPECT_EQ(open.order_by_noise->low, 0.0);
     EXPECT_GT(open.order_by_noise->high, 4.0);
     // With differences of 4 and 2 that are off by 1 each: 3 to 3 is no order, 5 to 1 is 2.32.
-    const double deviation = 2.0;
+    const double deviation = 4.0;
     const Convergence known = convergence_of(std::array{
-        rung(4, 16.0, deviation, 8), rung(2, 12.0, deviation, 8), rung(1, 10.0, deviation, 8)});
+        rung(4, 16.0, deviation, 32), rung(2, 12.0, deviation, 32), rung(1, 10.0, deviation, 32)});
     EXPECT_EQ(known.order_by_noise->low, 0.0);
     EXPECT_NEAR(known.order_by_noise->high, std::log2(5.0), 1e-9);
     EXPECT_FALSE(convergence_of(power_law(10.0, 0.4, 2.0, {4.0, 2.0, 1.0})).order_by_noise)
