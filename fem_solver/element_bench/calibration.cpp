@@ -31,7 +31,7 @@ Specimen specimen(const SandParameters& parameters, const pm4sand::Options& opti
                   double K0) {
     const pm4sand::Ready law = pm4sand::ready(parameters);
     const Voigt sigma(-K0 * sigma_v, -sigma_v, 0.0, 0.0);
-    return {SandPoint{law, options, pm4sand::initialise(law, sigma)}};
+    return {SandPoint{law, options, pm4sand::initialise(law, sigma, 0.0, options.scheme)}};
 }
 
 std::string kPa(double stress) { return std::to_string(std::lround(stress / 1e3)) + " kPa"; }

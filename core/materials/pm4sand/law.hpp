@@ -47,7 +47,7 @@ inline Voigt return_to_surface(const PM4Sand&, const State& state) { return stat
 inline std::optional<LawLanes> for_particles(const PM4Sand&) { return std::nullopt; }
 
 inline pm4sand::State first_memory(const PM4Sand& law, const Voigt& sigma, double epsilon_v) {
-    return pm4sand::initialise(law.ready, sigma, epsilon_v);
+    return pm4sand::initialise(law.ready, sigma, epsilon_v, law.options.scheme);
 }
 inline Voigt stress(const PM4Sand& law, const pm4sand::State& memory) {
     return pm4sand::stress(law.ready, memory);

@@ -107,9 +107,16 @@ void place_stress(const Ready& law, double p_0, const Plane& s_0, State& state) 
                      p_0 - state.p - (s_0.d - state.s.d) / sqrt2, (s_0.x - state.s.x) / sqrt2};
 }
 
+/// alpha, but no farther than the bound lets it go.
+Plane within_bound(const Ready& law, const State& state) {
+    const double bound = (state.M_b - law.parameters.m) / sqrt2;
+    const double reached = norm(state.alpha);
+    return reached > bound ? (bound / reached) * state.alpha : state.alpha;
+}
+
 }  // namespace
 
-State initialise(const Ready& law, const Voigt& sigma, double epsilon_v) {
+State initialise(const Ready& law, const Voigt& sigma, double epsilon_v, Scheme scheme) {
     const Parameters& par = law.parameters;
     const double p_0 = -0.5 * (sigma[0] + sigma[1]);
     const Plane s_0{-(sigma[0] - sigma[1]) / sqrt2, -sqrt2 * sigma[3]};
@@ -123,8 +130,8 @@ State initialise(const Ready& law, const Voigt& sigma, double epsilon_v) {
     state.z_max = par.z_max.value_or(std::min(0.7 * std::exp(-6.1 * at.xi), 20.0));
     state.A_do = par.A_do.value_or(initial_dilatancy(law, at));
     state.M_b = at.M_b;
-    state.alpha_true = state.alpha;
-    state.alpha_min = state.alpha_max = components(state.alpha);
+    state.alpha_true = scheme == Scheme::reference ? state.alpha : within_bound(law, state);
+    state.alpha_min = state.alpha_max = components(state.alpha_true);
     state.z_peak = state.z_max / 1e5;
     state.p_zp = state.p / 100.0;
     state.p_zp_unset = true;

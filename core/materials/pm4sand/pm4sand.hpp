@@ -106,12 +106,6 @@ struct State {
     double sub_step;  ///< size of the last accepted sub-step [strain]; a guess for the next
 };
 
-/// State that holds the effective stress sigma [Pa, tension positive]. epsilon_v: compressive
-/// volumetric strain that the void ratio remembers from earlier stages [-]. Stresses below p_min
-/// or outside the surfaces are moved onto them; the difference stays as sigma_b, so that `stress`
-/// returns sigma unchanged (zz apart). Exactly one call per point.
-State initialise(const Ready& law, const Voigt& sigma, double epsilon_v = 0.0);
-
 /// Effective stress [Pa, tension positive], sigma_b included. The model does not know zz: it is
 /// nu (xx + yy) here.
 Voigt stress(const Ready& law, const State& state);
@@ -123,6 +117,15 @@ enum class Scheme {
     reference,  ///< as OpenSees: explicit, strain cut into parts of 1e-5 (compat: opensees)
     adaptive,   ///< linearly implicit with error control, no drift (compat: corrected)
 };
+
+/// State that holds the effective stress sigma [Pa, tension positive]. epsilon_v: compressive
+/// volumetric strain that the void ratio remembers from earlier stages [-]. Stresses below p_min
+/// or outside the surfaces are moved onto them; the difference stays as sigma_b, so that `stress`
+/// returns sigma unchanged (zz apart). Loose of critical a stress may lie beyond the bound, up to
+/// M_d: it has reversed on the bound then, as alpha is drawn onto that at once (adaptive; the
+/// reference scheme sees a reversal there). Exactly one call per point.
+State initialise(const Ready& law, const Voigt& sigma, double epsilon_v = 0.0,
+                 Scheme scheme = Scheme::adaptive);
 
 struct Options {
     Scheme scheme = Scheme::adaptive;
