@@ -31,10 +31,11 @@ json depth_at_one(const json& stages) {
     return nullptr;
 }
 
-/// Depth of the lowest point of the stage with the least F; 0 when the slope fails without any
-/// liquefaction, because then nothing has to liquefy.
-double critical_depth(const json& stages) {
-    if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
+/// Depth of what can liquefy.
+double depth_of_layers(const json& stages) { return stages.back().at("liquefied_depth"); }
+
+/// How deep the surface of the least F reaches.
+double depth_of_surface(const json& stages) {
     const auto lowest =
         std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
             // a stage that repeats the minimum adds nothing: the earlier one counts
@@ -42,6 +43,13 @@ double critical_depth(const json& stages) {
                    b.at("factor_of_safety").get<double>() * (1.0 - 1e-6);
         });
     return lowest->at("lowest_point_depth");
+}
+
+/// Depth of the lowest point of the stage with the least F, but none below what can liquefy; 0 when
+/// the slope fails without any liquefaction, because then nothing has to liquefy.
+double critical_depth(const json& stages) {
+    if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
+    return std::min(depth_of_surface(stages), depth_of_layers(stages));
 }
 
 }  // namespace
@@ -90,7 +98,17 @@ std::vector<fault::Flag> flags_of_stages(const json& stages) {
                  "0 and every trigger on it fires at once; check strength and water";
         return {{"fails_unliquefied", fault::Severity::warning, words.str(), "/lem"}};
     }
-    if (least < 1.0) return {};
+    const double below = depth_of_surface(stages) - depth_of_layers(stages);
+    if (least < 1.0) {
+        const double layers = depth_of_layers(stages);
+        if (below <= 1e-3 * layers) return {};
+        words << "the critical surface passes " << below << " m below all that liquefies: "
+              << "critical_depth, " << layers
+              << " m, is the bottom of the layers, which the last of "
+              << "them must reach; F falls through 1 at " << depth_at_one(stages).get<double>()
+              << " m: trigger on that depth, or both";
+        return {{"below_layers", fault::Severity::warning, words.str(), "/lem/liquefaction"}};
+    }
     words << "the factor of safety is " << least
           << " at least with every layer liquefied: critical_depth is where that surface lies, not "
              "a depth at which the slope fails";

@@ -64,6 +64,48 @@ void doubt_section(Doubter& d) {
     }
 }
 
+/// Highest soil at x; -infinity: there is none [m].
+double ground_level(const Scene& scene, double x) {
+    double level = -infinity;
+    for (const Region& region : scene.section.regions) {
+        const Polygon& ring = region.polygon;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+            if (x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
+            const double width = b.x() - a.x();
+            level = std::max(level, width == 0.0 ? std::max(a.y(), b.y())
+                                                 : a.y() + (x - a.x()) / width * (b.y() - a.y()));
+        }
+    }
+    return level;
+}
+
+/// Free water lies level: a line that slopes above the ground loads the face with water that is not
+/// there, which hides what it lifts inside.
+void doubt_slope_of_free_water(Doubter& d, const std::vector<Vec2>& line,
+                               const std::string& pointer) {
+    std::vector<double> places;
+    for (const Vec2& point : line) places.push_back(point.x());
+    for (const Region& region : d.scene.section.regions)
+        for (const Vec2& corner : region.polygon) places.push_back(corner.x());
+    std::erase_if(places, [&](double x) { return x < d.extent.low.x() || x > d.extent.high.x(); });
+    std::ranges::sort(places);
+    double most = 0.05 * d.height(), where = -infinity;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const double left = geometry::level_at(line, places[i]);
+        const double right = geometry::level_at(line, places[i + 1]);
+        if (std::abs(right - left) <= 0.01 * (places[i + 1] - places[i])) continue;
+        const double x = 0.5 * (places[i] + places[i + 1]);
+        const double above = 0.5 * (left + right) - ground_level(d.scene, x);
+        if (above > most && std::isfinite(above)) most = above, where = x;
+    }
+    if (where == -infinity) return;
+    d.doubt(pointer, "the water stands " + metres(most) +
+                         " above the ground at x = " + metres(where) +
+                         " and slopes there, as no free water does: it presses on the ground "
+                         "there; let the line end on the ground, or run along it");
+}
+
 /// Water above the highest ground drowns the whole section: a lake's floor may lie so, but free
 /// water lies level.
 void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& pointer) {
@@ -78,7 +120,10 @@ void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& p
     }
     const double ground = d.extent.high.y();
     const double above = highest - ground;
-    if (above <= 1e-6 * d.height()) return;
+    if (above <= 1e-6 * d.height()) {
+        doubt_slope_of_free_water(d, line, pointer);
+        return;
+    }
     const std::string what =
         "stands " + metres(above) + " above the section's highest ground (" + metres(ground) + ")";
     const bool slopes = highest - lowest > 0.01 * d.height();
@@ -86,9 +131,10 @@ void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& p
         d.reader.add(pointer, what + " and slopes there, as no free water does",
                      "give levels in m and in the section's own datum");
     } else {
-        d.doubt(pointer, "the water " + what +
-                             ": the whole section is drowned; levels are in m and in the section's "
-                             "own datum");
+        const std::string drowned =
+            lowest > ground ? ": the whole section is drowned" : ": the highest ground is drowned";
+        d.doubt(pointer,
+                "the water " + what + drowned + "; levels are in m and in the section's own datum");
     }
 }
 
@@ -235,6 +281,22 @@ double area_beyond(const Polygon& polygon, double x) {
     return overlap_area(polygon, beyond);
 }
 
+/// Farthest x of soil above a level; -infinity: there is none [m].
+double foot_above(const Scene& scene, double level) {
+    double foot = -infinity;
+    for (const Region& region : scene.section.regions) {
+        const Polygon& ring = region.polygon;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+            if (a.y() > level) foot = std::max(foot, a.x());
+            if ((a.y() > level) == (b.y() > level)) continue;
+            const double share = (level - a.y()) / (b.y() - a.y());
+            foot = std::max(foot, a.x() + share * (b.x() - a.x()));
+        }
+    }
+    return foot;
+}
+
 /// Runout is counted downstream (+x) from the toe: soil that lies beyond it from the beginning has
 /// run out before anything has moved.
 void doubt_toe(Doubter& d) {
@@ -259,7 +321,6 @@ void doubt_toe(Doubter& d) {
         plain_number(std::round(100.0 * beyond / all)) +
         " % of the soil that counts lie beyond the toe (x = " + metres(runout.toe.x()) +
         ") before anything has moved";
-    const double length = soil.high.x() - soil.low.x();
     if (beyond > most * all) {
         d.reader.add(pointer, "lies upstream: " + share,
                      "x points downstream: give the foot of the downstream face, near x = " +
@@ -270,10 +331,12 @@ void doubt_toe(Doubter& d) {
                 share + ": they are part of every runout; x points downstream, and " +
                     (runout.regions.empty() ? "/mpm/runout/regions should name the soil that moves"
                                             : "the soil ends at x = " + metres(soil.high.x())));
-    } else if (runout.toe.x() > soil.high.x() + std::max(length, d.height())) {
-        d.doubt(pointer, "the toe (x = " + metres(runout.toe.x()) +
-                             ") lies far beyond the soil, which ends at x = " +
-                             metres(soil.high.x()) + ": runout is counted from the toe");
+    } else if (const double foot = foot_above(d.scene, runout.toe.y() + 0.05 * d.height());
+               runout.toe.x() - foot > std::max(d.height(), 2.0 * d.scene.mpm->cell_size)) {
+        d.doubt(pointer, "the ground rises only " + metres(runout.toe.x() - foot) +
+                             " before the toe (x = " + metres(runout.toe.x()) +
+                             "), at x = " + metres(foot) +
+                             ": runout is counted from the toe, and is shorter by that");
     }
 }
 

@@ -88,13 +88,13 @@ Reading read_document(json document, const std::string& name, const std::filesys
         reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
     }
     std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
+    if (reader.sound("/gravity")) scene.gravity = document.at("gravity");
+    if (reader.sound("/thickness")) scene.thickness = document.at("thickness");
     if (!reader.faults().empty()) return {std::move(scene), reader.faults(), nullptr};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");
     scene.title = document.at("title");
-    scene.gravity = document.at("gravity");
-    scene.thickness = document.at("thickness");
     write_whole_numbers_without_point(document);
     scene.completed = document.dump();
     return {std::move(scene), {}, std::move(document)};

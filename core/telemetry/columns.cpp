@@ -61,8 +61,8 @@ constexpr std::array fem_table{
 
 constexpr std::array run_table{
     Column{"critical_depth", "m",
-           "depth of the slip surface with the least factor of safety as layers liquefy; 0 when it "
-           "is below 1 before any does (lem_tool)"},
+           "depth of the slip surface with the least factor of safety as layers liquefy, no deeper "
+           "than they; 0 when it is below 1 before any does (lem_tool)"},
 };
 
 }  // namespace

@@ -354,7 +354,7 @@ std::string as_list_of_same_results(const json& answer) {
         for (const json& each : group)
             names += (names.empty() ? "" : ", ") + each.get<std::string>();
         text += "the same to the last digit: " + names +
-                "; what tells them apart has no part in this run\n";
+                "; what tells them apart has no part in the numbers of this table\n";
     }
     return text;
 }

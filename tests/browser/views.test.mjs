@@ -295,7 +295,7 @@ test("a variant that nothing was transferred of stands above the figure, with th
     assert.ok(await page.isVisible("#runout-plot"));
     const same = api.add_run({ ...twelve_variants, name: "same", same: [["a", "b"]] }, { began: Date.now() - 60000, breaks: [] });
     await open_run(same.id);
-    await until("the list", async () => (await text_of("#runout-without")) === "The same to the last digit: a, b. What tells them apart has no part in this run.");
+    await until("the list", async () => (await text_of("#runout-without")) === "The same to the last digit: a, b. What tells them apart has no part in the numbers of this table.");
     const none = api.add_run({ ...twelve_variants, name: "none", variants: [], transfer_times: [], without: [{ ...without[0], variant: "" }] }, { began: Date.now() - 60000, breaks: [] });
     await open_run(none.id);
     await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);

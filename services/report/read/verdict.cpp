@@ -192,7 +192,7 @@ void add_what_changes_nothing(const Run& run, Verdict& verdict) {
         verdict.doubts.push_back(
             "The variants " + names +
             " have the same results to the last digit: what tells them apart "
-            "has no part in this run, which is no sign that it does not matter.");
+            "has no part in the results' numbers, which is no sign that it does not matter.");
     }
 }
 

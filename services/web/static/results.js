@@ -107,7 +107,7 @@ export class Results {
         by_id("runout-plot").hidden = by_id("runout-table").parentElement.hidden = nothing;
         const remarks = [
             ...(without ?? []).map(({ variant, state, reason }) => `Nothing was transferred${variant ? ` of ${variant}` : ""} (${state.replaceAll("_", " ")}): ${reason}`),
-            ...(same ?? []).map((names) => `The same to the last digit: ${names.join(", ")}. What tells them apart has no part in this run.`),
+            ...(same ?? []).map((names) => `The same to the last digit: ${names.join(", ")}. What tells them apart has no part in the numbers of this table.`),
         ];
         mirror(by_id("runout-without"), remarks, (text) => text, () => element("li"), (item, text) => set_text(item, text));
         return this.rows;
