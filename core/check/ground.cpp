@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
@@ -37,11 +38,44 @@ void check_toe(const scene::Scene& scene, Findings& findings) {
                    " to " + metres(mpm.domain_y[1]));
 }
 
+/// A FEM holds its section at the upstream end, where the soil goes on; the MPM's wall holds it only where it
+/// stands against it.
+void check_upstream_end(const scene::Scene& scene, Findings& findings) {
+    if (!scene.fem) return;
+    const scene::Mpm& mpm = *scene.mpm;
+    double end = std::numeric_limits<double>::infinity();
+    for (const scene::Region& region : scene.section.regions)
+        for (const Vec2& corner : region.polygon) end = std::min(end, corner.x());
+    const double gap = end - mpm.domain_x[0];
+    if (!(gap > mpm.cell_size)) return;
+    const double held = mpm.terrain.empty() ? -std::numeric_limits<double>::infinity()
+                                            : straight_level_at(mpm.terrain, end - mpm.cell_size);
+    double face = 0.0;
+    for (const scene::Region& region : scene.section.regions) {
+        const auto& named = mpm.runout.regions;
+        if (!named.empty() && std::ranges::find(named, region.name) == named.end()) continue;
+        for (std::size_t i = 0; i < region.polygon.size(); ++i) {
+            const Vec2& a = region.polygon[i];
+            const Vec2& b = region.polygon[(i + 1) % region.polygon.size()];
+            if (std::max(a.x(), b.x()) > end + 1e-6 * mpm.cell_size) continue;
+            face += std::max(std::max(a.y(), b.y()) - std::max(held, std::min(a.y(), b.y())), 0.0);
+        }
+    }
+    if (face <= 2.0 * mpm.cell_size) return;
+    warn(findings, "free_upstream_end", "/mpm/domain_x",
+         "begins " + metres(gap) + " before the section, whose soil ends at x = " + metres(end) +
+             " in a free face of " + metres(face) +
+             ": the FEM holds it there, in the runout it falls upstream, and runs less far; begin "
+             "the grid at x = " +
+             metres(end));
+}
+
 }  // namespace
 
 void check_ground(const scene::Scene& scene, Findings& findings) {
     check_terrain(scene, findings);
     check_toe(scene, findings);
+    check_upstream_end(scene, findings);
 }
 
 }  // namespace breach::check

@@ -227,6 +227,18 @@ TEST(Drawn, LoadsThatEndAtTheTransferAreTold) {
     EXPECT_TRUE(has_warning(flooded, "load_ends", "/fem/water/line"));
 }
 
+TEST(Drawn, AnUpstreamEndThatOnlyTheFemHoldsIsTold) {
+    EXPECT_FALSE(has_warning(changed("mochikoshi", {}), "free_upstream_end", "/mpm/domain_x"));
+    const Checked open =
+        changed("mochikoshi", {"/mpm/domain_x=[-80.5, 659.5]", "/mpm/floor/friction/0/from=-80.5"});
+    EXPECT_TRUE(open.faults.empty()) << told(open.faults);
+    EXPECT_TRUE(has_warning(open, "free_upstream_end", "/mpm/domain_x"));
+    const Checked held =
+        changed("mochikoshi", {"/mpm/domain_x=[-80.5, 659.5]", "/mpm/floor/friction/0/from=-80.5",
+                               "/mpm/terrain=[[-80.5,29.4],[-41,29.4],[-40.5,-6],[659.5,-6]]"});
+    EXPECT_FALSE(has_warning(held, "free_upstream_end", "/mpm/domain_x"));
+}
+
 TEST(Drawn, FrictionBelowTheWaterTableIsToldWherePointsFillTheSection) {
     const Checked wet = changed("merriespruit", {});
     EXPECT_TRUE(has_warning(wet, "total_stress", "/materials/embankment"));
