@@ -473,7 +473,8 @@ Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, do
     }
     const auto& sand = std::get<SandLaw>(law);
     const pm4sand::Ready ready = pm4sand::ready(sand.parameters);
-    return {SandPoint{ready, sand.options, pm4sand::initialise(ready, sigma, 0.0, sand.options.scheme)}};
+    return {SandPoint{ready, sand.options,
+                      pm4sand::initialise(ready, sigma, 0.0, sand.options.scheme)}};
 }
 
 namespace {

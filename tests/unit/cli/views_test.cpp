@@ -105,7 +105,8 @@ TEST(ResultTable, NamesBelowItWhatNothingWasTransferredOf) {
 
 TEST(ResultTable, NamesBelowItVariantsThatCameToTheSame) {
     EXPECT_EQ(as_list_of_same_results(json::parse(R"({"same_results": [["a", "b"]]})")),
-              "the same to the last digit: a, b; what tells them apart has no part in the numbers of this table\n");
+              "the same to the last digit: a, b; what tells them apart has no part in the numbers "
+              "of this table\n");
     EXPECT_EQ(as_list_of_same_results({{"rows", json::array()}}), "");
 }
 

@@ -53,7 +53,8 @@ CyclicResult cycles(const Row& row, double step, const Options& options) {
     const mechanics::Voigt sigma(-500.0 * row.sigma_v, -1e3 * row.sigma_v, 0.0, 0.0);
     const double epsilon_v =
         row.consolidation_strain ? consolidation_strain(law.parameters, row.sigma_v) : 0.0;
-    const Specimen specimen{SandPoint{law, options, pm4sand::initialise(law, sigma, epsilon_v, options.scheme)}};
+    const Specimen specimen{
+        SandPoint{law, options, pm4sand::initialise(law, sigma, epsilon_v, options.scheme)}};
     return element_bench::cyclic_stress(specimen, Boundary::undrained_shear,
                                         {.amplitude = row.CSR * 1e3 * row.sigma_v},
                                         {.strain = 0.03}, {.step = step, .every = 0});
