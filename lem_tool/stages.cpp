@@ -98,9 +98,9 @@ std::vector<fault::Flag> flags_of_stages(const json& stages) {
                  "0 and every trigger on it fires at once; check strength and water";
         return {{"fails_unliquefied", fault::Severity::warning, words.str(), "/lem"}};
     }
-    const double below = depth_of_surface(stages) - depth_of_layers(stages);
     if (least < 1.0) {
         const double layers = depth_of_layers(stages);
+        const double below = depth_of_surface(stages) - layers;
         if (below <= 1e-3 * layers) return {};
         words << "the critical surface passes " << below << " m below all that liquefies: "
               << "critical_depth, " << layers

@@ -43,9 +43,7 @@ void check_toe(const scene::Scene& scene, Findings& findings) {
 void check_upstream_end(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem) return;
     const scene::Mpm& mpm = *scene.mpm;
-    double end = std::numeric_limits<double>::infinity();
-    for (const scene::Region& region : scene.section.regions)
-        for (const Vec2& corner : region.polygon) end = std::min(end, corner.x());
+    const double end = extent(scene).low.x();
     const double gap = end - mpm.domain_x[0];
     if (!(gap > mpm.cell_size)) return;
     const double held = mpm.terrain.empty() ? -std::numeric_limits<double>::infinity()
@@ -54,9 +52,7 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
     for (const scene::Region& region : scene.section.regions) {
         const auto& named = mpm.runout.regions;
         if (!named.empty() && std::ranges::find(named, region.name) == named.end()) continue;
-        for (std::size_t i = 0; i < region.polygon.size(); ++i) {
-            const Vec2& a = region.polygon[i];
-            const Vec2& b = region.polygon[(i + 1) % region.polygon.size()];
+        for (const auto& [a, b] : sides_of(region.polygon)) {
             if (std::max(a.x(), b.x()) > end + 1e-6 * mpm.cell_size) continue;
             face += std::max(std::max(a.y(), b.y()) - std::max(held, std::min(a.y(), b.y())), 0.0);
         }

@@ -303,15 +303,12 @@ void doubt_toe(Doubter& d) {
     constexpr double some = 0.02,
                      most = 0.5;  // of the soil that counts; the runout is of 1 % of it
     const Runout& runout = d.scene.mpm->runout;
-    double all = 0.0, beyond = 0.0;
-    Box soil{{infinity, infinity}, {-infinity, -infinity}};
+    double all = 0.0, beyond = 0.0, end = -infinity;
     for (const Region& region : d.scene.section.regions) {
         const auto& named = runout.regions;
         const bool counts = named.empty() || std::ranges::find(named, region.name) != named.end();
         if (!counts || region.polygon.empty()) continue;
-        const Box box = bounding_box(region.polygon);
-        soil.low = soil.low.cwiseMin(box.low);
-        soil.high = soil.high.cwiseMax(box.high);
+        end = std::max(end, bounding_box(region.polygon).high.x());
         all += area(region.polygon);
         beyond += area_beyond(region.polygon, runout.toe.x());
     }
@@ -324,13 +321,12 @@ void doubt_toe(Doubter& d) {
     if (beyond > most * all) {
         d.reader.add(pointer, "lies upstream: " + share,
                      "x points downstream: give the foot of the downstream face, near x = " +
-                         plain_number(soil.high.x()) +
-                         "; a slope that faces -x has to be drawn mirrored");
+                         plain_number(end) + "; a slope that faces -x has to be drawn mirrored");
     } else if (beyond > some * all) {
         d.doubt(pointer,
                 share + ": they are part of every runout; x points downstream, and " +
                     (runout.regions.empty() ? "/mpm/runout/regions should name the soil that moves"
-                                            : "the soil ends at x = " + metres(soil.high.x())));
+                                            : "the soil ends at x = " + metres(end)));
     } else if (const double foot = foot_above(d.scene, runout.toe.y() + 0.05 * d.height());
                runout.toe.x() - foot > std::max(d.height(), 2.0 * d.scene.mpm->cell_size)) {
         d.doubt(pointer, "the ground rises only " + metres(runout.toe.x() - foot) +

@@ -95,14 +95,21 @@ TEST_F(StoreTest, CostsAndPaceOfASweepAreNotThoseOfItsFirstRunouts) {
     EXPECT_DOUBLE_EQ(*left[0].pace, 10.0);
 }
 
+/// Number of the attempt.
+std::int64_t claim_and_submit(Transaction& t, const std::string& task) {
+    t.move_task(task, TaskEvent::claim);
+    const std::int64_t number = t.add_attempt(task);
+    t.move_attempt(task, number, AttemptEvent::submit);
+    return number;
+}
+
 TEST_F(StoreTest, WhatWaitsInAClustersQueueHasNotBegun) {
     Store store(file());
     const NewRun run = small_run();
     const std::string fem = task_id(run.id, 0);
     store.write([&](Transaction& t) {
         t.add_run(run);
-        t.move_task(fem, TaskEvent::claim);
-        t.move_attempt(fem, t.add_attempt(fem), AttemptEvent::submit);
+        claim_and_submit(t, fem);
     });
     EXPECT_FALSE(store.attempts_of(fem)[0].started);
     const auto left_of_fem = [&] { return store.left_of(run.id).at(0); };
@@ -129,9 +136,7 @@ TEST_F(StoreTest, TimeForWhichNothingRanIsNotTimeThatATaskHasRun) {
     const std::string fem = task_id(run.id, 0);
     store.write([&](Transaction& t) {
         t.add_run(run);
-        t.move_task(fem, TaskEvent::claim);
-        const auto number = t.add_attempt(fem);
-        t.move_attempt(fem, number, AttemptEvent::submit);
+        const auto number = claim_and_submit(t, fem);
         t.move_task(fem, TaskEvent::start);
         AttemptEnd stopped;
         stopped.exit_code = 143;
@@ -147,8 +152,7 @@ TEST_F(StoreTest, TimeForWhichNothingRanIsNotTimeThatATaskHasRun) {
                         {fem});
     }
     store.write([&](Transaction& t) {
-        t.move_task(fem, TaskEvent::claim);
-        t.move_attempt(fem, t.add_attempt(fem), AttemptEvent::submit);
+        claim_and_submit(t, fem);
         t.move_task(fem, TaskEvent::start);
     });
     const PhaseLeft left = store.left_of(run.id).at(0);
