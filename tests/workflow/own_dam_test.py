@@ -1,4 +1,4 @@
-"""The lines of README's chapter *Your own dam*, run as they stand against a real service: from a template to a report."""
+"""The lines of docs/tutorials/own_dam.md, run as they stand against a real service: from a template to a report."""
 import json
 import os
 import pathlib
@@ -11,7 +11,7 @@ from service import Service
 
 
 def lines_of_chapter():
-    chapter = re.search(r"^## Your own dam$(.*?)^## ", (root / "README.md").read_text(), re.M | re.S).group(1)
+    chapter = (root / "docs/tutorials/own_dam.md").read_text()
     return [line.split(" #")[0].strip() for line in chapter.splitlines() if re.match(r"    (breach|report) ", line)]
 
 
