@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "lem_tool/slip_circle.hpp"
 #include "lem_tool/spencer.hpp"

@@ -1,7 +1,7 @@
 // Surfaces and searches as facts of result.json, and why one is refused.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/scene/scene.hpp"
 #include "lem_tool/search.hpp"

@@ -2,7 +2,7 @@
 // one.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/scene/scene.hpp"
 #include "lem_tool/search.hpp"

@@ -15,10 +15,10 @@ using scene::Vec2;
 using Points = std::vector<Vec2>;
 
 constexpr double no_answer = std::numeric_limits<double>::infinity();
-constexpr double first_step = 0.1;    // of the surface's width
-constexpr double last_step = 5e-4;    // of the surface's width
-constexpr double least_gain = 1e-4;   // relative, of one round: smaller steps from there
-constexpr double least_piece = 0.25;  // of the mean piece's width
+constexpr double first_step = 0.1;            // of the surface's width
+constexpr double last_step = 5e-4;            // of the surface's width
+constexpr double least_gain_of_round = 1e-4;  // relative, of one round: smaller steps from there
+constexpr double least_piece = 0.25;          // of the mean piece's width
 /// At a kink the mass has to shear within itself, which costs strength that no interslice force of
 /// one inclination brings in: surfaces with sharper ones have too low a factor of safety.
 constexpr double sharpest_kink = M_PI / 6.0;
@@ -135,7 +135,7 @@ class Descent {
         while (step > last_step * width()) {
             const double before = value_;
             round(step);
-            if (value_ > before * (1.0 - least_gain)) step *= 0.5;
+            if (value_ > before * (1.0 - least_gain_of_round)) step *= 0.5;
         }
     }
 

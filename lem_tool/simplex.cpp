@@ -11,35 +11,35 @@ constexpr int most_starts = 8;
 constexpr int most_moves = 120;
 constexpr double collapsed = 1e-6;  // of the unit box
 
-using Place = std::array<double, 3>;
-using Function = std::function<double(const Place&)>;
+using Point3 = std::array<double, 3>;
+using Objective = std::function<double(const Point3&)>;
 
-Corner corner(const Function& f, Place at) {
+Corner corner(const Objective& f, Point3 at) {
     for (double& x : at) x = std::clamp(x, 0.0, 1.0);
     return {at, f(at)};
 }
 
-Corner descend_once(const Function& f, const Corner& start, const Place& step) {
+Corner descend_once(const Objective& f, const Corner& start, const Point3& step) {
     std::vector<Corner> corners{start};
     for (int d = 0; d < 3; ++d) {
         if (step[d] == 0.0) continue;
-        Place next = start.at;
+        Point3 next = start.at;
         // turned inwards where the box ends
         next[d] += next[d] + step[d] > 1.0 || next[d] + step[d] < 0.0 ? -step[d] : step[d];
         corners.push_back(corner(f, next));
     }
-    numerics::Simplex<Place> simplex(std::move(corners));
+    numerics::Simplex<Point3> simplex(std::move(corners));
     for (int n = 0; n < most_moves && simplex.extent() > collapsed; ++n) {
-        simplex.move([&](const Place& at) { return corner(f, at); });
+        simplex.move([&](const Point3& at) { return corner(f, at); });
     }
     return simplex.lowest();
 }
 
 }  // namespace
 
-Corner descend(const Function& f, const Corner& start, const Place& step, double gain) {
+Corner descend(const Objective& f, const Corner& start, const Point3& step, double gain) {
     Corner best = start;
-    Place edge = step;
+    Point3 edge = step;
     for (int n = 0; n < most_starts; ++n) {
         const Corner next = descend_once(f, best, edge);
         const bool settled = n > 0 && next.value >= best.value * (1.0 - gain);

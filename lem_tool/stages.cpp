@@ -1,6 +1,7 @@
 #include "lem_tool/stages.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "lem_tool/facts.hpp"

@@ -1,7 +1,7 @@
 // Layers that liquefy from the top down: a search for every stage.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "lem_tool/search.hpp"
 

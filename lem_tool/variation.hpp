@@ -1,7 +1,7 @@
 // What if a parameter is not what the scene says: one at a time, and all at random.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -8,8 +8,8 @@ namespace {
 
 using exchange::MeshSnapshot;
 
-constexpr double coinciding = 1e-12;  // in natural coordinates
-constexpr double round_off = 1e-12;   // of a strain
+constexpr double coinciding = 1e-12;        // in natural coordinates
+constexpr double strain_round_off = 1e-12;  // of a strain
 
 /// Number of the mesh's Gauss point at these natural coordinates, or -1.
 int gauss_at(const MeshSnapshot& mesh, const Vec2& xi) {
@@ -69,7 +69,7 @@ Sources points_as_sources(const MeshSnapshot& mesh, const Points& points) {
 std::vector<double> not_negative(const Values& values, Eigen::Index column, std::size_t& raised) {
     std::vector<double> result(static_cast<std::size_t>(values.rows()));
     for (Eigen::Index p = 0; p < values.rows(); ++p) {
-        if (values(p, column) < -round_off) ++raised;
+        if (values(p, column) < -strain_round_off) ++raised;
         result[p] = std::max(0.0, values(p, column));
     }
     return result;

@@ -5,7 +5,7 @@
 namespace breach::transfer {
 namespace {
 
-constexpr double round_off = 1e-9;  // of the stress itself
+constexpr double stress_round_off = 1e-9;  // of the stress itself
 
 /// The law of one point, with the point's own strength where it has one.
 class LawOfPoint {
@@ -76,7 +76,7 @@ YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
         const materials::State old{state.stress[p], state.epsilon_q_plastic[p]};
         const double excess = materials::yield_excess(law, old);
         if (excess <= 0.0) continue;
-        if (excess > round_off * old.sigma.norm()) {
+        if (excess > stress_round_off * old.sigma.norm()) {
             YieldShare& share = report[state.region[p]];
             ++share.returned;
             share.mass += state.mass[p];

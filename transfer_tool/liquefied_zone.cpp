@@ -42,7 +42,7 @@ std::vector<Reach> reaches(const MeshSnapshot& mesh, const std::vector<char>& re
     return reach;
 }
 
-struct Edge {
+struct ZoneEdge {
     double x;
     double level;
     bool begins;
@@ -53,7 +53,7 @@ struct Edge {
 LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& regions,
                              double threshold, scene::LiquefiedWhen when, double narrowest_wall)
     : highest_(-nowhere), lowest_(nowhere), deepest_(nowhere) {
-    std::vector<Edge> edges;
+    std::vector<ZoneEdge> edges;
     const std::vector<Reach> reach = reaches(mesh, regions);
     const std::vector<double> excess = when == scene::LiquefiedWhen::ever
                                            ? exchange::largest_excess_pressure(mesh)
@@ -69,7 +69,7 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
         deepest_ = std::min(deepest_, place.y());
         ++nodes_;
     }
-    std::ranges::sort(edges, {}, &Edge::x);
+    std::ranges::sort(edges, {}, &ZoneEdge::x);
     std::multiset<double> open;  // levels of the nodes whose columns hold the current x
     for (std::size_t i = 0; i < edges.size(); ++i) {
         if (edges[i].begins)

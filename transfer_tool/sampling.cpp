@@ -10,7 +10,7 @@ namespace breach::transfer {
 namespace {
 
 constexpr double most_points = 50e6;
-constexpr double round_off = 1e-9;  // of a cell's area
+constexpr double area_round_off = 1e-9;  // of a cell's area
 constexpr int most_rounds = 40;
 
 /// The cells under the mesh's bounding box, and which element covers how much of each.
@@ -60,7 +60,7 @@ class CellCover {
             for (int j = from.y(); j <= to.y(); ++j) {
                 const Vec2 low = origin_ + h_ * Vec2(i, j);
                 const double part = area_within(x, low) / (h_ * h_);
-                if (part <= round_off) continue;
+                if (part <= area_round_off) continue;
                 const auto c =
                     static_cast<std::size_t>(i - first_.x()) * static_cast<std::size_t>(rows_) +
                     static_cast<std::size_t>(j - first_.y());
@@ -149,7 +149,7 @@ std::size_t owed(double share, int asked) {
 CellSupply supply_of(const CellCover& cover, const std::vector<std::size_t>& count, int asked) {
     CellSupply supply;
     for (std::size_t c = 0; c < count.size(); ++c) {
-        if (cover.share[c] <= round_off) continue;
+        if (cover.share[c] <= area_round_off) continue;
         ++supply.occupied;
         if (count[c] < owed(cover.share[c], asked)) ++supply.short_cells;
         if (cover.share[c] < 1.0 - 1e-6) continue;

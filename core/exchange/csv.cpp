@@ -1,5 +1,7 @@
 #include "core/exchange/csv.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace breach::exchange {
 
 std::string csv_field(const nlohmann::json& value) {

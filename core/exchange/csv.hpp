@@ -1,7 +1,7 @@
 // Values in tables of comma-separated text (RFC 4180).
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace breach::exchange {

@@ -12,7 +12,7 @@ namespace {
 using mechanics::Vec2;
 using mechanics::Voigt;
 
-const Kind kind{"mesh_snapshot", 1};
+const Kind mesh_kind{"mesh_snapshot", 1};
 
 void check_sizes(const MeshSnapshot& s) {
     const std::size_t nodes = s.position_0.size();
@@ -208,7 +208,7 @@ void check_meaning(Hdf5Reader& reader, const MeshSnapshot& s) {
 void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& snapshot,
                          const Provenance& provenance) {
     check_sizes(snapshot);
-    Hdf5Image image(kind);
+    Hdf5Image image(mesh_kind);
     write_visible(image, snapshot);
     write_exact(image, snapshot);
     write_base_motion(image, snapshot.base_motion);
@@ -217,7 +217,7 @@ void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& 
 }
 
 MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
-    Hdf5Reader reader(path, {kind}, "give a whole FEM snapshot as fem_solver wrote it");
+    Hdf5Reader reader(path, {mesh_kind}, "give a whole FEM snapshot as fem_solver wrote it");
     const std::string here = "/breachline";
     MeshSnapshotFile file;
     MeshSnapshot& s = file.snapshot;

@@ -12,7 +12,7 @@
 namespace breach::exchange {
 namespace {
 
-const Kind kind{"particle_state", 1};
+const Kind particle_kind{"particle_state", 1};
 const Kind frame_kind{"particle_frame", 1};
 const std::string at_points = "/VTKHDF/PointData/";
 const std::string stress_of_regions = "/breachline/stress_of_regions";
@@ -240,7 +240,7 @@ void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
 void write_particle_state(const std::filesystem::path& path, const ParticleState& state,
                           const Provenance& provenance, const Ledger& ledger) {
     check_sizes(state);
-    Hdf5Image image(kind);
+    Hdf5Image image(particle_kind);
     write_points<double>(image, state, [](std::string_view) { return true; });
     write_state(image, state);
     write_stress_measures(image, state.stress_of_regions);
@@ -251,7 +251,7 @@ void write_particle_state(const std::filesystem::path& path, const ParticleState
 }
 
 ParticleStateFile read_particle_state(const std::filesystem::path& path) {
-    Hdf5Reader reader(path, {kind},
+    Hdf5Reader reader(path, {particle_kind},
                       "give whole particles: particles.vtkhdf of transfer_tool or final.vtkhdf of "
                       "mpm_solver, whose frames are only to be looked at");
     ParticleStateFile file;
@@ -284,7 +284,7 @@ void write_particle_frame(const std::filesystem::path& path, const ParticleState
 }
 
 ParticleState read_particle_frame(const std::filesystem::path& path) {
-    Hdf5Reader reader(path, {frame_kind, kind}, "give particles that mpm_solver wrote");
+    Hdf5Reader reader(path, {frame_kind, particle_kind}, "give particles that mpm_solver wrote");
     ParticleState s = read_state(reader, Wanted::what_is_there);
     reader.check_rest();
     reader.refuse_if_faulty();

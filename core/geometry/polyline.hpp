@@ -7,6 +7,11 @@
 
 namespace breach::geometry {
 
+/// z of the cross product: positive where b points to the left of a.
+inline double cross(const mechanics::Vec2& a, const mechanics::Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
 /// Level of the line at x: straight between its points, level beyond its ends [m]. At least one
 /// point, ascending in x.
 double level_at(const std::vector<mechanics::Vec2>& line, double x);

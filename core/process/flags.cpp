@@ -1,5 +1,7 @@
 #include "core/process/flags.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace breach::process {
 
 using nlohmann::json;

@@ -1,7 +1,7 @@
 // Flags as a result and a checkpoint hold them.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "core/fault/flag.hpp"

@@ -1,6 +1,7 @@
 #include "core/scene/norsand.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/words/words.hpp"
 

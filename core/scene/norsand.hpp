@@ -1,7 +1,7 @@
 // NorSand as documents write it: one place knows its keys, their units and what contradicts itself.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::scene {
 
-namespace {
+using geometry::cross;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+namespace {
 
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
 

@@ -1,5 +1,6 @@
 #include "core/scene/sand.hpp"
 
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/words/words.hpp"

@@ -1,7 +1,7 @@
 // PM4Sand as documents write it: one place knows its keys, their units and what follows from D_R.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/materials/pm4sand/pm4sand.hpp"
 

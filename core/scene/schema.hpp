@@ -3,7 +3,7 @@
 // annotations "unit", "x-plausible" and "x-slips" (slips.hpp).
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

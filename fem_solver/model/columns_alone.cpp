@@ -28,18 +28,13 @@ Mesh mesh_of(const Model& whole) {
     return mesh;
 }
 
-std::int32_t root(const std::vector<std::int32_t>& masters, std::int32_t i) {
-    while (masters[i] != i) i = masters[i];
-    return i;
-}
-
 /// Ties among those from `begin` on: the first of each group is its master.
 std::vector<std::int32_t> ties_of(const std::vector<std::int32_t>& masters, std::size_t begin) {
     std::map<std::int32_t, std::int32_t> first_of_group;
     std::vector<std::int32_t> own;
     for (std::size_t i = begin; i < masters.size(); ++i) {
         const auto here = static_cast<std::int32_t>(i - begin);
-        const std::int32_t group = root(masters, static_cast<std::int32_t>(i));
+        const std::int32_t group = root_of(masters, static_cast<std::int32_t>(i));
         own.push_back(first_of_group.try_emplace(group, here).first->second);
     }
     return own;
@@ -49,11 +44,12 @@ std::vector<std::int32_t> ties_of(const std::vector<std::int32_t>& masters, std:
 std::vector<bool> held_of(const Constraints& whole, std::size_t begin) {
     std::vector<bool> group_is_held(whole.held.size(), false);
     for (std::size_t d = 0; d < whole.held.size(); ++d) {
-        if (whole.held[d]) group_is_held[root(whole.master, static_cast<std::int32_t>(d))] = true;
+        if (whole.held[d])
+            group_is_held[root_of(whole.master, static_cast<std::int32_t>(d))] = true;
     }
     std::vector<bool> held;
     for (std::size_t d = begin; d < whole.held.size(); ++d) {
-        held.push_back(group_is_held[root(whole.master, static_cast<std::int32_t>(d))]);
+        held.push_back(group_is_held[root_of(whole.master, static_cast<std::int32_t>(d))]);
     }
     return held;
 }

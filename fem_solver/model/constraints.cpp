@@ -65,15 +65,15 @@ void check_ties(const Constraints& c, const Mesh& mesh, const std::vector<Tie>& 
     }
 }
 
-std::int32_t root(const std::vector<std::int32_t>& masters, std::int32_t i) {
+}  // namespace
+
+std::int32_t root_of(const std::vector<std::int32_t>& masters, std::int32_t i) {
     while (masters[i] != i) i = masters[i];
     return i;
 }
 
-}  // namespace
-
 void tie(std::vector<std::int32_t>& masters, std::int32_t master, std::int32_t slave) {
-    const std::int32_t a = root(masters, master), b = root(masters, slave);
+    const std::int32_t a = root_of(masters, master), b = root_of(masters, slave);
     masters[std::max(a, b)] = std::min(a, b);
 }
 
@@ -138,12 +138,12 @@ Unknowns number_unknowns(const Constraints& c, const std::vector<bool>& pressure
     std::vector<bool> held(c.held.size(), false);  // [masters]
     for (std::size_t d = 0; d < held.size(); ++d) {
         const bool released = base_is_free && d % 2 == 0 && c.is_base[d / 2];
-        if (c.held[d] && !released) held[root(c.master, static_cast<std::int32_t>(d))] = true;
+        if (c.held[d] && !released) held[root_of(c.master, static_cast<std::int32_t>(d))] = true;
     }
     Unknowns unknowns;
     unknowns.of_dof.assign(held.size(), -1);
     for (std::size_t d = 0; d < held.size(); ++d) {
-        const std::int32_t master = root(c.master, static_cast<std::int32_t>(d));
+        const std::int32_t master = root_of(c.master, static_cast<std::int32_t>(d));
         if (held[master]) continue;
         std::int32_t& number = unknowns.of_dof[master];
         if (number < 0) number = unknowns.displacements++;
@@ -154,7 +154,7 @@ Unknowns number_unknowns(const Constraints& c, const std::vector<bool>& pressure
     unknowns.of_pressure.assign(pressure_is_unknown.size(), -1);
     for (std::size_t i = 0; i < pressure_is_unknown.size(); ++i) {
         if (!pressure_is_unknown[i]) continue;
-        const std::int32_t master = root(c.pressure_master, static_cast<std::int32_t>(i));
+        const std::int32_t master = root_of(c.pressure_master, static_cast<std::int32_t>(i));
         std::int32_t& number = unknowns.of_pressure[master];
         if (number < 0) number = unknowns.count++;
         unknowns.of_pressure[i] = number;

@@ -57,6 +57,9 @@ std::vector<std::size_t> nodes_on(const Mesh& mesh, const Vec2& from, const Vec2
 /// No support and no tie: every displacement of these nodes is its own.
 Constraints unconstrained(std::size_t nodes);
 
+/// The dof or node that `i` moves with in the end.
+std::int32_t root_of(const std::vector<std::int32_t>& masters, std::int32_t i);
+
 /// Moves dof `slave` with `master` from now on, and what was tied to either.
 void tie(std::vector<std::int32_t>& masters, std::int32_t master, std::int32_t slave);
 

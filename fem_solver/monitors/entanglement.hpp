@@ -2,7 +2,7 @@
 // mesh and how such an analysis regularly ends, or at one bad corner, which says nothing of the dam.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "core/fault/flag.hpp"

@@ -2,7 +2,7 @@
 // history.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "core/exchange/archive.hpp"

@@ -11,7 +11,7 @@ namespace {
 using fault::Flag;
 using fault::Severity;
 
-std::string text_of(double value) { return words::text_of(value, 3); }
+std::string three_digits(double value) { return words::text_of(value, 3); }
 
 Flag still_moving(const Ending& ending) {
     const char* bound = ending.until_rest ? "/mpm/longest_duration" : "/mpm/duration";
@@ -19,8 +19,8 @@ Flag still_moving(const Ending& ending) {
                                    ? "raise /mpm/longest_duration"
                                    : "raise /mpm/duration or set it to until_rest (--until-rest)";
     return {"still_moving", Severity::questionable,
-            "still moving at " + text_of(ending.time) + " s with " +
-                text_of(100.0 * ending.kinetic_share) + " % of the released energy (" +
+            "still moving at " + three_digits(ending.time) + " s with " +
+                three_digits(100.0 * ending.kinetic_share) + " % of the released energy (" +
                 *ending.moving + "): the runout is a lower bound; " + remedy,
             bound};
 }
@@ -28,9 +28,9 @@ Flag still_moving(const Ending& ending) {
 Flag thin_deposit(const Ending& ending) {
     return {
         "thin_deposit", Severity::warning,
-        "what lies beyond the toe is " + text_of(ending.deposit_depth) + " m deep on the mean, " +
-            text_of(ending.deposit_depth / ending.cell_size) + " cells: on fewer than " +
-            text_of(deposit_cells_wanted) +
+        "what lies beyond the toe is " + three_digits(ending.deposit_depth) +
+            " m deep on the mean, " + three_digits(ending.deposit_depth / ending.cell_size) +
+            " cells: on fewer than " + three_digits(deposit_cells_wanted) +
             " a runout is likely too short, the unsafe side; a run with half the /mpm/cell_size "
             "tells by how much",
         "/mpm/cell_size"};
@@ -40,7 +40,7 @@ Flag overlap(const Ending& ending) {
     const bool trusted = ending.overlap <= largest_overlap;
     return {
         "overlap", trusted ? Severity::warning : Severity::questionable,
-        text_of(100.0 * ending.overlap) +
+        three_digits(100.0 * ending.overlap) +
             " % of the mobile soil lies on other soil (from 1 % on a runout is short, beyond 5 % "
             "it "
             "cannot be trusted): the deposit lacks as much, most of it in front; runouts with 1 to "
@@ -51,9 +51,9 @@ Flag overlap(const Ending& ending) {
 
 Flag overlap_work(const Ending& ending) {
     return {"overlap_work", Severity::warning,
-            "the overlap correction put in " + text_of(100.0 * ending.correction_share) +
+            "the overlap correction put in " + three_digits(100.0 * ending.correction_share) +
                 " % of the released energy (5 % can be trusted), and the rest of the scheme took " +
-                text_of(100.0 * (ending.numerical_share + ending.correction_share)) +
+                three_digits(100.0 * (ending.numerical_share + ending.correction_share)) +
                 " %: the two cancel in the energy, not in the runout, which may be a tenth too "
                 "long and hangs on where the points lie; compare with 16 points per cell (4 per "
                 "direction)",
@@ -67,7 +67,7 @@ Flag share_of_settling(const Ending& ending) {
             "the soil stands: it fell by a few centimetres on the mean and its fronts stayed "
             "within a cell; the scheme " +
                 std::string(ending.numerical_share > 0.0 ? "took " : "made ") +
-                text_of(100.0 * std::abs(ending.numerical_share)) +
+                three_digits(100.0 * std::abs(ending.numerical_share)) +
                 " % of what so small a movement is measured by",
             "/mpm"};
 }
@@ -85,7 +85,7 @@ std::vector<Flag> doubts_of(const Ending& ending) {
         doubts.push_back(
             {"numerical_share", Severity::questionable,
              "the scheme " + std::string(ending.numerical_share > 0.0 ? "took " : "made ") +
-                 text_of(100.0 * std::abs(ending.numerical_share)) +
+                 three_digits(100.0 * std::abs(ending.numerical_share)) +
                  " % of the released energy (at most 20 % can be trusted): the runout is the "
                  "scheme's as much as the soil's; try smaller cells, more points per cell, a "
                  "smaller /mpm/cfl, and the materials' viscosity",
@@ -93,7 +93,7 @@ std::vector<Flag> doubts_of(const Ending& ending) {
     }
     if (!(ending.volume_ratio >= least_volume_ratio && ending.volume_ratio <= most_volume_ratio)) {
         doubts.push_back({"volume_ratio", Severity::questionable,
-                          "the mobile soil has " + text_of(ending.volume_ratio) +
+                          "the mobile soil has " + three_digits(ending.volume_ratio) +
                               " of its initial volume (0.8 to 1.3 can be trusted): depth and "
                               "length of the deposit are wrong; look for spray in the last frame, "
                               "set /mpm/gap_room, try smaller cells or a smaller /mpm/cfl",

@@ -1,6 +1,7 @@
 #include "services/cli/accuracy_view.hpp"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "services/cli/table.hpp"
 

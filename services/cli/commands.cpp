@@ -1,6 +1,7 @@
 #include "services/cli/commands.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/exchange/csv.hpp"
 #include "core/exchange/publish.hpp"

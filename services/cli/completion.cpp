@@ -1,5 +1,7 @@
 #include "services/cli/completion.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace breach::cli {
 
 namespace {

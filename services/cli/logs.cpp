@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "services/cli/views.hpp"

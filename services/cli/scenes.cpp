@@ -1,5 +1,7 @@
 #include "services/cli/scenes.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "core/scene/file_paths.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/stored.hpp"

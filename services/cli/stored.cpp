@@ -1,6 +1,7 @@
 #include "services/cli/stored.hpp"
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/scene/file_paths.hpp"

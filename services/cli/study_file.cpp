@@ -1,6 +1,7 @@
 #include "services/cli/study_file.hpp"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/fault/fault.hpp"

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace breach::cli {
 

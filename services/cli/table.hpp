@@ -1,7 +1,7 @@
 // Tables and numbers for people's eyes: aligned columns of text, nothing else.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,5 +1,7 @@
 #include "services/cli/uncertainty_view.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "services/cli/table.hpp"
 
 namespace breach::cli {

@@ -1,7 +1,7 @@
 // What an uncertainty study found, for people's eyes.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace breach::cli {

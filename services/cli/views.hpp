@@ -1,7 +1,7 @@
 // What the server's answers look like to people. JSON in, text out; asks nobody.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace breach::cli {

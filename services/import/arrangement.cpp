@@ -7,14 +7,16 @@
 #include <optional>
 #include <set>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::importing {
+
+using geometry::cross;
 
 namespace {
 
 constexpr int most_passes = 20;
 constexpr std::size_t most_nodes = 8000, most_steps = 40000;  // lines that cross everywhere
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // ---------------------------------------------------------------- snapping
 

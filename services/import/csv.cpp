@@ -56,9 +56,9 @@ std::string listed(const std::vector<std::string>& header,
     return as_utf8(std::string_view(all).substr(0, 60));
 }
 
-class Reader {
+class CsvReader {
   public:
-    Reader(const LayerMap& layers, const Unit& unit, const std::string& alone)
+    CsvReader(const LayerMap& layers, const Unit& unit, const std::string& alone)
         : layers_(layers), unit_(unit), alone_(alone) {}
 
     Drawing read(std::string_view text) {
@@ -214,7 +214,7 @@ class Reader {
 
 Drawing read_csv(std::string_view text, const LayerMap& layers, const Unit& unit,
                  const std::string& alone) {
-    return Reader(layers, unit, alone).read(text);
+    return CsvReader(layers, unit, alone).read(text);
 }
 
 }  // namespace breach::importing

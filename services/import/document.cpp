@@ -15,7 +15,7 @@ namespace {
 /// A micrometre is enough, and what two regions share stays equal.
 double rounded(double value) { return std::round(1e6 * value) / 1e6; }
 
-json as_json(const std::vector<Vec2>& line) {
+json line_as_json(const std::vector<Vec2>& line) {
     json list = json::array();
     for (const Vec2& each : line) list.push_back(importing::as_json(each));
     return list;
@@ -24,7 +24,7 @@ json as_json(const std::vector<Vec2>& line) {
 json section_of(const std::vector<Soil>& soils, double element_size) {
     json regions = json::array();
     for (const Soil& each : soils) {
-        json polygon = as_json(each.ring);
+        json polygon = line_as_json(each.ring);
         polygon.push_back(polygon.front());
         regions.push_back({{"name", each.name},
                            {"material", each.material},
@@ -52,7 +52,7 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
             {"domain_x", {down(box.low.x()), up(box.high.x())}},
             {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
             {"floor", {{"level", floor}}},
-            {"terrain", as_json(terrain)},
+            {"terrain", line_as_json(terrain)},
             {"fill_stress", "overburden"},
             {"duration", "until_rest"},
             {"runout", {{"toe", importing::as_json(toe)}}}};
@@ -92,7 +92,7 @@ Document document_of(const std::string& name, const json& materials, const std::
         guess("/lem/search/entry", ranges.entry, from);
         guess("/lem/search/exit", ranges.exit, from);
         if (!lines.phreatic.empty())
-            document.scene["lem"]["water"]["line"] = as_json(lines.phreatic);
+            document.scene["lem"]["water"]["line"] = line_as_json(lines.phreatic);
     } else {
         document.remarks.push_back(
             std::string("the ground has no slope to search: the scene has no /lem") +

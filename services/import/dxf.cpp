@@ -40,9 +40,9 @@ struct Corner {
     std::size_t line = 0;
 };
 
-class Reader {
+class DxfReader {
   public:
-    Reader(std::string_view text, const LayerMap& layers, const DxfWish& wish)
+    DxfReader(std::string_view text, const LayerMap& layers, const DxfWish& wish)
         : records_(text), layers_(layers), wish_(wish) {}
 
     Drawing read() {
@@ -424,7 +424,7 @@ class Reader {
 }  // namespace
 
 Drawing read_dxf(std::string_view text, const LayerMap& layers, const DxfWish& wish) {
-    return Reader(text, layers, wish).read();
+    return DxfReader(text, layers, wish).read();
 }
 
 }  // namespace breach::importing

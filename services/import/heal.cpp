@@ -8,11 +8,13 @@
 #include <set>
 #include <tuple>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::importing {
 
-namespace {
+using geometry::cross;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+namespace {
 
 // ---------------------------------------------------------------- one outline
 

@@ -1,5 +1,7 @@
 #include "services/outflow/hydrograph.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/geometry/polyline.hpp"
 #include "core/words/number.hpp"

@@ -1,7 +1,7 @@
 // From an outline to a scene: layers, materials with what is assumed of them, and each phase's part.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "services/templates/outline.hpp"

@@ -2,7 +2,7 @@
 // sentence each. Nothing here knows a scene.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -10,9 +10,9 @@
 
 namespace breach::templates {
 
-namespace {
+using geometry::cross;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+namespace {
 
 /// Where two segments meet; their ends count. Parallel ones meet nowhere.
 std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {

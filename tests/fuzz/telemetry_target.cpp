@@ -1,6 +1,7 @@
 // Telemetry lines as they are taken: by criteria, by a watch of a running phase, and for the API's
 // answer.
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/criteria/criterion.hpp"
 #include "core/telemetry/lines.hpp"

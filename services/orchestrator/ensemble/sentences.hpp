@@ -1,7 +1,7 @@
 // What an uncertainty study found, in sentences for people.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

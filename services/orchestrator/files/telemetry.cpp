@@ -1,5 +1,7 @@
 #include "services/orchestrator/files/telemetry.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "core/telemetry/lines.hpp"
 
 namespace breach::orchestrator {

@@ -2,7 +2,7 @@
 // httplib cannot be read together.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace breach::orchestrator {

@@ -1,6 +1,7 @@
 #include "services/orchestrator/programs/plan_question.hpp"
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"

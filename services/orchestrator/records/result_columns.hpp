@@ -3,7 +3,7 @@
 // MPM's result.json is one more line in result_columns.cpp.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "core/words/words.hpp"
 #include "services/orchestrator/sampling/points.hpp"

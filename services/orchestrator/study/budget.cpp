@@ -1,5 +1,7 @@
 #include "services/orchestrator/study/budget.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "core/fault/fault.hpp"
 #include "core/scene/schema.hpp"
 

@@ -1,7 +1,7 @@
 // The entry "budget" of a study, on its own: as a cost is held against it, or a run gets another.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace breach::orchestrator {
 

@@ -101,7 +101,7 @@ struct Count {
     double cpu_seconds = 0.0;
 };
 
-Count count_of(const Run& run, const std::string& variant) {
+Count counts_of_variant(const Run& run, const std::string& variant) {
     Count count;
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->variant != variant) continue;
@@ -131,7 +131,7 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
     const auto distance = [&](const std::optional<double>& value) {
         return (bound && value ? at_least : "") + or_dash(value);
     };
-    const Count count = count_of(run, variant);
+    const Count count = counts_of_variant(run, variant);
     WindowEdges window;
     std::string fem_end = "-";
     if (const PhaseFolder* fem = phase_of_variant(run, phases::fem.program, variant);

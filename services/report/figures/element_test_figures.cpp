@@ -1,6 +1,7 @@
 #include "services/report/figures/element_test_figures.hpp"
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/exchange/archive.hpp"
 #include "core/fault/fault.hpp"

@@ -2,7 +2,7 @@
 // state line, its dilatancy.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/exchange/archive.hpp"
 #include "services/report/chart/figure.hpp"

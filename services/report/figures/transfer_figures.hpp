@@ -2,7 +2,7 @@
 // the mesh (before) and on the points (after), with the same colours.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/particle_state.hpp"

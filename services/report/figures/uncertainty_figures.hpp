@@ -1,7 +1,7 @@
 // Figures of a study over distributions, from what the service told of it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "services/report/chart/figure.hpp"

@@ -1,6 +1,7 @@
 #include "services/report/read/entries.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"

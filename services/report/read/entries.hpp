@@ -2,7 +2,7 @@
 // program's own value. What an entry means is the schema's to say.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

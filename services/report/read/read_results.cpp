@@ -1,6 +1,7 @@
 #include "services/report/read/read_results.hpp"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
 

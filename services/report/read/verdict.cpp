@@ -108,14 +108,14 @@ std::vector<Finding> findings_of(const Run& run) {
     return found;
 }
 
-std::size_t count_of(const Run& run, const std::string& phase) {
+std::size_t tasks_of_phase(const Run& run, const std::string& phase) {
     return phases_named(run, phase).size();
 }
 
 /// "12 of 51 runouts", "the FEM".
 std::string whose(const Run& run, const std::string& phase, std::size_t count) {
     const phases::Phase* known = phases::named(phase);
-    const std::size_t all = count_of(run, phase);
+    const std::size_t all = tasks_of_phase(run, phase);
     if (all == 1) return known ? known->one : phase;
     return std::to_string(count) + " of " + std::to_string(all) + " " +
            (known ? known->analyses : phase);

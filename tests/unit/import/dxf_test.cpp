@@ -10,7 +10,7 @@
 #include "services/import/csv.hpp"
 #include "services/import/dxf_records.hpp"
 
-namespace breach::importing {
+namespace breach::importing::dxf_test {
 namespace {
 
 using test::dxf;
@@ -229,4 +229,4 @@ TEST(Csv, DecimalCommasBetweenCommasAreRefused) {
 }
 
 }  // namespace
-}  // namespace breach::importing
+}  // namespace breach::importing::dxf_test

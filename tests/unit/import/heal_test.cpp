@@ -9,7 +9,7 @@
 
 #include "drawings.hpp"
 
-namespace breach::importing {
+namespace breach::importing::heal_test {
 namespace {
 
 using test::Line;
@@ -152,4 +152,4 @@ TEST(Heal, AWedgeThatThinsOutKeepsItsTip) {
 }
 
 }  // namespace
-}  // namespace breach::importing
+}  // namespace breach::importing::heal_test

@@ -15,7 +15,7 @@
 #include "fem_solver/mesh/mesh.hpp"
 #include "tests/folder.hpp"
 
-namespace breach::importing {
+namespace breach::importing::import_test {
 namespace {
 
 using mechanics::Vec2;
@@ -310,4 +310,4 @@ TEST(Import, PolygonsInATableAreTheSameSection) {
 }
 
 }  // namespace
-}  // namespace breach::importing
+}  // namespace breach::importing::import_test

@@ -5,7 +5,7 @@
 
 #include "core/materials/side_by_side.hpp"
 
-namespace breach::testing {
+namespace breach::testing::calls_test {
 namespace {
 
 using mechanics::Voigt;
@@ -126,4 +126,4 @@ TEST(LawCalls, ItDoesNotHoldUpThoseBesideIt) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::calls_test

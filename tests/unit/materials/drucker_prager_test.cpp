@@ -7,7 +7,7 @@
 
 #include "tests/unit/materials/samples.hpp"
 
-namespace breach::materials {
+namespace breach::materials::drucker_prager_test {
 namespace {
 
 using samples::degree;
@@ -141,4 +141,4 @@ TEST(DruckerPrager, TangentAgreesWithFiniteDifferencesEverywhere) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::drucker_prager_test

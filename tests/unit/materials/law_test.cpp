@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace breach::materials {
+namespace breach::materials::law_test {
 namespace {
 
 /// One of each law, with all that an answer could depend on.
@@ -61,4 +61,4 @@ TEST(Laws, ScaleTheirStiffnessAndTheStrainsOfTheirSoftening) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::law_test

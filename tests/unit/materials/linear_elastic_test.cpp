@@ -2,7 +2,7 @@
 
 #include "core/materials/law.hpp"
 
-namespace breach::materials {
+namespace breach::materials::linear_elastic_test {
 namespace {
 
 constexpr mechanics::Elasticity rock{5e7, 0.25};
@@ -34,4 +34,4 @@ TEST(Law, GivesItsElasticityWhateverItIs) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::linear_elastic_test

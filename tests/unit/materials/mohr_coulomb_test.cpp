@@ -6,7 +6,7 @@
 
 #include "tests/unit/materials/samples.hpp"
 
-namespace breach::materials {
+namespace breach::materials::mohr_coulomb_test {
 namespace {
 
 using samples::degree;
@@ -187,4 +187,4 @@ TEST(MohrCoulomb, ReadyLawGivesTheSameDigits) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::mohr_coulomb_test

@@ -12,7 +12,7 @@
 
 #include "tests/unit/materials/samples.hpp"
 
-namespace breach::materials {
+namespace breach::materials::principal_return_test {
 namespace {
 
 struct Plane {
@@ -176,4 +176,4 @@ TEST(PrincipalReturn, CutOffAloneIsRankine) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::principal_return_test

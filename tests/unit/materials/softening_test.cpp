@@ -3,7 +3,7 @@
 #include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "tests/unit/materials/samples.hpp"
 
-namespace breach::materials {
+namespace breach::materials::softening_test {
 namespace {
 
 using samples::degree;
@@ -80,4 +80,4 @@ TEST(Softening, CutOffFollowsTheApexDown) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::softening_test

@@ -7,7 +7,7 @@
 #include "core/materials/strength/profile.hpp"
 #include "core/mechanics/atmosphere.hpp"
 
-namespace breach::materials {
+namespace breach::materials::strength_test {
 namespace {
 
 using enum Relation;
@@ -134,4 +134,4 @@ TEST(StrengthProfile, PointsSoftenFromPeakToResidualUnlessLiquefied) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::strength_test

@@ -5,7 +5,7 @@
 #include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "tests/unit/materials/samples.hpp"
 
-namespace breach::materials {
+namespace breach::materials::tangent_test {
 namespace {
 
 Matrix4 by_differences(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon,
@@ -124,4 +124,4 @@ TEST(ConsistentTangent, StaysFiniteForHugeSteps) {
 }
 
 }  // namespace
-}  // namespace breach::materials
+}  // namespace breach::materials::tangent_test

@@ -7,7 +7,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::accuracy_api_test {
 namespace {
 
 using nlohmann::json;
@@ -568,4 +568,4 @@ TEST(Means, AreTheSameAfterAKill) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::accuracy_api_test

@@ -4,7 +4,7 @@
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "tests/unit/orchestrator/column_study.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::accuracy_study_test {
 namespace {
 
 using nlohmann::json;
@@ -386,4 +386,4 @@ TEST(ValueAt, LiesBetweenTheLinesAndNeverBeyond) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::accuracy_study_test

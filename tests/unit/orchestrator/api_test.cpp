@@ -9,7 +9,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::api_test {
 namespace {
 
 using nlohmann::json;
@@ -339,4 +339,4 @@ TEST(ApiDoor, PortInUseIsSaid) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::api_test

@@ -12,7 +12,7 @@
 #include "services/orchestrator/store/migrations.hpp"
 #include "services/orchestrator/store/store.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::audit_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST_F(AuditTest, WantsAFolderOfAService) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::audit_test

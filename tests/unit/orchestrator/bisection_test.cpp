@@ -6,7 +6,7 @@
 #include <functional>
 #include <iostream>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::bisection_test {
 namespace {
 
 struct Search {
@@ -111,4 +111,4 @@ TEST(Bisection, OneTwoOrNoSnapshotsAreNoTrap) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::bisection_test

@@ -3,7 +3,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::budget_test {
 namespace {
 
 using nlohmann::json;
@@ -171,4 +171,4 @@ TEST(Sweep, IsPlanningUntilATriggerSaysWhenToTransfer) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::budget_test

@@ -5,7 +5,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::cache_test {
 namespace {
 
 using nlohmann::json;
@@ -275,4 +275,4 @@ TEST(Variants, FaultsNameTheVariant) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::cache_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::clock_of_day_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -46,4 +46,4 @@ TEST(ClockOfDay, ReadsTheMachinesClocks) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::clock_of_day_test

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::convergence_test {
 namespace {
 
 Rung rung(double size, double value, std::optional<double> deviation = {}, std::size_t count = 1) {
@@ -225,4 +225,4 @@ TEST(Pareto, CheapestWithinTheAskedErrorOrNone) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::convergence_test

@@ -3,7 +3,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::extension_test {
 namespace {
 
 using nlohmann::json;
@@ -132,4 +132,4 @@ TEST(Extension, IsCheckedLikeAStudy) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::extension_test

@@ -11,7 +11,7 @@
 #include "core/phases/phases.hpp"
 #include "tests/folder.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::frames_test {
 namespace {
 
 /// Three unit squares on top of each other, two nodes per level; water in the lower two.
@@ -124,4 +124,4 @@ TEST_F(Frames, AFieldThatTheSnapshotLacksIsNamedWithThoseItHas) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::frames_test

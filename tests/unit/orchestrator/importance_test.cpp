@@ -14,7 +14,7 @@
 #include <numbers>
 #include <random>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::importance_test {
 namespace {
 
 struct Known {
@@ -132,4 +132,4 @@ TEST(Importance, WithTooFewSamplesOrNothingThatVariesThereIsNone) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::importance_test

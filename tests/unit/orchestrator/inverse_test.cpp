@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::inverse_test {
 namespace {
 
 const InverseQuestion question{.target = 215.0,
@@ -199,4 +199,4 @@ TEST(Inverse, OfAValueThatIsNoFactorHalvesTheRangeItself) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::inverse_test

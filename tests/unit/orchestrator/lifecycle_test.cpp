@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::lifecycle_test {
 namespace {
 
 /// The allowed moves as "from --event--> to", written down a second time on purpose.
@@ -95,7 +96,8 @@ TEST(Lifecycle, EveryStateCanReachAFinalOne) {
                 if (reached.contains(rule.from)) reached.insert(rule.to);
             }
         }
-        EXPECT_TRUE(std::any_of(reached.begin(), reached.end(), is_final)) << name_of(start);
+        EXPECT_TRUE(std::ranges::any_of(reached, [](TaskState state) { return is_final(state); }))
+            << name_of(start);
     }
 }
 
@@ -107,4 +109,4 @@ TEST(Lifecycle, NamesAreReadBack) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::lifecycle_test

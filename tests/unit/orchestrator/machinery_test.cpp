@@ -5,7 +5,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::machinery_test {
 namespace {
 
 using nlohmann::json;
@@ -150,4 +150,4 @@ TEST(Provenance, LeadsFromARunoutToItsSceneAndStudy) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::machinery_test

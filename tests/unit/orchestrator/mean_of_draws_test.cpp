@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::mean_of_draws_test {
 namespace {
 
 TEST(StudentFactor, IsThatOfTheTables) {
@@ -119,4 +119,4 @@ TEST(MeanOfDraws, OverSeveralLaddersKeepsItsPromise) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::mean_of_draws_test

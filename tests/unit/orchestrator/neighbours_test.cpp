@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::neighbours_test {
 namespace {
 
 TEST(Neighbours, AStraightLineScattersByNothingHoweverItIsSampled) {
@@ -46,4 +46,4 @@ TEST(Neighbours, FewerThanFiveTellNothing) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::neighbours_test

@@ -12,7 +12,7 @@
 
 #include "services/orchestrator/uncertainty/incomplete_beta.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::percentiles_test {
 namespace {
 
 std::vector<double> known_values() {
@@ -124,4 +124,4 @@ TEST(Exceedance, OfManyValuesIsShownAtASpreadOfThem) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::percentiles_test

@@ -5,7 +5,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::queue_test {
 namespace {
 
 using nlohmann::json;
@@ -129,4 +129,4 @@ TEST(Metrics, CountWhatWasDone) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::queue_test

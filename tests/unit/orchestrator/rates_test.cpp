@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::rates_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -40,4 +40,4 @@ TEST(Rates, ACrowdSharesOneBucketUntilOthersAreFullAgain) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::rates_test

@@ -9,7 +9,7 @@
 #include "tests/folder.hpp"
 #include "tests/unit/orchestrator/small_run.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::removal_store_test {
 namespace {
 
 class RemovalStore : public ::testing::Test {
@@ -175,4 +175,4 @@ TEST_F(RemovalStore, DatabaseOfTheVersionBeforeIsTakenOver) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::removal_store_test

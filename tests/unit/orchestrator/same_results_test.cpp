@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::orchestrator {
+#include <nlohmann/json.hpp>
+
+namespace breach::orchestrator::same_results_test {
 namespace {
 
 using nlohmann::json;
@@ -45,4 +47,4 @@ TEST(SameResults, AreNoneOfWhatHasNotEndedOrIsADrawOfAnother) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::same_results_test

@@ -3,13 +3,14 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "services/orchestrator/sampling/points.hpp"
 #include "services/orchestrator/sampling/rank_correlation.hpp"
 #include "services/orchestrator/sampling/samples.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::sampling_test {
 namespace {
 
 // The numbers of scipy below were printed by Debian's python3-scipy 1.10.1 (scipy.stats.norm, lognorm,
@@ -204,4 +205,4 @@ TEST(Samples, AreTheSameOnEveryMachine) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::sampling_test

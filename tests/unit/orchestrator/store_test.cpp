@@ -18,7 +18,7 @@
 #include "tests/folder.hpp"
 #include "tests/unit/orchestrator/small_run.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::store_test {
 namespace {
 
 using nlohmann::json;
@@ -915,4 +915,4 @@ TEST(Identity, RunIdsAscendAndDiffer) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::store_test

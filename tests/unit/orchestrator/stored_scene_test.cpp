@@ -3,7 +3,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::stored_scene_test {
 namespace {
 
 using nlohmann::json;
@@ -130,4 +130,4 @@ TEST(StoredScenes, OutliveAKill) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::stored_scene_test

@@ -18,7 +18,7 @@
 #include "services/orchestrator/study/recipe.hpp"
 #include "tests/folder.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::study_test {
 namespace {
 
 using nlohmann::json;
@@ -519,4 +519,4 @@ TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::study_test

@@ -9,7 +9,7 @@
 #include "core/exchange/archive.hpp"
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::submission_test {
 namespace {
 
 using nlohmann::json;
@@ -278,4 +278,4 @@ TEST(Examples, AreStudiesThatCanBeSentAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::submission_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::surrogate_test {
 namespace {
 
 /// Two lognormal numbers of medians 1 and 5 and a choice between three.
@@ -96,4 +96,4 @@ TEST(Surrogate, OfTooFewSamplesOrEqualResultsIsRefused) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::surrogate_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::time_left_test {
 namespace {
 
 TEST(TimeLeft, GoesByThePaceOfEachPhaseAndTheWorkersOfNow) {
@@ -31,4 +31,4 @@ TEST(TimeLeft, OfASingleTaskGoesByItsOwnProgress) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::time_left_test

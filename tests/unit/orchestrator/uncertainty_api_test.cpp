@@ -6,7 +6,7 @@
 
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::uncertainty_api_test {
 namespace {
 
 using nlohmann::json;
@@ -190,4 +190,4 @@ TEST(Samples, ArePlannedBeforeTheyAreSubmitted) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::uncertainty_api_test

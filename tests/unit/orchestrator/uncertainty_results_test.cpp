@@ -12,7 +12,7 @@
 #include "core/exchange/archive.hpp"
 #include "tests/faults/service_under_test.hpp"
 
-namespace breach::testing {
+namespace breach::testing::uncertainty_results_test {
 namespace {
 
 using nlohmann::json;
@@ -245,4 +245,4 @@ TEST(UncertaintyResults, OfAnotherStudyThereIsNone) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::uncertainty_results_test

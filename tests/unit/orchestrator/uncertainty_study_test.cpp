@@ -6,7 +6,7 @@
 
 #include "tests/unit/orchestrator/column_study.hpp"
 
-namespace breach::orchestrator {
+namespace breach::orchestrator::uncertainty_study_test {
 namespace {
 
 using nlohmann::json;
@@ -313,4 +313,4 @@ TEST(UncertaintyStudy, RefusesChoicesAndNumbersThatAreNone) {
 }
 
 }  // namespace
-}  // namespace breach::orchestrator
+}  // namespace breach::orchestrator::uncertainty_study_test

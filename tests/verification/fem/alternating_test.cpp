@@ -7,7 +7,7 @@
 
 #include "tests/verification/fem/wet.hpp"
 
-namespace breach::fem {
+namespace breach::fem::alternating_test {
 namespace {
 
 using bench::expect_error;
@@ -225,4 +225,4 @@ TEST(LiquefiedBand, LosesThreeQuartersOfWhatAlternatesWithFullIntegrals) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::alternating_test

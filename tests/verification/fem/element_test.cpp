@@ -4,7 +4,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::element_test {
 namespace {
 
 using bench::expect_error;
@@ -144,4 +144,4 @@ TEST(Element, DoesNotLockInCooksMembrane) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::element_test

@@ -5,7 +5,7 @@
 #include "core/exchange/mesh_snapshot.hpp"
 #include "tests/verification/fem/begun_element.hpp"
 
-namespace breach::fem {
+namespace breach::fem::failure_test {
 namespace {
 
 using bench::expect_error;
@@ -394,4 +394,4 @@ TEST(Crest, FarFromEveryNodeIsSaid) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::failure_test

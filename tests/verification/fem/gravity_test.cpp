@@ -1,7 +1,7 @@
 // A soil layer under its own weight between smooth walls: stress, K0 and settlement in closed form.
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::gravity_test {
 namespace {
 
 using bench::expect_error;
@@ -56,4 +56,4 @@ TEST(GravityColumn, StaysInEquilibriumWhenTheSceneLawCanCarryIt) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::gravity_test

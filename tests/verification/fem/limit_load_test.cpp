@@ -5,7 +5,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::limit_load_test {
 namespace {
 
 using bench::expect_error;
@@ -123,4 +123,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, Biaxial,
                                          Specimen{"drucker_prager", 30}));
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::limit_load_test

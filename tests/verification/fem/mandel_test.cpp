@@ -2,7 +2,7 @@
 // couples skeleton and water both ways shows it.
 #include "tests/verification/fem/wet.hpp"
 
-namespace breach::fem {
+namespace breach::fem::mandel_test {
 namespace {
 
 using bench::expect_error;
@@ -106,4 +106,4 @@ TEST(Mandel, PressureRisesAboveItsInitialValueAndFalls) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::mandel_test

@@ -9,7 +9,7 @@
 #include "fem_solver/solve/memory.hpp"
 #include "tests/verification/fem/begun_element.hpp"
 
-namespace breach::fem {
+namespace breach::fem::norsand_test {
 namespace {
 
 namespace norsand = materials::norsand;
@@ -236,4 +236,4 @@ TEST(NorSandInTheMesh, ASceneSaysWhatTheSoilCannotBe) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::norsand_test

@@ -6,7 +6,7 @@
 
 #include "tests/verification/fem/wet.hpp"
 
-namespace breach::fem {
+namespace breach::fem::porous_test {
 namespace {
 
 using bench::expect_error;
@@ -189,4 +189,4 @@ TEST(PoreWater, OfASoilWithoutPermeabilityIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::porous_test

@@ -10,7 +10,7 @@
 #include "fem_solver/snapshot_request.hpp"
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::request_test {
 namespace {
 
 using nlohmann::json;
@@ -98,4 +98,4 @@ TEST(SnapshotInterval, EqualToTheStepGivesEveryStepOnce) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::request_test

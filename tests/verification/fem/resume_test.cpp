@@ -10,7 +10,7 @@
 #include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::resume_test {
 namespace {
 
 using nlohmann::json;
@@ -244,4 +244,4 @@ TEST(Checkpoint, KeepsTheFlagsOfTheWay) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::resume_test

@@ -13,7 +13,7 @@
 #include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::sand_column_test {
 namespace {
 
 using bench::expect_error;
@@ -250,4 +250,4 @@ TEST(SandColumn, SchemesOfTheLawAgree) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::sand_column_test

@@ -10,7 +10,7 @@
 #include "fem_solver/solve/memory.hpp"
 #include "tests/verification/fem/begun_element.hpp"
 
-namespace breach::fem {
+namespace breach::fem::sand_test {
 namespace {
 
 namespace pm4sand = materials::pm4sand;
@@ -158,4 +158,4 @@ TEST(SandInTheMesh, RefusesALateElasticStage) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::sand_test

@@ -7,7 +7,7 @@
 #include "fem_solver/model/ssp_quad.hpp"
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::ssp_test {
 namespace {
 
 using bench::expect_error;
@@ -203,4 +203,4 @@ TEST(SspQuad, SoftensWithTheSoilAndItsForceStaysContinuous) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::ssp_test

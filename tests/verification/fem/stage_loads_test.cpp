@@ -5,7 +5,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::stage_loads_test {
 namespace {
 
 using bench::cj1;
@@ -284,4 +284,4 @@ TEST(SofteningByRegion, NamesNorSandThatIsThere) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::stage_loads_test

@@ -8,7 +8,7 @@
 #include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::stages_test {
 namespace {
 
 using bench::expect_error;
@@ -540,4 +540,4 @@ TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::stages_test

@@ -3,7 +3,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::stiff_test {
 namespace {
 
 using bench::expect_error;
@@ -122,4 +122,4 @@ TEST(Extreme, AHeapThatCannotStandUnderStaticPlasticityStopsClearly) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::stiff_test

@@ -6,7 +6,7 @@
 
 #include "tests/verification/fem/begun_element.hpp"
 
-namespace breach::fem {
+namespace breach::fem::turning_test {
 namespace {
 
 using bench::expect_error;
@@ -129,4 +129,4 @@ TEST(MovingMesh, TurnsWhatLawsRememberExactlyWithARigidRotation) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::turning_test

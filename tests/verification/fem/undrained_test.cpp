@@ -5,7 +5,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::undrained_test {
 namespace {
 
 namespace norsand = materials::norsand;
@@ -351,4 +351,4 @@ TEST(StageLoads, WhatCannotBeIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::undrained_test

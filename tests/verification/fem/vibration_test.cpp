@@ -5,7 +5,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::vibration_test {
 namespace {
 
 using bench::expect_error;
@@ -104,4 +104,4 @@ TEST(ElasticWave, LosesEnergyOnlyWithNumericalDamping) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::vibration_test

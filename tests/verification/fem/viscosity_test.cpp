@@ -9,7 +9,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::viscosity_test {
 namespace {
 
 using bench::expect_error;
@@ -213,4 +213,4 @@ TEST(Viscosity, DampsAllMotionOfAnElementButRigidOne) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::viscosity_test

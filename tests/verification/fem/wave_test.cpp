@@ -8,7 +8,7 @@
 
 #include "tests/verification/fem/bench.hpp"
 
-namespace breach::fem {
+namespace breach::fem::wave_test {
 namespace {
 
 using bench::expect_error;
@@ -167,4 +167,4 @@ TEST(RickerPulse, LeavesThroughABaseOfTheSameRock) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::wave_test

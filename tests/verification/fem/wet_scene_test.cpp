@@ -6,7 +6,7 @@
 #include "core/phases/files.hpp"
 #include "tests/verification/fem/wet.hpp"
 
-namespace breach::fem {
+namespace breach::fem::wet_scene_test {
 namespace {
 
 using bench::expect_error;
@@ -357,4 +357,4 @@ TEST(FreeField, ASideThatIsHeldIsRefused) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::wet_scene_test

@@ -3,7 +3,7 @@
 
 #include "tests/verification/fem/wet.hpp"
 
-namespace breach::fem {
+namespace breach::fem::wet_stiff_test {
 namespace {
 
 using bench::expect_error;
@@ -124,4 +124,4 @@ TEST(WetExtreme, ThreeGEndsClearly) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::wet_stiff_test

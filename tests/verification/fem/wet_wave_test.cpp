@@ -2,7 +2,7 @@
 // vibrates with the modulus M + K_f / n. Order of convergence of the coupled step in time and mesh.
 #include "tests/verification/fem/wet.hpp"
 
-namespace breach::fem {
+namespace breach::fem::wet_wave_test {
 namespace {
 
 using bench::expect_error;
@@ -114,4 +114,4 @@ TEST(WetWave, ConvergesWithOrderTwoInTheTimeStepWhileItDrains) {
 }
 
 }  // namespace
-}  // namespace breach::fem
+}  // namespace breach::fem::wet_wave_test

@@ -6,7 +6,7 @@
 #include "lem_tool/slip_circle.hpp"
 #include "tests/verification/lem/case_scene.hpp"
 
-namespace breach::lem {
+namespace breach::lem::closed_form_test {
 namespace {
 
 using cases::json;
@@ -101,4 +101,4 @@ TEST(BishopFactor, SatisfiesItsOwnEquation) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::closed_form_test

@@ -7,7 +7,7 @@
 #include "lem_tool/facts.hpp"
 #include "tests/unit/lem/small_scenes.hpp"
 
-namespace breach::lem {
+namespace breach::lem::composite_and_crack_test {
 namespace {
 
 using small::json;
@@ -263,4 +263,4 @@ TEST(UndrainedStrength, IsAMaterialWithoutFriction) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::composite_and_crack_test

@@ -7,7 +7,7 @@
 #include "lem_tool/slip_circle.hpp"
 #include "tests/verification/lem/case_scene.hpp"
 
-namespace breach::lem {
+namespace breach::lem::loads_test {
 namespace {
 
 using cases::json;
@@ -97,4 +97,4 @@ TEST(Surcharge, DrivesBehindTheCentreAndHoldsBeforeIt) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::loads_test

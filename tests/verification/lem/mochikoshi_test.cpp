@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "lem_tool/facts.hpp"
 #include "lem_tool/limit_scene.hpp"
 #include "lem_tool/search.hpp"
 
-namespace breach::lem {
+namespace breach::lem::mochikoshi_test {
 namespace {
 
 scene::Scene mochikoshi() {
@@ -90,4 +91,4 @@ TEST(LimitScene, RefusesLevelsThatLeaveNothing) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::mochikoshi_test

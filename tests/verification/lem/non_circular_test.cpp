@@ -14,7 +14,7 @@
 #include "tests/unit/lem/small_scenes.hpp"
 #include "tests/verification/lem/case_scene.hpp"
 
-namespace breach::lem {
+namespace breach::lem::non_circular_test {
 namespace {
 
 using small::json;
@@ -201,4 +201,4 @@ TEST(Optimised, DoesNotNeedTheSameVerticesForTheSameFactor) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::non_circular_test

@@ -8,7 +8,7 @@
 #include "lem_tool/facts.hpp"
 #include "tests/verification/lem/case_scene.hpp"
 
-namespace breach::lem {
+namespace breach::lem::published_problems_test {
 namespace {
 
 /// The facts of result.json: of the critical surface, or of the given circle.
@@ -134,4 +134,4 @@ TEST(AcadsWithShaking, IsReproduced) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::published_problems_test

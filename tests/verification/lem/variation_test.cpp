@@ -10,7 +10,7 @@
 #include "lem_tool/hypercube.hpp"
 #include "tests/unit/lem/small_scenes.hpp"
 
-namespace breach::lem {
+namespace breach::lem::variation_test {
 namespace {
 
 using small::json;
@@ -145,4 +145,4 @@ TEST(ProbabilityOfFailure, RefusesWhatTheSceneDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::variation_test

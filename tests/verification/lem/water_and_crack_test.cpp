@@ -8,7 +8,7 @@
 #include "tests/unit/lem/small_scenes.hpp"
 #include "tests/verification/lem/case_scene.hpp"
 
-namespace breach::lem {
+namespace breach::lem::water_and_crack_test {
 namespace {
 
 using small::json;
@@ -208,4 +208,4 @@ TEST(TensionCrack, IsSaidInOneWay) {
 }
 
 }  // namespace
-}  // namespace breach::lem
+}  // namespace breach::lem::water_and_crack_test

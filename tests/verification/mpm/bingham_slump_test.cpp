@@ -9,7 +9,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::bingham_slump_test {
 namespace {
 
 constexpr double rho = 1800.0;
@@ -108,4 +108,4 @@ TEST(BinghamSlump, RunsAsLubricationSaysOnSplines) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::bingham_slump_test

@@ -8,7 +8,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::column_runout_test {
 namespace {
 
 scene::Scene column(double L_0, double height, double h, double E, double c, double mu) {
@@ -122,4 +122,4 @@ TEST(ReferenceColumn, WithOurDefaultsIsNearAnotherCode) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::column_runout_test

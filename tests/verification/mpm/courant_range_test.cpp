@@ -5,7 +5,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::courant_range_test {
 namespace {
 
 void expect_whole(const std::string& name, const std::vector<std::string>& overrides, double end) {
@@ -47,4 +47,4 @@ TEST(CourantRange, MochikoshiStaysWhole) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::courant_range_test

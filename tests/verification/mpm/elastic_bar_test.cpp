@@ -3,7 +3,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::elastic_bar_test {
 namespace {
 
 constexpr double L = 25.0;
@@ -92,4 +92,4 @@ TEST(ElasticBar, LosesEnergyAtTheBlendingRateWhateverTheStep) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::elastic_bar_test

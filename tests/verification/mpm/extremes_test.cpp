@@ -3,7 +3,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::extremes_test {
 namespace {
 
 scene::Scene heap(const materials::Law& law) {
@@ -184,4 +184,4 @@ TEST(Extremes, ATornOffPointOpensNoFurtherThanTheCellsAboutIt) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::extremes_test

@@ -2,7 +2,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::free_fall_test {
 namespace {
 
 TEST(FreeFall, OfACloudIsExact) {
@@ -54,4 +54,4 @@ TEST(SingleParticle, FallsAndComesToRestOnTheFloor) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::free_fall_test

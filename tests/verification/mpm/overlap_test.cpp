@@ -5,7 +5,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::overlap_test {
 namespace {
 
 constexpr double rho = 1500.0;
@@ -77,4 +77,4 @@ TEST(Overlap, IsPushedApartToTheToleranceAndItsEnergyShown) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::overlap_test

@@ -3,7 +3,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::released_flow_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -82,4 +82,4 @@ TEST(AluminiumBars, SurfaceIsTheMeasuredOne) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::released_flow_test

@@ -4,7 +4,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::rotation_test {
 namespace {
 
 mechanics::Voigt turned_voigt(const mechanics::Voigt& sigma, double angle) {
@@ -51,4 +51,4 @@ TEST(StressRotation, UpdateStressTurnsAStressedPointThatSpins) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::rotation_test

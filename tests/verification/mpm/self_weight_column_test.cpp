@@ -4,7 +4,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::self_weight_column_test {
 namespace {
 
 constexpr double H = 20.0;
@@ -60,4 +60,4 @@ TEST(SelfWeightColumn, StressIsTheOverburdenWithTheBSpline) {
     }
 }
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::self_weight_column_test

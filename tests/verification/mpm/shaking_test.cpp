@@ -4,7 +4,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::shaking_test {
 namespace {
 
 using mechanics::Vec2;
@@ -234,4 +234,4 @@ TEST(Ground, IsReadBetweenItsSamplesAndRestsAfterThem) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::shaking_test

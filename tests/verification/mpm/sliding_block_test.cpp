@@ -3,7 +3,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::sliding_block_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -92,4 +92,4 @@ TEST(SlidingBlock, NeverSlowsDownWithoutFriction) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::sliding_block_test

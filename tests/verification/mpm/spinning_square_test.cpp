@@ -3,7 +3,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::spinning_square_test {
 namespace {
 
 /// About the centre of mass, with the affine part m (h/2)^2/3-like moments left out: points are
@@ -51,4 +51,4 @@ TEST(SpinningSquare, KeepsItsAngularMomentumAtTheDefaultRate) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::spinning_square_test

@@ -4,7 +4,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::terrain_slope_test {
 namespace {
 
 using mechanics::Vec2;
@@ -251,4 +251,4 @@ TEST(TerrainHeap, RunsAsOnAGridThatFollowsTheSlope) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::terrain_slope_test

@@ -3,7 +3,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::two_discs_test {
 namespace {
 
 scene::Polygon disc(const mechanics::Vec2& centre, double radius) {
@@ -57,4 +57,4 @@ TEST(TwoDiscs, KeepTheirEnergyWithinOnePerCentOnFinerCells) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::two_discs_test

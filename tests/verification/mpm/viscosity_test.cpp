@@ -5,7 +5,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::viscosity_test {
 namespace {
 
 constexpr double rho = 1000.0;
@@ -97,4 +97,4 @@ TEST(Viscosity, TheStepFollowsAViscosityThatRulesIt) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::viscosity_test

@@ -5,7 +5,7 @@
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
-namespace breach::mpm::test {
+namespace breach::mpm::test::vortex_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -260,4 +260,4 @@ TEST(Vortex, ConvergesWithBSplines) {
 }
 
 }  // namespace
-}  // namespace breach::mpm::test
+}  // namespace breach::mpm::test::vortex_test

@@ -12,7 +12,7 @@
 #include "tests/verification/norsand/soils.hpp"
 #include "tests/verification/norsand/tables.hpp"
 
-namespace breach::testing {
+namespace breach::testing::calibration_test {
 namespace {
 
 using namespace element_bench;
@@ -261,4 +261,4 @@ TEST(NorSandCalibration, SaysWhatTheTestsDoNotHold) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::calibration_test

@@ -7,7 +7,7 @@
 
 #include "tests/verification/norsand/soils.hpp"
 
-namespace breach::testing {
+namespace breach::testing::closed_forms_test {
 namespace {
 
 using element_bench::Boundary;
@@ -185,4 +185,4 @@ TEST(NorSandPublished, BiaxialPeakOfChengAndJefferiesFigure7) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::closed_forms_test

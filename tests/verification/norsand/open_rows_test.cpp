@@ -12,7 +12,7 @@
 #include "tests/verification/norsand/soils.hpp"
 #include "tests/verification/norsand/tables.hpp"
 
-namespace breach::testing {
+namespace breach::testing::open_rows_test {
 namespace {
 
 using element_bench::Boundary;
@@ -131,4 +131,4 @@ INSTANTIATE_TEST_SUITE_P(NorSand, OpenRows, ::testing::ValuesIn(open_runs()), []
 });
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::open_rows_test

@@ -7,7 +7,7 @@
 #include "fem_solver/element_bench/programme.hpp"
 #include "soils.hpp"
 
-namespace breach::testing {
+namespace breach::testing::bench_test {
 namespace {
 
 using namespace element_bench;
@@ -144,4 +144,4 @@ TEST(ElementBench, CyclesOfABiaxialTestGoAboutTheStressItBeginsWith) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::bench_test

@@ -13,7 +13,7 @@
 #include "fem_solver/element_bench/document.hpp"
 #include "soils.hpp"
 
-namespace breach::testing {
+namespace breach::testing::calibration_test {
 namespace {
 
 using namespace element_bench;
@@ -223,4 +223,4 @@ TEST(CalibrationToTheLaboratory, ReadsCurvesFromAFileAndFromTheDocument) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::calibration_test

@@ -11,7 +11,7 @@
 #include "fem_solver/element_bench/programme.hpp"
 #include "soils.hpp"
 
-namespace breach::testing {
+namespace breach::testing::cyclic_strength_test {
 namespace {
 
 using element_bench::Boundary;
@@ -96,4 +96,4 @@ TEST(CyclicStrength, DefaultSchemeIsConvergedAtStepsOfAFieldInEveryRow) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::cyclic_strength_test

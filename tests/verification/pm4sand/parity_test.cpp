@@ -10,7 +10,7 @@
 
 #include "soils.hpp"
 
-namespace breach::testing {
+namespace breach::testing::parity_test {
 namespace {
 
 using pm4sand::Options;
@@ -107,4 +107,4 @@ TEST(Parity, UndrainedStrengthOfTheCalibratedTailings) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::parity_test

@@ -9,7 +9,7 @@
 #include "fem_solver/element_bench/programme.hpp"
 #include "soils.hpp"
 
-namespace breach::testing {
+namespace breach::testing::schemes_test {
 namespace {
 
 using namespace element_bench;
@@ -146,4 +146,4 @@ TEST(Schemes, DrainedShearDiffersAsTheDocumentSays) {
 }
 
 }  // namespace
-}  // namespace breach::testing
+}  // namespace breach::testing::schemes_test

@@ -15,7 +15,7 @@
 #include "mpm_solver/step.hpp"
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach {
+namespace breach::strengths_test {
 namespace {
 
 using mechanics::Vec2;
@@ -325,4 +325,4 @@ TEST(Profiles, AreRefusedWhereTheyCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace breach
+}  // namespace breach::strengths_test

@@ -3,7 +3,7 @@
 
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::balance_test {
 namespace {
 
 constexpr double rho = 1800.0;
@@ -96,4 +96,4 @@ TEST(Balance, WithoutAnMpmThereIsNoGridToBalanceOn) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::balance_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::transfer {
+namespace breach::transfer::case_field_test {
 namespace {
 
 // The limits: 0.15 and 0.6 kPa rms, 3 kPa at most.
@@ -15,4 +15,4 @@ TEST(CaseField, TheDefaultModeIsWithinTheLimitsOnGradedElements) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::case_field_test

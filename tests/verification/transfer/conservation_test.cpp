@@ -4,7 +4,7 @@
 
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::conservation_test {
 namespace {
 
 using exchange::Ledger;
@@ -124,4 +124,4 @@ TEST(Conservation, ThreadsDoNotChangeABit) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::conservation_test

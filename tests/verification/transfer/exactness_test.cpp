@@ -3,7 +3,7 @@
 
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::exactness_test {
 namespace {
 
 using mechanics::Vec2;
@@ -121,4 +121,4 @@ TEST(GaussFields, EquivalentStrainNeverSwingsBelowZero) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::exactness_test

@@ -3,7 +3,7 @@
 
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::extremes_test {
 namespace {
 
 using mechanics::Vec2;
@@ -162,4 +162,4 @@ TEST(RoundTrip, IsExactAtGaussPointsAndForLinearFields) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::extremes_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace breach::transfer {
+namespace breach::transfer::mochikoshi_shaped_test {
 namespace {
 
 class MochikoshiShaped : public testing::Test {
@@ -66,4 +66,4 @@ TEST_F(MochikoshiShaped, LiquefiedLayersAndWetDamsAreThereAndTheirMassAddsUp) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::mochikoshi_shaped_test

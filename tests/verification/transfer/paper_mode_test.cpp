@@ -2,7 +2,7 @@
 
 #include "tests/verification/transfer/case_field.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::paper_mode_test {
 namespace {
 
 // The document measured 0.40, 1.94 and 17 kPa on its own field; ours has no formula in common with
@@ -19,4 +19,4 @@ TEST(CaseField, ThePapersModeIsAsWrongAsTheDocumentSays) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::paper_mode_test

@@ -3,7 +3,7 @@
 
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::refusal_test {
 namespace {
 
 scene::Scene scene_of(const exchange::MeshSnapshot& mesh) {
@@ -52,4 +52,4 @@ TEST(EntangledMesh, AMeshThatWasNeverRightIsBadInput) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::refusal_test

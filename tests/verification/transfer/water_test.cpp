@@ -4,7 +4,7 @@
 #include "mpm_solver/body/points.hpp"
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::transfer::water_test {
 namespace {
 
 using exchange::StressMeasure;
@@ -183,4 +183,4 @@ TEST(Pm4Sand, MustBeMappedToALawThatParticlesCanHave) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::transfer::water_test
