@@ -1,6 +1,7 @@
 # Sourced by quickstart and test: installs what is missing and builds. Needs `root` (the project's folder).
 
 say() { printf '\n==> %s\n' "$*"; }
+fail() { printf '%s\n' "$*" >&2 && exit 1; }
 
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then
@@ -8,8 +9,7 @@ as_root() {
     elif command -v sudo >/dev/null; then
         sudo "$@"
     else
-        echo "Packages are missing and this is neither root nor is there sudo. Install them as root: $*" >&2
-        exit 1
+        fail "Packages are missing, and you are neither root nor have sudo. As root run: apt-get install ${missing[*]}"
     fi
 }
 
@@ -34,18 +34,68 @@ need_packages() {
         is_installed "$package" || missing+=("$package")
     done
     [ ${#missing[@]} -eq 0 ] && return
+    command -v apt-get >/dev/null || fail "There is no apt-get: Breachline builds on Debian 12. Missing: ${missing[*]}"
     say "installing ${#missing[@]} Debian packages: ${missing[*]}"
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get update -qq -o Acquire::Retries=2 -o APT::Update::Error-Mode=any ||
+        fail "Debian's package archive cannot be read (see above). Check the network, a proxy in /etc/apt/apt.conf.d, and /etc/apt/sources.list; or install: ${missing[*]}"
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+        fail "apt-get could not install the packages (see above). Free disk on /usr: $(df -h --output=avail /usr | tail -n 1)"
 }
 
-# build programs|tests [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
+# What one compiler at work holds at most, and what a build leaves on the disk [MB].
+compiler_MB=1100
+declare -A build_MB=([first_result]=700 [programs]=800 [all]=2500)
+
+# Says what a build lacks before it begins. Sets `jobs` by cores and memory.
+check_machine() {
+    local compiler=${CXX:-g++} version free_MB disk_MB need_MB=${build_MB[$1]:-2500}
+    version=$("$compiler" -dumpfullversion 2>/dev/null) || version=$("$compiler" -dumpversion 2>/dev/null) ||
+        fail "There is no C++ compiler \"$compiler\". Install g++ or set CXX to one."
+    if [ "${version%%.*}" -lt 12 ] && ! "$compiler" --version | grep -qi clang; then
+        fail "$compiler is version $version; C++20 as used here needs GCC 12 (Debian 12) or later. Set CXX to such a compiler."
+    fi
+    free_MB=$(awk '/^(MemAvailable|SwapFree):/ { sum += $2 } END { print int(sum / 1024) }' "${meminfo:-/proc/meminfo}")
+    jobs=$((free_MB / compiler_MB))
+    [ $jobs -ge 1 ] ||
+        fail "A compiler needs up to $compiler_MB MB and only $free_MB MB of memory and swap are free. Close programs or add swap (fallocate -l 2G /swap && mkswap /swap && swapon /swap)."
+    [ $jobs -le "$(nproc)" ] || jobs=$(nproc)
+    mkdir -p "$root/build" 2>/dev/null || fail "$root/build cannot be made: the disk is full or the folder is not yours."
+    disk_MB=$(($(df -k --output=avail "$root/build" | tail -n 1) / 1024))
+    [ -e "$root/build/$2/build.ninja" ] || [ "$disk_MB" -ge "$need_MB" ] ||
+        fail "The build needs $need_MB MB on the disk of $root/build and $disk_MB MB are free. Free some, or put the project on another disk."
+}
+
+# Ninja's lines "[done/total seconds] step" as a bar with the time left; other lines (warnings, errors) as they are.
+show_progress() {
+    local bar=no
+    [ -t 1 ] && bar=yes
+    awk -v bar=$bar '
+        match($0, /^\[[0-9]+\/[0-9]+ [0-9.]+\] /) {
+            split(substr($0, 2, RLENGTH - 3), part, /[\/ ]/)
+            left = part[1] > 0 ? part[3] * (part[2] - part[1]) / part[1] : 0
+            percent = int(100 * part[1] / part[2])
+            line = sprintf("%3d %%  step %d of %d, about %d:%02d min left", percent, part[1], part[2], left / 60, left % 60)
+            if (bar == "yes") printf "\r[%-25s] %s\033[K", substr("#########################", 1, percent / 4), line
+            else if (percent >= told + 10 || part[1] == part[2]) { print line; told = percent }
+            fflush(); ended = bar == "yes"; next
+        }
+        { if (ended) print ""; ended = 0; print; fflush() }
+        END { if (ended) print "" }'
+}
+
+# build first_result|programs|all [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
 # need no test libraries; a folder that has been configured with tests keeps them.
 build() {
-    local options=() preset=${2:-release}
-    [ "$1" = tests ] && options=(-DBREACH_TESTS=ON)
-    [ "$1" = programs ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
+    local options=() target=(--target "$1") preset=${2:-release} jobs
+    [ "$1" = all ] && options=(-DBREACH_TESTS=ON) target=()  # or the preset's own
+    [ "$1" != all ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
+    command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     options+=("${@:3}")
-    say "building ($1, $preset)"
-    (cd "$root" && cmake --preset "$preset" "${options[@]}" && cmake --build --preset "$preset")
+    check_machine "$1" "$preset"
+    say "building ($1, $preset, $jobs at a time)"
+    (cd "$root" && cmake --preset "$preset" "${options[@]}" >"build/configure.log" 2>&1) || {
+        cat "$root/build/configure.log" >&2
+        fail "CMake could not configure the build (see above)."
+    }
+    (cd "$root" && NINJA_STATUS='[%f/%t %e] ' cmake --build --preset "$preset" "${target[@]}" -j "$jobs" 2>&1) | show_progress
 }
