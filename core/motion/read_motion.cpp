@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <fstream>
 #include <istream>
+#include <limits>
 #include <optional>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "core/fault/fault.hpp"
+#include "core/motion/units.hpp"
 
 namespace breach::motion {
 namespace {
@@ -43,6 +45,33 @@ std::vector<std::string> words_of(std::string text) {
     return words;
 }
 
+/// Values of a file's lines, parted by blanks, tabs, semicolons or commas. A comma is a decimal comma
+/// where something else parts the values and the line has no decimal point.
+class Values {
+  public:
+    std::vector<std::string> of(const std::string& line) {
+        std::string text = line;
+        std::ranges::replace(text, ';', ' ');
+        std::istringstream in(text);
+        std::vector<std::string> words;
+        bool decimal = text.find('.') == std::string::npos;
+        for (std::string word; in >> word;) {
+            while (!word.empty() && word.back() == ',') word.pop_back();
+            decimal = decimal && std::ranges::count(word, ',') <= 1;
+            if (!word.empty()) words.push_back(word);
+        }
+        if (!decimal || (words.size() < 2 && !decimal_commas_)) return words_of(text);
+        for (std::string& word : words) {
+            decimal_commas_ = decimal_commas_ || word.find(',') != std::string::npos;
+            std::ranges::replace(word, ',', '.');
+        }
+        return words;
+    }
+
+  private:
+    bool decimal_commas_ = false;  ///< in an earlier line
+};
+
 /// Beyond it squares are no numbers any more, and nothing moves so.
 constexpr double largest_number = 1e100;
 
@@ -57,46 +86,38 @@ std::optional<double> number_from(std::string word) {
     return value;
 }
 
+std::string number_text(double value) {
+    char out[32];
+    std::snprintf(out, sizeof out, "%.6g", value);
+    return out;
+}
+
 double needed_number(const std::string& word, const std::string& name, std::size_t line) {
     const auto value = number_from(word);
     if (!value) reject(name, line, "'" + word + "' is not a finite number", "mend this line");
     return *value;
 }
 
-/// Lines with their numbers.
+/// Lines with their numbers, without the mark of UTF-8.
 struct Lines {
     std::istream& in;
+    const std::string& name;
     std::size_t number = 0;
     bool next(std::string& line) {
         if (!std::getline(in, line)) return false;
         ++number;
+        if (line.find('\0') != std::string::npos)
+            reject(name, number, "holds zero bytes: the file is UTF-16 text, or no text",
+                   "save it as UTF-8");
+        if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
         line = trimmed(line);
         return true;
     }
 };
 
-struct Unit {
-    Quantity quantity;
-    double factor;  ///< to SI
-};
-
-std::optional<Unit> peer_unit(const std::string& header) {
-    const std::string text = upper(header);
-    const auto has = [&](const char* part) { return text.find(part) != std::string::npos; };
-    if (has("ACCELERATION") && has("UNITS OF G")) {
-        return Unit{Quantity::acceleration, standard_gravity};
-    }
-    if (has("VELOCITY") && has("CM/S")) return Unit{Quantity::velocity, 0.01};
-    if (has("DISPLACEMENT") && has("CM")) return Unit{Quantity::displacement, 0.01};
-    return std::nullopt;
-}
-
-std::optional<Unit> column_unit(const std::string& header) {
-    if (header == "acceleration_g") return Unit{Quantity::acceleration, standard_gravity};
-    if (header == "acceleration_m_s2") return Unit{Quantity::acceleration, 1.0};
-    if (header == "velocity_m_s") return Unit{Quantity::velocity, 1.0};
-    if (header == "velocity_cm_s") return Unit{Quantity::velocity, 0.01};
-    return std::nullopt;
+std::string in_quotes(const std::string& header) {
+    constexpr std::size_t longest = 80;
+    return '"' + (header.size() > longest ? header.substr(0, longest) + "..." : header) + '"';
 }
 
 struct PeerSize {
@@ -104,27 +125,45 @@ struct PeerSize {
     double dt;
 };
 
-/// "NPTS= 8000, DT= .0050 SEC" or "4096 0.0100 NPTS, DT": a number belongs to the label before it,
-/// or, when the line begins with numbers, to the label of the same rank.
-PeerSize peer_size(const std::string& header, const std::string& name, std::size_t line) {
+/// "NPTS= 8000, DT= .0050 SEC" or "4096 0.0100 NPTS, DT", the labels and numbers in their order.
+struct SizeLine {
     std::vector<double> numbers;
     std::vector<std::string> labels;
-    for (const std::string& word : words_of(upper(header))) {
-        if (const auto value = number_from(word)) {
-            numbers.push_back(*value);
-        } else if (word == "NPTS" || word == "DT") {
-            labels.push_back(word);
+    std::string unit;  ///< of the time step, where it is another than seconds
+
+    explicit SizeLine(std::string line) {
+        if (line.find('.') == std::string::npos)
+            for (std::size_t i = 0; i + 1 < line.size(); ++i)  // a decimal comma
+                if (line[i] == ',' && std::isdigit(static_cast<unsigned char>(line[i + 1])) != 0)
+                    line[i] = '.';
+        for (std::string word : words_of(upper(line))) {
+            if (word.size() > 3 && word.ends_with("SEC") && number_from(word.substr(0, 1)))
+                word.resize(word.size() - 3);
+            if (const auto value = number_from(word)) {
+                numbers.push_back(*value);
+            } else if (word == "NPTS" || word == "DT") {
+                labels.push_back(word);
+            } else if (word.starts_with("MS") || word.starts_with("MILLI")) {
+                unit = word;
+            }
         }
     }
-    if (numbers.size() < 2 || labels.size() < 2 || labels[0] == labels[1]) {
+    bool is_one() const { return labels.size() >= 2 && labels[0] != labels[1]; }
+};
+
+/// A number belongs to the label before it, or, when the line begins with numbers, to the label of
+/// the same rank.
+PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t line) {
+    const auto& [numbers, labels, unit] = size;
+    if (numbers.size() < 2 || !size.is_one())
         reject(name, line, "does not give NPTS and DT", "write e.g. NPTS= 4000, DT= .0100 SEC");
-    }
     const double count = labels[0] == "NPTS" ? numbers[0] : numbers[1];
     const double dt = labels[0] == "NPTS" ? numbers[1] : numbers[0];
-    if (!(dt > 0.0) || count < 2.0 || count > 1e8 || count != std::floor(count)) {
+    if (!(dt > 0.0) || count < 2.0 || count > 1e8 || count != std::floor(count))
         reject(name, line, "NPTS must be a whole number above 1 and DT positive",
                "mend the header");
-    }
+    if (!unit.empty())
+        reject(name, line, "gives DT in " + unit, "write it in seconds: DT= .0100 SEC");
     return {static_cast<std::size_t>(count), dt};
 }
 
@@ -132,26 +171,90 @@ PeerSize peer_size(const std::string& header, const std::string& name, std::size
 struct Samples {
     std::vector<double> time, value;
     std::vector<std::size_t> line;
+    int decimals = 0;  ///< of the times, as many as the longest has
 };
+
+/// Digits behind the decimal point of a number that was read.
+int decimals_of(const std::string& word) {
+    const std::size_t point = word.find('.'), power = word.find_first_of("eE");
+    const std::size_t end = std::min(word.size(), power);
+    int digits = point < end ? static_cast<int>(end - point) - 1 : 0;
+    if (power != std::string::npos)
+        digits -= static_cast<int>(
+            std::clamp(number_from(word.substr(power + 1)).value_or(0.0), -99.0, 99.0));
+    return digits;
+}
+
+/// The time step t for which the time of sample i lies within i t + [low, high].
+std::optional<double> step_within(const std::vector<double>& times, double low, double high) {
+    double least = 0.0, most = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < times.size(); ++i) {
+        if (times[i] <= times[i - 1]) return std::nullopt;
+        least = std::max(least, (times[i] - high) / static_cast<double>(i));
+        most = std::min(most, (times[i] - low) / static_cast<double>(i));
+    }
+    if (least > most || least <= 0.0) return std::nullopt;
+    const double middle = 0.5 * (least + most), whole = 1.0 / std::round(1.0 / middle);
+    return whole >= least && whole <= most ? whole : middle;  // 1/128 s is likelier than 0.0078124
+}
+
+bool are_multiples(const std::vector<double>& times, double step, double near) {
+    for (std::size_t i = 1; i < times.size(); ++i)
+        if (!(times[i] > times[i - 1]) ||
+            !(std::abs(times[i] - step * static_cast<double>(i)) <= near))
+            return false;
+    return true;
+}
+
+/// The one time step of the samples; times may be rounded or cut off after their last digit.
+std::optional<double> time_step_of(const Samples& samples) {
+    const std::vector<double>& times = samples.time;
+    const double mean = times.back() / static_cast<double>(times.size() - 1);
+    const double digit = std::pow(10.0, -samples.decimals);
+    if (are_multiples(times, mean, 0.01 * mean)) return mean;
+    constexpr double coarse = 0.3;  // of a step: beyond, rounded times do not tell a missing sample
+    constexpr double ties = 1.001;
+    if (0.5 * digit <= coarse * mean)
+        if (const auto step = step_within(times, -0.5 * ties * digit, 0.5 * ties * digit))
+            return step;
+    return digit <= coarse * mean ? step_within(times, -ties * digit, 1e-3 * digit) : std::nullopt;
+}
+
+/// Names the first step that differs from most of the others.
+[[noreturn]] void reject_uneven(const Samples& samples, const std::string& name) {
+    const std::vector<double>& times = samples.time;
+    std::vector<double> steps(times.size() - 1);
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = times[i + 1] - times[i];
+    std::vector<double> sorted = steps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+    std::ranges::nth_element(sorted, middle);
+    const double usual = *middle, digit = std::pow(10.0, -samples.decimals);
+    const double near = std::max(0.02 * usual, std::min(1.001 * digit, 0.6 * usual));
+    std::size_t odd = 0, oddest = 0;
+    while (odd < steps.size() && steps[odd] > 0.0 && std::abs(steps[odd] - usual) <= near) ++odd;
+    for (std::size_t i = 1; i < steps.size(); ++i)
+        if (std::abs(steps[i] - usual) > std::abs(steps[oddest] - usual)) oddest = i;
+    const std::size_t at = odd < steps.size() ? odd : oddest;
+    const std::string from = " s to " + number_text(times[at + 1]) + " s";
+    if (steps[at] <= 0.0)
+        reject(name, samples.line[at + 1], "the time goes from " + number_text(times[at]) + from,
+               "times must ascend: sort the lines, or take out the one that is there twice");
+    reject(name, samples.line[at + 1],
+           "the times are not equally spaced: from " + number_text(times[at]) + from +
+               " is a step of " + number_text(steps[at]) + " s, and most steps are " +
+               number_text(usual) + " s",
+           "fill in the missing samples, or interpolate the motion to one time step");
+}
 
 Series series_from(const Samples& samples, double factor, const std::string& name,
                    std::size_t lines) {
-    const std::size_t count = samples.time.size();
-    if (count < 2) reject(name, lines, "holds fewer than two samples", "give a whole record");
-    if (std::abs(samples.time.front()) > 1e-9) {
+    if (samples.time.size() < 2)
+        reject(name, lines, "holds fewer than two samples", "give a whole record");
+    if (std::abs(samples.time.front()) > 1e-9)
         reject(name, samples.line.front(), "the first time is not zero", "count time from zero");
-    }
-    const double dt = samples.time.back() / static_cast<double>(count - 1);
-    for (std::size_t i = 1; i < count; ++i) {
-        const double step = samples.time[i] - samples.time[i - 1];
-        // Times are often written with few digits: a hundredth of a step is still the same step.
-        if (step > 0.0 && std::abs(samples.time[i] - dt * static_cast<double>(i)) <= 0.01 * dt) {
-            continue;
-        }
-        reject(name, samples.line[i], "the times are not equally spaced",
-               "resample the motion to one time step");
-    }
-    Series series{dt, samples.value};
+    const auto dt = time_step_of(samples);
+    if (!dt) reject_uneven(samples, name);
+    Series series{*dt, samples.value};
     for (double& value : series.values) value *= factor;
     return series;
 }
@@ -159,81 +262,111 @@ Series series_from(const Samples& samples, double factor, const std::string& nam
 void add_sample(Samples& samples, const std::vector<std::string>& words, const std::string& name,
                 std::size_t line) {
     if (words.size() != 2) {
-        reject(name, line, "has " + std::to_string(words.size()) + " columns, not two",
-               "give time and value");
+        const std::string count = std::to_string(words.size());
+        reject(name, line, "has " + count + " columns, not two",
+               words.size() == 4
+                   ? "write decimal points, or part time and value by ; where 0,01 has a decimal "
+                     "comma"
+                   : "give time and value; a PEER record begins with a header of four lines that "
+                     "gives NPTS and DT");
     }
     samples.time.push_back(needed_number(words[0], name, line));
     samples.value.push_back(needed_number(words[1], name, line));
     samples.line.push_back(line);
+    samples.decimals = std::max(samples.decimals, decimals_of(words[0]));
+}
+
+constexpr std::size_t most_header_lines = 20;
+
+/// Of a header "time_s,acceleration_g".
+std::optional<Unit> unit_of_columns(const std::string& header) {
+    const std::size_t parted = header.find_first_of(",;\t");
+    if (parted == std::string::npos || !is_time_column(header.substr(0, parted)))
+        return std::nullopt;
+    return unit_of_column(header.substr(parted + 1));
+}
+
+enum class Form { peer, csv, two_columns };
+
+/// What the first lines look like; where they do not tell, the file's ending says it.
+Form form_of(std::istream& in, const std::string& name, const std::string& ending) {
+    Lines lines{in, name};
+    std::string line;
+    bool is_csv = false;
+    while (lines.number < most_header_lines && lines.next(line)) {
+        if (line.starts_with('#')) continue;
+        if (SizeLine(line).is_one()) return Form::peer;
+        is_csv = is_csv || unit_of_columns(line);
+    }
+    if (is_csv || ending == ".CSV") return Form::csv;
+    return ending == ".AT2" || ending == ".VT2" || ending == ".DT2" ? Form::peer
+                                                                    : Form::two_columns;
 }
 
 }  // namespace
 
 Recording read_peer(std::istream& in, const std::string& name) {
-    Lines lines{in};
-    std::string line;
+    Lines lines{in, name};
+    std::string line, before;
     Recording recording;
-    std::optional<Unit> unit;
-    std::optional<PeerSize> size;
-    while (!size) {
-        if (!lines.next(line)) {
-            reject(name, lines.number, "the header of four lines is incomplete",
-                   "give an AT2 file as PEER writes it");
-        }
+    std::optional<SizeLine> size;
+    while (!size || !size->is_one()) {
+        before = line;
+        if (lines.number == most_header_lines || !lines.next(line))
+            reject(name, lines.number, "the header has no line that gives NPTS and DT",
+                   "give an AT2 file as PEER writes it (NPTS= 4000, DT= .0100 SEC on its fourth "
+                   "line), or two columns of time and acceleration in g as a .txt file");
         if (lines.number == 2) recording.title = line;
-        if (lines.number == 3) {
-            unit = peer_unit(line);
-            if (!unit) {
-                reject(name, 3, "names no known unit", "write ACCELERATION ... IN UNITS OF G");
-            }
-        }
-        if (lines.number == 4) size = peer_size(line, name, 4);
+        size.emplace(line);
     }
+    const auto unit = unit_in_header(before);
+    if (!unit)
+        reject(
+            name, lines.number - 1, "names no known unit: " + in_quotes(before),
+            "write ACCELERATION TIME SERIES IN UNITS OF G; units are " + std::string(known_units));
+    const auto [count, dt] = peer_size(*size, name, lines.number);
     recording.quantity = unit->quantity;
-    recording.series.dt = size->dt;
-    while (lines.next(line)) {
-        for (const std::string& word : words_of(line)) {
-            const double value = needed_number(word, name, lines.number);
-            recording.series.values.push_back(unit->factor * value);
-        }
-    }
-    if (recording.series.values.size() != size->count) {
+    recording.series.dt = dt;
+    for (Values values; lines.next(line);)
+        for (const std::string& word : values.of(line))
+            recording.series.values.push_back(unit->factor *
+                                              needed_number(word, name, lines.number));
+    if (recording.series.values.size() != count)
         reject(name, lines.number,
                "the file ends after " + std::to_string(recording.series.values.size()) + " of " +
-                   std::to_string(size->count) + " values",
+                   std::to_string(count) + " values",
                "the file is cut or its header wrong: get it again");
-    }
     return recording;
 }
 
 Recording read_two_columns(std::istream& in, const std::string& name) {
-    Lines lines{in};
+    Lines lines{in, name};
     Samples samples;
+    Values values;
     for (std::string line; lines.next(line);) {
         if (line.empty() || line.front() == '#') continue;
-        add_sample(samples, words_of(line), name, lines.number);
+        add_sample(samples, values.of(line), name, lines.number);
     }
     return {Quantity::acceleration, series_from(samples, standard_gravity, name, lines.number),
             name};
 }
 
 Recording read_csv(std::istream& in, const std::string& name) {
-    Lines lines{in};
+    Lines lines{in, name};
     Samples samples;
+    Values values;
     std::optional<Unit> unit;
     for (std::string line; lines.next(line);) {
         if (line.empty() || line.front() == '#') continue;
-        const auto words = words_of(line);
         if (unit) {
-            add_sample(samples, words, name, lines.number);
+            add_sample(samples, values.of(line), name, lines.number);
             continue;
         }
-        if (words.size() == 2 && words[0] == "time_s") unit = column_unit(words[1]);
-        if (!unit) {
-            reject(name, lines.number, "is no known header",
-                   "write time_s,acceleration_g (or acceleration_m_s2, velocity_m_s, "
-                   "velocity_cm_s)");
-        }
+        unit = unit_of_columns(line);
+        if (!unit)
+            reject(name, lines.number, "is no known header: " + in_quotes(line),
+                   "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, "
+                   "velocity_m_s, velocity_cm_s)");
     }
     if (!unit) reject(name, lines.number, "holds no header", "write time_s,acceleration_g first");
     return {unit->quantity, series_from(samples, unit->factor, name, lines.number), name};
@@ -244,10 +377,13 @@ Recording read_motion(const std::filesystem::path& file) {
     std::error_code error;  // a device or a pipe never ends
     if (std::filesystem::is_regular_file(file, error)) in.open(file);
     if (!in.is_open()) throw fault::IoError("cannot open the motion " + file.string());
-    const std::string ending = upper(file.extension().string()), name = file.string();
-    if (ending == ".AT2" || ending == ".VT2" || ending == ".DT2") return read_peer(in, name);
-    if (ending == ".CSV") return read_csv(in, name);
-    return read_two_columns(in, name);
+    const std::string name = file.string();
+    const Form form = form_of(in, name, upper(file.extension().string()));
+    in.clear();
+    in.seekg(0);
+    return form == Form::peer  ? read_peer(in, name)
+           : form == Form::csv ? read_csv(in, name)
+                               : read_two_columns(in, name);
 }
 
 void write_csv(std::ostream& out, const Recording& motion, const std::string& remarks) {

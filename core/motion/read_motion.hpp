@@ -7,10 +7,9 @@
 #include <string>
 
 #include "core/motion/series.hpp"
+#include "core/motion/units.hpp"
 
 namespace breach::motion {
-
-enum class Quantity { acceleration, velocity, displacement };
 
 struct Recording {
     Quantity quantity = Quantity::acceleration;
@@ -18,20 +17,21 @@ struct Recording {
     std::string title;  ///< PEER: its second line; otherwise the file's name
 };
 
-/// By the file's ending: .at2/.vt2/.dt2 (any case) PEER, .csv CSV, anything else two columns.
-/// Throws IoError when the file cannot be opened, BadInput ("line N") for what is in it.
+/// In the form that its first lines have, whatever the file's name; where they do not tell, by the
+/// ending: .at2/.vt2/.dt2 (any case) PEER, .csv CSV, anything else two columns. Throws IoError when
+/// the file cannot be opened, BadInput ("line N") for what is in it.
 Recording read_motion(const std::filesystem::path& file);
 
-/// Four header lines (the third names the unit, the fourth NPTS and DT in either order), then
-/// values, any number per line.
+/// Header lines, usually four: the last one gives NPTS and DT in either order, the one before it the
+/// unit. Then values, any number per line.
 Recording read_peer(std::istream& in, const std::string& name);
 
-/// Time [s] and acceleration [g] per line, blanks, tabs or a comma between; lines starting with #
-/// are skipped.
+/// Time [s] and acceleration [g] per line, blanks, tabs, a semicolon or a comma between; lines
+/// starting with # are skipped. Times may be rounded or cut off after their last digit.
 Recording read_two_columns(std::istream& in, const std::string& name);
 
-/// A header `time_s,acceleration_g` (or acceleration_m_s2, velocity_m_s, velocity_cm_s), then rows;
-/// lines starting with # are skipped.
+/// A header `time_s,acceleration_g` (or acceleration_m_s2, velocity_cm_s: units.hpp), then rows as
+/// above.
 Recording read_csv(std::istream& in, const std::string& name);
 
 /// The CSV form, an acceleration in g, a velocity in m/s; `remarks` become # lines. Read again, it

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "core/fault/fault.hpp"
 
@@ -45,9 +50,12 @@ TEST(Peer, NamesTheLineOfAFault) {
               "line 5: 'nan' is not a finite number");
     EXPECT_EQ(fault_of(read_peer, header + size + "0.1 0.2\n"),
               "line 5: the file ends after 2 of 3 values");
-    EXPECT_EQ(fault_of(read_peer, header + "NPTS= 3\n"), "line 4: does not give NPTS and DT");
-    EXPECT_EQ(fault_of(read_peer, "a\nb\nc\n"), "line 3: names no known unit");
-    EXPECT_EQ(fault_of(read_peer, "a\n"), "line 1: the header of four lines is incomplete");
+    EXPECT_EQ(fault_of(read_peer, header + "NPTS= 3\n"),
+              "line 4: the header has no line that gives NPTS and DT");
+    EXPECT_EQ(fault_of(read_peer, header + "NPTS= 1, DT= .01\n"),
+              "line 4: NPTS must be a whole number above 1 and DT positive");
+    EXPECT_EQ(fault_of(read_peer, header + "NPTS= 3, DT= 10 MSEC\n"), "line 4: gives DT in MSEC");
+    EXPECT_EQ(fault_of(read_peer, "a\n"), "line 1: the header has no line that gives NPTS and DT");
 }
 
 TEST(TwoColumns, AreTimeAndAccelerationInG) {
@@ -55,8 +63,12 @@ TEST(TwoColumns, AreTimeAndAccelerationInG) {
     const Recording r = read_two_columns(in, "file");
     EXPECT_DOUBLE_EQ(r.series.dt, 0.01);
     EXPECT_DOUBLE_EQ(r.series.values[1], -0.2 * standard_gravity);
-    EXPECT_EQ(fault_of(read_two_columns, "0 1\n0.01 2\n0.03 3\n"),
-              "line 2: the times are not equally spaced");
+    EXPECT_EQ(
+        fault_of(read_two_columns, "0 1\n0.01 2\n0.03 3\n"),
+        "line 3: the times are not equally spaced: from 0.01 s to 0.03 s is a step of 0.02 s, "
+        "and most steps are 0.01 s");
+    EXPECT_EQ(fault_of(read_two_columns, "0 1\n0.01 2\n0.005 3\n0.02 4\n"),
+              "line 3: the time goes from 0.01 s to 0.005 s");
     EXPECT_EQ(fault_of(read_two_columns, "0 1\n0.01 2 5\n"), "line 2: has 3 columns, not two");
     EXPECT_EQ(fault_of(read_two_columns, "0.01 1\n0.02 1\n"), "line 1: the first time is not zero");
 }
@@ -70,7 +82,13 @@ TEST(Csv, CarriesItsUnitInTheHeader) {
     EXPECT_DOUBLE_EQ(second("time_s,acceleration_g"), 2 * standard_gravity);
     EXPECT_DOUBLE_EQ(second("time_s,acceleration_m_s2"), 2.0);
     EXPECT_DOUBLE_EQ(second("time_s,velocity_cm_s"), 0.02);
-    EXPECT_EQ(fault_of(read_csv, "t,a\n" + rows), "line 1: is no known header");
+    EXPECT_EQ(fault_of(read_csv, "t,a\n" + rows), "line 1: is no known header: \"t,a\"");
+    EXPECT_DOUBLE_EQ(second("\xEF\xBB\xBFtime_s,acceleration_gal"), 0.02);
+    EXPECT_DOUBLE_EQ(second("Time (s);Acceleration (cm/s²)"), 0.02);
+    EXPECT_EQ(fault_of(read_csv, "time_ms,acceleration_g\n" + rows),
+              "line 1: is no known header: \"time_ms,acceleration_g\"");
+    EXPECT_EQ(fault_of(read_csv, "time_s,velocity_g\n" + rows),
+              "line 1: is no known header: \"time_s,velocity_g\"");
     EXPECT_EQ(fault_of(read_csv, ""), "line 0: holds no header");
 }
 
@@ -96,6 +114,140 @@ TEST(Csv, OfManyShortStepsIsReadAsItWasWritten) {
         write_csv(file, {Quantity::acceleration, {dt, std::vector<double>(samples, 1.0)}, ""}, "");
         EXPECT_NEAR(read_csv(file, "file").series.dt, dt, 1e-9 * dt);
     }
+}
+
+/// The header's unit in SI and what it measures; 0: it is refused, and the header quoted.
+std::pair<double, Quantity> unit_of(const std::string& units) {
+    std::istringstream in("PEER\nA quake\n" + units + "\nNPTS= 2, DT= .01 SEC\n 1.0 1.0\n");
+    try {
+        const Recording r = read_peer(in, "file");
+        return {r.series.values[0], r.quantity};
+    } catch (const fault::BadInput& bad) {
+        EXPECT_EQ(bad.faults().at(0).cause, "names no known unit: \"" + units + '"');
+        return {0.0, Quantity::acceleration};
+    }
+}
+
+TEST(Unit, IsAWholeWordOfTheHeader) {
+    const std::pair<const char*, double> accelerations[] = {
+        {"ACCELERATION TIME SERIES IN UNITS OF G", 9.80665},
+        {"ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.5 Hz LP=13.0 Hz", 9.80665},
+        {"Acceleration in units of g, 5 % damping", 9.80665},
+        {"ACCELERATION TIME SERIES IN UNITS OF GAL", 0.01},
+        {"ACCELERATION TIME SERIES IN UNITS OF GALS", 0.01},
+        {"ACCELERATION TIME SERIES IN UNITS OF G/10", 0.980665},
+        {"ACCELERATION TIME SERIES IN UNITS OF G / 1000", 0.00980665},
+        {"ACCELERATION TIME SERIES IN UNITS OF 0.01 G", 0.0980665},
+        {"ACCELERATION TIME SERIES IN UNITS OF 1/100*G", 0.0980665},
+        {"ACCELERATION TIME SERIES IN UNITS OF 1/100 G", 0.0980665},
+        {"ACCELERATION TIME SERIES IN UNITS OF G X 10", 98.0665},
+        {"ACCELERATION TIME HISTORY IN UNITS OF CM/S/S", 0.01},
+        {"ACCELERATION TIME HISTORY IN UNITS OF CM/SEC2", 0.01},
+        {"ACCELERATION TIME HISTORY IN UNITS OF CM/SEC**2", 0.01},
+        {"ACCELERATION TIME HISTORY IN UNITS OF CM/S^2.", 0.01},
+        {"ACCELERATION, UNITS: CM/SEC/SEC", 0.01},
+        {"ACCELERATION (CM PER SECOND PER SECOND)", 0.01},
+        {"ACCELERATION, VELOCITY AND DISPLACEMENT, CM/S/S", 0.01},
+        {"ACCELERATION, VELOCITY TIME HISTORY IN UNITS OF CM/S/S", 0.01},
+        {"ACCELERATION IN UNITS OF MM/S2", 0.001},
+        {"ACCELERATION IN UNITS OF M/S2", 1.0},
+        {"ACCELERATION IN UNITS OF METERS/SEC/SEC", 1.0},
+        {"ACCELERATION IN UNITS OF IN/S2", 0.0254},
+        {"ACCELERATION IN UNITS OF FT/SEC2", 0.3048},
+        {"ACCELERATION AT 12 M DEPTH IN G", 9.80665},
+    };
+    for (const auto& [text, factor] : accelerations) {
+        const auto [value, quantity] = unit_of(text);
+        EXPECT_DOUBLE_EQ(value, factor) << text;
+        EXPECT_EQ(quantity, Quantity::acceleration) << text;
+    }
+    EXPECT_EQ(unit_of("VELOCITY TIME SERIES IN UNITS OF CM/S"),
+              std::pair(0.01, Quantity::velocity));
+    EXPECT_EQ(unit_of("DISPLACEMENT TIME SERIES IN UNITS OF CM"),
+              std::pair(0.01, Quantity::displacement));
+}
+
+TEST(Unit, ThatIsNoneOfTheListIsRefused) {
+    for (const char* text :
+         {"ACCELERATION TIME SERIES IN UNITS OF MG", "ACCELERATION TIME SERIES IN UNITS OF MILLI G",
+          "ACCELERATION TIME SERIES IN UNITS OF % G", "ACCELERATION IN UNITS OF GRAINS",
+          "ACCELERATION IN UNITS OF G 1/10", "ACCELERATION IN UNITS OF G (X 10)",
+          "ACCELERATION IN UNITS OF G/0", "ACCELERATION IN UNITS OF G/TEN",
+          "ACCELERATION IN UNITS OF CM/S", "ACCELERATION IN UNITS OF KM/S2",
+          "ACCELERATION IN UNITS OF CM/S3", "VELOCITY IN UNITS OF G", "ACCELERATION",
+          "ACCELERATION IN 0.1 G", "ACCELERATION IN G AND CM/S2", "ACCELERATION COUNTS",
+          "ACCELERATION IN G, VELOCITY IN CM/S"})
+        EXPECT_EQ(unit_of(text).first, 0.0) << text;
+}
+
+TEST(Times, MayBeRoundedOrCutOffInTheirLastDigit) {
+    for (const double dt : {1.0 / 128.0, 1.0 / 256.0, 1.0 / 60.0})
+        for (const bool cut : {false, true}) {
+            std::string text;
+            for (int i = 0; i < 400; ++i) {
+                const double ms = 1000.0 * dt * i;
+                char row[64];
+                std::snprintf(row, sizeof row, "%.3f 0.1\n",
+                              0.001 * (cut ? std::floor(ms) : std::round(ms)));
+                text += row;
+            }
+            std::istringstream in(text);
+            EXPECT_NEAR(read_two_columns(in, "file").series.dt, dt, 1e-9) << dt << cut;
+        }
+}
+
+TEST(Times, ThatLeaveOutASampleNameItsLine) {
+    for (const char* format : {"%.2f 0.1\n", "%.3f 0.1\n", "%.6f 0.1\n"}) {
+        std::string text;
+        for (int i = 0; i < 400; ++i) {
+            char row[64];
+            std::snprintf(row, sizeof row, format, 0.01 * (i < 201 ? i : i + 1));
+            text += row;
+        }
+        EXPECT_EQ(
+            fault_of(read_two_columns, text),
+            "line 202: the times are not equally spaced: from 2 s to 2.02 s is a step of 0.02 "
+            "s, and most steps are 0.01 s");
+    }
+}
+
+TEST(Numbers, MayHaveDecimalCommas) {
+    const auto last = [](auto read, const std::string& text) {
+        std::istringstream in(text);
+        const Series series = read(in, "file").series;
+        return std::pair(series.dt, series.values.back() / standard_gravity);
+    };
+    const std::pair wanted(0.01, 0.25);
+    EXPECT_EQ(last(read_two_columns, "0,00 0,5\n0,01 0,25\n"), wanted);
+    EXPECT_EQ(last(read_two_columns, "0,00;0,5\n0,01;0,25\n"), wanted);
+    EXPECT_EQ(last(read_two_columns, "0.00, .5\n0.01, .25\n"), wanted);
+    EXPECT_EQ(last(read_csv, "time_s;acceleration_g\n0;0,5\n0,01;0,25\n"), wanted);
+    EXPECT_EQ(last(read_peer, header + "NPTS= 3, DT= .01 SEC\n 0,5 0,1\n 0,25\n"), wanted);
+    EXPECT_EQ(last(read_peer, header + "NPTS= 3, DT= .01 SEC\n0.5,0.1,0.25\n"), wanted);
+    EXPECT_EQ(last(read_peer, header + "NPTS= 3, DT= ,01 SEC\n ,5 ,1\n ,25\n"), wanted);
+    EXPECT_EQ(last(read_peer, header + "NPTS=3,DT=0,01SEC\n ,5 ,1\n ,25\n"), wanted);
+    EXPECT_EQ(fault_of(read_two_columns, "0,00,0,5\n0,01,0,25\n"),
+              "line 1: has 4 columns, not two");
+}
+
+TEST(Motion, IsReadInTheFormThatItHasWhateverItsName) {
+    const auto folder = std::filesystem::temp_directory_path() / "breach_renamed_motions";
+    std::filesystem::create_directories(folder);
+    const auto second = [&](const std::string& name, const std::string& text) {
+        std::ofstream(folder / name) << text;
+        return read_motion(folder / name).series.values.at(1);
+    };
+    const std::string peer = header + "NPTS= 2, DT= .01 SEC\n 0.5 0.25\n";
+    for (const char* name : {"a.csv", "a.dat", "a", "a.AT2"})
+        EXPECT_DOUBLE_EQ(second(name, peer), 0.25 * standard_gravity) << name;
+    for (const char* name : {"b.txt", "b.AT2"})
+        EXPECT_DOUBLE_EQ(second(name, "time_s,acceleration_m_s2\n0,0.5\n0.01,0.25\n"), 0.25);
+    EXPECT_DOUBLE_EQ(second("c.dat", "0 0.5\n0.01 0.25\n"), 0.25 * standard_gravity);
+    EXPECT_THROW(second("c.csv", "0,0.5\n0.01,0.25\n"), fault::BadInput);  // in which unit?
+    EXPECT_THROW(second("c.AT2", "0 0.5\n0.01 0.25\n"), fault::BadInput);
+    EXPECT_EQ(fault_of(read_csv, std::string("\xFF\xFEt\0i\0", 6)),
+              "line 1: holds zero bytes: the file is UTF-16 text, or no text");
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Motion, ThatIsMissingIsAnIoError) {

@@ -1,0 +1,31 @@
+// Units of a motion as a header or a column's name gives them: whole words of a closed list.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace breach::motion {
+
+enum class Quantity { acceleration, velocity, displacement };
+
+struct Unit {
+    Quantity quantity;
+    double factor;  ///< to SI
+};
+
+/// Of a line such as "ACCELERATION TIME SERIES IN UNITS OF CM/S/S": the unit behind "UNITS OF",
+/// otherwise the only unit in it. A unit may have a scale ("G/10", "0.01 G"). Where the line names
+/// quantities, the unit must be one of theirs. Nothing for any other line.
+std::optional<Unit> unit_in_header(const std::string& header);
+
+/// Of a column's name: "acceleration_g", "acceleration_m_s2", "Velocity (cm/s)".
+std::optional<Unit> unit_of_column(const std::string& name);
+/// "time_s", "Time (sec)", "t"
+bool is_time_column(const std::string& name);
+
+/// What a remedy lists.
+inline constexpr const char* known_units =
+    "G, GAL, CM/S2, M/S2, MM/S2, IN/S2 or FT/S2 for an acceleration; CM/S, M/S, MM/S, IN/S or FT/S "
+    "for a velocity; a scale as in G/10";
+
+}  // namespace breach::motion
