@@ -101,7 +101,11 @@ Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interv
     if (whole > 1e6)
         refuse(file, "/interval", "makes more than a million flows", "give a longer interval");
     const std::vector<double> passed = passed_for_good(hydrograph.volume);
-    Ordinates result{.interval = interval, .m3_per_s = {0.0}, .volume = 0.0};
+    Ordinates result{.interval = interval,
+                     .m3_per_s = {0.0},
+                     .volume = 0.0,
+                     .peak_before = width * std::ranges::max(hydrograph.discharge),
+                     .peak_after = 0.0};
     double before = 0.0;
     const auto count = static_cast<std::int64_t>(std::ceil(whole + 0.5)) + 1;
     for (std::int64_t k = 0; k < count; ++k) {
@@ -112,7 +116,20 @@ Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interv
     }
     result.m3_per_s.push_back(0.0);
     for (const double flow : result.m3_per_s) result.volume += flow * interval;
+    result.peak_after = std::ranges::max(result.m3_per_s);
     return result;
+}
+
+std::string peaks_in_words(const Ordinates& flows) {
+    constexpr double kept = 0.9;
+    const std::string peak = number("%.3g", flows.peak_before) + " m3/s";
+    const std::string every = "flows every " + number("%.4g", flows.interval) + " s";
+    if (flows.peak_after >= kept * flows.peak_before)
+        return "Peak " + peak + ", of the " + every + " " + number("%.3g", flows.peak_after) +
+               " m3/s.";
+    return "The peak is lost: " + peak + " become " + number("%.3g", flows.peak_after) +
+           " m3/s in " + every +
+           ", each a mean over that time. Where the peak matters, ask for a shorter interval.";
 }
 
 std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
@@ -126,7 +143,8 @@ std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interv
           << flows.m3_per_s.size() << " ordinates; section " << hydrograph.section
           << ", breach width " << number("%.10g", width) << " m, volume "
           << number("%.6g", flows.volume) << " m3. The runout begins with ordinate 2.\n# "
-          << warning_of(hydrograph) << "\nOrdinate,Simulation Time (hh:mm:ss),Flow (m3/s)\n";
+          << peaks_in_words(flows) << " " << warning_of(hydrograph)
+          << "\nOrdinate,Simulation Time (hh:mm:ss),Flow (m3/s)\n";
     for (std::size_t k = 0; k < flows.m3_per_s.size(); ++k)
         table << k + 1 << "," << clock_of(static_cast<double>(k) * interval) << ","
               << number("%.6g", flows.m3_per_s[k]) << "\n";

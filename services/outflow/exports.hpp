@@ -22,6 +22,8 @@ struct Ordinates {
     double interval;               ///< [s]
     std::vector<double> m3_per_s;  ///< the first and the last are 0
     double volume;                 ///< that straight lines between them carry [m3]
+    double peak_before;            ///< largest flow of the hydrograph [m3/s]
+    double peak_after;             ///< largest of these flows [m3/s]
 };
 
 /// Means over intervals about each time, so that straight lines between them carry exactly what passed:
@@ -30,6 +32,9 @@ struct Ordinates {
 /// when there were more than a million ordinates.
 Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interval,
                        const std::string& file);
+
+/// The peak before and after, with a warning and a remedy where more than a tenth of it is lost.
+std::string peaks_in_words(const Ordinates& flows);
 
 /// Comments, then ordinate, simulation time, flow [m3/s]. interval: one of HEC-RAS's, whole
 /// seconds; throws BadInput else.

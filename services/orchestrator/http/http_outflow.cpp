@@ -85,13 +85,17 @@ void hydrograph(Service& service, Call& call) {
                                        call.parameter("section").value_or(""), "runout");
     });
     found.doubt = doubt_of(service.store, task);
-    call.response.set_header("X-Warning", outflow::warning_of(found));
     const auto width = wanted_width(call, output);
+    if (target == "json" || target == "csv")
+        call.response.set_header("X-Warning", outflow::warning_of(found));
     if (target == "json") return reply(call.response, body_of(task, found, width));
     if (target == "csv") return call.response.set_content(as_csv(found, width), "text/csv");
     if (!width)
         throw bad_request("breach_width must be given [m]: the scene has no /mpm/breach_width");
     const double interval = call.number("interval").value_or(default_interval);
+    const auto flows = outflow::ordinates_of(found, width->best, interval, "request");
+    call.response.set_header("X-Warning",
+                             outflow::peaks_in_words(flows) + " " + outflow::warning_of(found));
     if (target == "hec-ras")
         return call.response.set_content(as_hec_ras(found, width->best, interval, "request"),
                                          "text/csv");

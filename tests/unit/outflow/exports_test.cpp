@@ -82,6 +82,28 @@ TEST(Exports, HecRasHasOneFlowPerIntervalAndSaysWhatItIs) {
     EXPECT_THROW(as_hec_ras(triangle(), 72.0, 0.7, "test"), fault::BadInput);
 }
 
+/// 453 m3/s for 3 s: 1359 m3, which flows every 60 s spread over one or two of them.
+TEST(Exports, SayThePeakBeforeAndAfterAndWhereItIsLost) {
+    Hydrograph h{.section = "toe"};
+    for (int k = 0; k <= 600; ++k) {
+        const double t = 0.1 * k, passed = 453.0 * std::clamp(t - 20.0, 0.0, 3.0);
+        h.discharge.push_back(h.volume.empty() ? 0.0 : (passed - h.volume.back()) / 0.1);
+        h.time.push_back(t);
+        h.volume.push_back(passed);
+    }
+    const Ordinates coarse = ordinates_of(h, 1.0, 60.0, "test");
+    EXPECT_NEAR(coarse.peak_before, 453.0, 1e-6);
+    EXPECT_NEAR(coarse.peak_after, 1359.0 / 60.0, 1e-6);
+    EXPECT_NE(peaks_in_words(coarse).find("The peak is lost: 453 m3/s become 22.6 m3/s"),
+              std::string::npos)
+        << peaks_in_words(coarse);
+    EXPECT_NE(lines_of(as_hec_ras(h, 1.0, 60.0, "test"))[1].find("The peak is lost"),
+              std::string::npos);
+    const Ordinates fine = ordinates_of(h, 1.0, 1.0, "test");
+    EXPECT_NEAR(fine.peak_after, 453.0, 1e-6);
+    EXPECT_EQ(peaks_in_words(fine), "Peak 453 m3/s, of the flows every 1 s 453 m3/s.");
+}
+
 TEST(Exports, Flo2dHasHoursAndTheCell) {
     const auto lines =
         lines_of(as_flo_2d(triangle(), 72.0, 1.0, {.cell = 8672, .concentration = 0.45}, "test"));
