@@ -300,9 +300,18 @@ class Walker {
     const json& root_;
 };
 
+/// By its mark, or by zero bytes, which no JSON has.
+bool is_utf_16(std::string_view text) {
+    return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+           text.substr(0, 4).find('\0') != std::string_view::npos;
+}
+
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& file) {
+    if (is_utf_16(text))
+        throw fault::BadInput(file, {{"", "is UTF-16 text, and JSON is UTF-8",
+                                      "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)"}});
     std::vector<std::set<std::string>> keys;
     std::vector<Fault> faults;
     const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {

@@ -87,6 +87,19 @@ TEST(StrictJson, RefusesWhatOrdinaryParsersLetPass) {
     EXPECT_THROW(parse_json(R"({"b~c": 1})", "x"), BadInput);
 }
 
+TEST(StrictJson, NamesUtf16) {
+    for (const std::string& text :
+         {std::string("\xFF\xFE{\0}\0", 6), std::string("\xFE\xFF\0{\0}", 6),
+          std::string("{\0}\0", 4), std::string("\0{\0}", 4)})
+        try {
+            parse_json(text, "x");
+            ADD_FAILURE();
+        } catch (const BadInput& bad) {
+            EXPECT_EQ(bad.faults().at(0).cause, "is UTF-16 text, and JSON is UTF-8");
+        }
+    EXPECT_NO_THROW(parse_json("\xEF\xBB\xBF{}", "x"));  // the mark of UTF-8
+}
+
 TEST(Override, SetsNumbersWordsAndNewKeys) {
     json document = json::parse(R"({"a": {"b": 1}, "list": [1, 2]})");
     EXPECT_TRUE(apply_override(document, "/a/b=2.5").empty());
