@@ -289,6 +289,33 @@ void check_fall(const scene::Material& soil, const std::vector<Place>& places, F
            "soil softens, it does not harden: lower the residual, or raise the peak");
 }
 
+/// Mean shear strength of a view over the places that it knows; nothing where it knows none [Pa].
+std::optional<double> mean_of(const View& view, const std::vector<Place>& places) {
+    double sum = 0.0, n = 0.0;
+    for (const Place& place : places)
+        if (const auto shear = view.at(place)) sum += shear->high, ++n;
+    return n > 0.0 ? std::optional(sum / n) : std::nullopt;
+}
+
+/// Residual strengths that entries of the phases give, against the peak that the region has before.
+void doubt_residuals(const Region& region, const std::string& name,
+                     const std::vector<Place>& places, Findings& findings) {
+    const std::vector<View> peaks = region.peaks();
+    if (peaks.empty()) return;
+    const auto peak = mean_of(peaks.front(), places);
+    for (const View& residual : region.residuals()) {
+        const auto left = mean_of(residual, places);
+        if (!peak || !left || *left <= *peak * (1.0 + same) || *left - *peak < least_difference)
+            continue;
+        if (residual.phase == "profile") continue;  // check_fall refuses it
+        warn(findings, "implausible", residual.pointer,
+             "the residual strength of \"" + name + "\" is above its peak: " + kilopascals(*left) +
+                 " against " + kilopascals(*peak) + " by " + peaks.front().pointer +
+                 ", averaged over it. Soil that has failed is no stronger than before: lower the "
+                 "residual strength, or raise the peak");
+    }
+}
+
 bool is_whole(const scene::Scene& scene) {
     return std::ranges::all_of(scene.section.regions, [&](const scene::Region& region) {
         return !region.polygon.empty() && region.material < scene.materials.size();
@@ -332,6 +359,7 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
         const std::string& name = scene.section.regions[r].name;
         compare(region.peaks(), name, "peak", places, findings);
         compare(region.residuals(), name, "residual", places, findings);
+        doubt_residuals(region, name, places, findings);
         for (const scene::Soil& soil : scene::soils_of(scene))
             if (soil.region == r && soil.material < scene.materials.size()) {
                 auto& all = places_of[soil.material];

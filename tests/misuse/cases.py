@@ -57,6 +57,11 @@ def record(dt=0.01, n=1200, amplitude=2.0, head="time_s,acceleration_m_per_s2\n"
     return head + "".join(rows)
 
 
+def peer(unit, amplitude=1.0, n=1200, dt=0.01):
+    values = [f"{amplitude * math.sin(2 * math.pi * i * dt / 0.7):.6f}" for i in range(n)]
+    return f"PEER\nA quake\nACCELERATION TIME SERIES IN UNITS OF {unit}\nNPTS= {n}, DT= {dt} SEC\n" + "\n".join(values) + "\n"
+
+
 M = "mochikoshi"
 slope_polygon = [[0, 0], [30, 0], [20, 10], [0, 10], [0, 0]]
 upper_dam = [[109, 29.4], [124.3, 21], [151.9, 12.4], [168.9, 12.4], [115, 30], [110, 30], [109, 29.4]]
@@ -80,6 +85,7 @@ cases = [
     Case("gravity negative", "slope", "refused", r"gravity", {"/gravity": -9.81}),
     Case("strain in per cent", "slope", "warned|refused", r"epsilon_q", {"/materials/slope_soil/law/softening/epsilon_q_start": 1,
                                                                        "/materials/slope_soil/law/softening/epsilon_q_end": 100}),
+    Case("permeability of 1e-7 m/s in m/day", M, "warned", r"permeability.*m/day", {"/materials/tailings/permeability": [0.00864, 0.00864]}),
     Case("permeability in cm/day", M, "warned|refused", r"permeability", {"/materials/tailings/permeability": [60, 60]}),
     Case("relative density in per cent", M, "refused", r"D_R", {"/materials/tailings/law/D_R": 35}),
     Case("void ratio in per cent", M, "refused|warned", r"void_ratio", {"/materials/tailings/void_ratio": 99}),
@@ -92,6 +98,11 @@ cases = [
     Case("floor friction as an angle", M, "refused|warned", r"coefficient", {"/mpm/floor/friction/0/coefficient": 35}),
     Case("residual strengths of LEM and MPM that differ", M, "warned", r"two residual strengths.*layers", {"/lem/liquefaction/0/residual_strength_kPa": 40}),
     Case("strengths of LEM and MPM that differ", M, "warned", r"two peak strengths.*law", {"/materials/embankment/limit_strength/c_kPa": 75}),
+    Case("a coefficient of variation of 30 for 0.30", M, "refused", r"coefficient_of_variation[\s\S]*%.*0\.3", {"/lem/probability": {"variables": [
+        {"parameter": "friction_angle", "of": "embankment", "distribution": "normal", "coefficient_of_variation": 30}]}}),
+    Case("a coefficient of variation of 3 for 0.03", M, "warned", r"coefficient_of_variation.*%.*0\.03", {"/lem/probability": {"variables": [
+        {"parameter": "friction_angle", "of": "embankment", "distribution": "normal", "coefficient_of_variation": 3}]}}),
+    Case("residual strength above the peak", M, "warned", r"residual strength of .* is above its peak", {"/lem/liquefaction/0/residual_strength_kPa": 400}),
     Case("residual strength in Pa", M, "warned|refused", r"residual_strength_kPa", {"/lem/liquefaction/0/residual_strength_kPa": 3000}),
     Case("section in mm", "slope", "warned|refused", r"(polygon|cell_size|element|section)", {
         "/section/regions/1/polygon": [[x * 1000, y * 1000] for x, y in slope_polygon],
@@ -106,6 +117,8 @@ cases = [
     Case("a polygon that is not closed", "slope", "refused", r"open", {"/section/regions/1/polygon": slope_polygon[:-1]}),
     Case("a region of no area", "slope", "refused", r"area",
          {"/section/regions/1/polygon": [[0, 0], [10, 0], [20, 0], [0, 0]]}),
+    Case("a toe at the crest", M, "warned|refused", r"toe", {"/mpm/runout/toe": [115, 30]}),
+    Case("shaking in steps of 0.5 s", M, "warned|refused", r"time_step", {"/fem/stages/2/time_step": 0.5}),
     Case("a toe upstream of the crest", M, "warned|refused", r"toe", {"/mpm/runout/toe": [-20, 0]}),
     Case("a crest 500 m away", M, "refused|warned", r"crest", {"/fem/crest": [615, 30]}),
     Case("supports that touch nothing", M, "refused", r"(support|/fem/supports)", {"/fem/supports/0/from": [-40, -8], "/fem/supports/0/to": [280, -8]}),
@@ -145,6 +158,11 @@ cases = [
     Case("a motion that goes back in time", M, "refused", r"(time|ascend|step)", {"/fem/motion": {"file": "record.csv"}},
          motion="time_s,acceleration_g\n0,0.1\n0.01,0.2\n0.005,0.1\n0.02,0.0\n"),
     Case("an empty motion", M, "refused", r"(empty|sample|line|column|header)", {"/fem/motion": {"file": "record.csv"}}, motion=""),
+    Case("a PEER record whose unit is none of the list", M, "refused", r"UNITS OF MG", {"/fem/motion": {"file": "record.csv"}}, motion=peer("MG")),
+    Case("a PEER record in gal, of 0.85 gal", M, "warned", r"PGA of 0\.00086", {"/fem/motion": {"file": "record.csv"}}, motion=peer("GAL", 0.85)),
+    Case("a PEER record in tenths of g, of 20 g", M, "refused", r"PGA of 19\.98", {"/fem/motion": {"file": "record.csv"}}, motion=peer("G/10", 200)),
+    Case("a motion with a sample left out", M, "refused", r"line 203.*step of 0\.02 s", {"/fem/motion": {"file": "record.csv"}},
+         motion="\n".join(line for i, line in enumerate(record(head="time_s,acceleration_m_s2\n").split("\n")) if i != 202)),
     Case("shaking scaled to 30 g", M, "refused|warned", r"scale_to_pga_g", {"/fem/motion/scale_to_pga_g": 30}),
     # ------------------------------------------------ what only a result can tell
     Case("a runout cut off on its way", "column", "flagged", r"lower bound", {"/mpm/duration": 1.0, "/section/regions/0/mesh/divisions": [5, 10]},
