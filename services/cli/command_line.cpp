@@ -515,6 +515,8 @@ class CommandLine {
         import_->add_option("--flatten", wish.flatten,
                             "arcs become chords that are off by at most this [m]");
         import_->add_option("--name", wish.name, "of the scene; else the drawing's");
+        import_->add_flag("--yes", wish.confirmed,
+                          "sizes that look like a slip of the unit are meant");
     }
 
     void add_storage_commands() {

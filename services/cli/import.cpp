@@ -1,6 +1,9 @@
 #include "services/cli/import.hpp"
 
+#include <unistd.h>
+
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "core/exchange/publish.hpp"
@@ -36,6 +39,18 @@ std::optional<importing::Sent> sent(const std::filesystem::path& file) {
     return importing::Sent{file.filename().string(), bytes_of(file)};
 }
 
+/// Whether doubts are all that is wrong, and someone at a terminal says that they are none.
+bool is_confirmed(const importing::Imported& imported, const Console& console) {
+    const auto& doubts = imported.doubts;
+    if (doubts.empty() || doubts.size() < imported.faults.size()) return false;
+    if (isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1) return false;
+    for (const fault::Fault& each : doubts) console.notes << each.cause << "\n";
+    console.notes << "Is that right? [y/N] " << std::flush;
+    std::string answer;
+    std::getline(std::cin, answer);
+    return answer == "y" || answer == "Y" || answer == "yes";
+}
+
 }  // namespace
 
 ExitCode import_drawing(const ImportWish& wish, const Console& console) {
@@ -50,8 +65,13 @@ ExitCode import_drawing(const ImportWish& wish, const Console& console) {
         .unit = wish.unit,
         .tolerance = wish.tolerance,
         .flatten = wish.flatten,
-        .name = wish.name};
+        .name = wish.name,
+        .confirmed = wish.confirmed};
     importing::Imported imported = importing::import_section(asked);
+    if (is_confirmed(imported, console)) {
+        asked.confirmed = true;
+        imported = importing::import_section(asked);
+    }
     const json shown =
         imported.faults.empty()
             ? imported.scene

@@ -20,9 +20,10 @@ struct ImportWish {
     std::string unit = "", name = "";
     double tolerance = 0.05;
     std::optional<double> flatten = {};
+    bool confirmed = false;  ///< --yes
 };
 
-/// Writes the scene and tells what was healed, guessed and passed over. With faults only the picture
+/// At a terminal, asks whether sizes that look like a slip are meant. Writes the scene and tells what was healed, guessed and passed over. With faults only the picture
 /// is written; they are told on the side and the exit code is bad_input.
 fault::ExitCode import_drawing(const ImportWish& wish, const Console& console);
 

@@ -193,7 +193,7 @@ Healed with_layers(std::vector<Soil> soils, const LayerWish& wish, const std::ve
     std::string all;
     for (const Soil& each : healed.soils) {
         all += (all.empty() ? "" : ", ") + each.name;
-        if (each.name == wish.region || lower(each.layer) == lower(wish.region))
+        if (lower(each.name) == lower(wish.region) || lower(each.layer) == lower(wish.region))
             meant.insert(each.name);
     }
     if (meant.empty())

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/geometry/polyline.hpp"
-#include "services/import/guess.hpp"
 
 namespace breach::importing {
 
@@ -34,6 +33,15 @@ json section_of(const std::vector<Soil>& soils, double element_size) {
     return {{"element_size", element_size}, {"regions", regions}};
 }
 
+/// Regions that reach above the toe: what lies below it is ground, and does not run out.
+json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell) {
+    json names = json::array();
+    for (const Soil& each : soils)
+        if (scene::bounding_box(each.ring).high.y() > toe.y() + 0.5 * cell)
+            names.push_back(each.name);
+    return names;
+}
+
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
     scene::Box box{terrain.front(), terrain.front()};
@@ -48,14 +56,20 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
     const double floor = down(box.low.y() - 2.0 * cell);
-    return {{"cell_size", cell},
-            {"domain_x", {down(box.low.x()), up(box.high.x())}},
-            {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
-            {"floor", {{"level", floor}}},
-            {"terrain", line_as_json(terrain)},
-            {"fill_stress", "overburden"},
-            {"duration", "until_rest"},
-            {"runout", {{"toe", importing::as_json(toe)}}}};
+    const json domain_x{down(box.low.x()), up(box.high.x())};
+    const json friction{{{"from", domain_x[0]}, {"to", domain_x[1]}, {"coefficient", 0.5}}};
+    json mpm{{"cell_size", cell},
+             {"domain_x", domain_x},
+             {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
+             {"floor", {{"level", floor}, {"friction", friction}}},
+             {"terrain", line_as_json(terrain)},
+             {"fill_stress", "overburden"},
+             {"overlap_correction", {{"rate", 5}}},
+             {"duration", "until_rest"},
+             {"runout", {{"toe", importing::as_json(toe)}}}};
+    const json mobile = mobile_regions(soils, toe, cell);
+    if (!mobile.empty() && mobile.size() < soils.size()) mpm["runout"]["regions"] = mobile;
+    return mpm;
 }
 
 }  // namespace
@@ -63,14 +77,14 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
 json as_json(const Vec2& place) { return {rounded(place.x()), rounded(place.y())}; }
 
 Document document_of(const std::string& name, const json& materials, const std::vector<Soil>& soils,
-                     const Lines& lines) {
+                     const Lines& lines, double share) {
     Document document;
     document.guessed = json::array();
     const auto guess = [&](const std::string& pointer, const json& value, const std::string& from) {
         document.guessed.push_back({{"pointer", pointer}, {"value", value}, {"from", from}});
     };
     const std::vector<Vec2> ground = ground_of(soils);
-    const auto slope = slope_of(ground);
+    const auto slope = document.slope = slope_of(ground);
     double height = 0.0;
     for (const Soil& each : soils) {
         const scene::Box box = scene::bounding_box(each.ring);
@@ -100,13 +114,18 @@ Document document_of(const std::string& name, const json& materials, const std::
     }
     if (!lines.terrain.empty()) {
         const Vec2 toe = slope ? slope->toe : ground.back();
-        document.scene["mpm"] = mpm_of(soils, lines.terrain, toe, size);
-        guess("/mpm/cell_size", size, "the element size");
+        document.scene["mpm"] = mpm_of(soils, lines.terrain, toe, share * size);
+        guess("/mpm/cell_size", share * size,
+              share == 1.0 ? "the element size" : "the thinnest layer, which needs two cells");
         for (const char* entry : {"domain_x", "domain_y"})
             guess(std::string("/mpm/") + entry, document.scene["mpm"][entry],
                   "section and terrain, with two cells below and above");
-        guess("/mpm/runout/toe", document.scene["mpm"]["runout"]["toe"],
-              slope ? from : "the right end of the ground");
+        guess("/mpm/floor/friction", 0.5, "what is usual between soil and terrain");
+        guess("/mpm/overlap_correction/rate", 5, "what \"breach new\" sets");
+        const json& runout = document.scene["mpm"]["runout"];
+        guess("/mpm/runout/toe", runout["toe"], slope ? from : "the right end of the ground");
+        if (runout.contains("regions"))
+            guess("/mpm/runout/regions", runout["regions"], "what reaches above the toe");
     }
     if (!lines.ground.empty()) {
         double most = 0.0;

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/import/heal.hpp"
+#include "services/import/guess.hpp"
 
 namespace breach::importing {
 
@@ -16,11 +16,13 @@ struct Document {
     nlohmann::json scene;
     nlohmann::json guessed;  ///< [{pointer, value, from}]
     std::vector<std::string> remarks;
+    std::optional<Slope> slope;
 };
 
-/// /section always; /lem where the ground has a slope; /mpm where a terrain was drawn.
+/// /section always; /lem where the ground has a slope; /mpm where a terrain was drawn, its cells this
+/// share of an element.
 Document document_of(const std::string& name, const nlohmann::json& materials,
-                     const std::vector<Soil>& soils, const Lines& lines);
+                     const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);
 
 nlohmann::json as_json(const Vec2& place);
 

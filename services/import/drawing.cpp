@@ -54,6 +54,10 @@ std::string text(const Vec2& place) {
 
 std::string metres(double length) { return digits("%.3g", length) + " m"; }
 
+std::string extent(double length) {
+    return length < 100.0 ? metres(length) : std::to_string(std::lround(length)) + " m";
+}
+
 std::string square_metres(double area) {
     return digits(std::abs(area) < 1.0 ? "%.2g" : "%.6g", area) + " m2";
 }

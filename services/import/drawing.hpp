@@ -56,6 +56,8 @@ std::string named(const Outline& outline);
 std::string text(const Vec2& place);
 /// "0.013 m"
 std::string metres(double length);
+/// "45.7 m", "1250 m"
+std::string extent(double length);
 /// "1200.5 m2"
 std::string square_metres(double area);
 /// Bytes of whatever code page as UTF-8: what is none is taken for Latin-1.

@@ -49,8 +49,21 @@ std::vector<Vec2> mirrored(std::vector<Vec2> line) {
     return line;
 }
 
-/// The last place that is nearly as high as the highest, and the first one right of it that is nearly
-/// as low as the lowest there.
+/// Whether the ground beyond this place is ground and no face: it falls less than a third as steeply as
+/// from the crest to here. Falls of less than `near` do not count.
+bool is_gentle_beyond(const std::vector<Vec2>& ground, std::size_t crest, std::size_t at,
+                      double near) {
+    const Vec2 fall = ground[at] - ground[crest];
+    const double gentle = -fall.y() / std::max(fall.x(), near) / 3.0;
+    for (std::size_t i = at + 1; i < ground.size(); ++i) {
+        const Vec2 beyond = ground[i] - ground[at];
+        if (-beyond.y() > near && -beyond.y() >= gentle * beyond.x()) return false;
+    }
+    return true;
+}
+
+/// The last place that is nearly as high as the highest, and the first one right of it and below half
+/// of the fall there where the face ends.
 Slope falling_right(const std::vector<Vec2>& ground) {
     const auto y = [](const Vec2& each) { return each.y(); };
     const double highest = std::ranges::max(ground, {}, y).y();
@@ -61,8 +74,9 @@ Slope falling_right(const std::vector<Vec2>& ground) {
         if (ground[i].y() >= highest - near) crest = i;
     double foot = ground[crest].y();
     for (std::size_t i = crest; i < ground.size(); ++i) foot = std::min(foot, ground[i].y());
+    const double half = 0.5 * (ground[crest].y() + foot);
     std::size_t toe = crest;
-    while (ground[toe].y() > foot + near) ++toe;
+    while (ground[toe].y() > half || !is_gentle_beyond(ground, crest, toe, near)) ++toe;
     return {ground[crest], ground[toe]};
 }
 
@@ -122,6 +136,16 @@ std::optional<Void> highest_void(const std::vector<Soil>& soils, double toleranc
         }
     }
     return highest;
+}
+
+bool looks_upside_down(const std::vector<Soil>& soils) {
+    std::vector<Soil> turned = soils;
+    for (Soil& each : turned)
+        for (Vec2& place : each.ring) place.y() = -place.y();
+    if (slope_of(ground_of(soils))) return false;
+    const auto slope = slope_of(ground_of(turned));
+    constexpr double face = 0.1;  // a base that falls less steeply is no face of a dam
+    return slope && slope->fall() > face * std::abs(slope->toe.x() - slope->crest.x());
 }
 
 std::optional<Slope> slope_of(const std::vector<Vec2>& ground) {

@@ -21,13 +21,17 @@ struct Void {
 /// None where nowhere more than `tolerance` [m].
 std::optional<Void> highest_void(const std::vector<Soil>& soils, double tolerance);
 
-/// The slope with the greatest fall between a height and the foot on one side of it.
+/// The slope with the greatest fall between a height and the foot on one side of it: where its face
+/// ends, though the ground beyond may fall on.
 struct Slope {
     Vec2 crest, toe;
     double fall() const { return crest.y() - toe.y(); }
 };
 /// None where the ground is level (a fall below a hundredth of its length).
 std::optional<Slope> slope_of(const std::vector<Vec2>& ground);
+
+/// The top has no slope and the bottom has one: depths, positive downwards, taken for levels.
+bool looks_upside_down(const std::vector<Soil>& soils);
 
 struct Ranges {
     std::array<double, 2> entry, exit;  ///< x [m]

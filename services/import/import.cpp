@@ -354,20 +354,66 @@ class Import {
                                                 {"size", each.size}});
     }
 
-    /// A layer by depth is of the material of its own name, where there is one.
+    /// A layer by depth is of the material of its own name, where there is one. Case does not count.
     void choose_materials(std::vector<Soil>& soils) {
+        std::map<std::string, std::string> own;
+        for (const std::string& each : names_in(materials_)) own[lower(each)] = each;
         for (Soil& each : soils) {
-            if (each.material == each.name || !materials_.contains(each.name)) continue;
             if (names_.contains(each.name)) continue;  // a region as drawn: its layer says
+            const auto found = own.find(lower(each.name));
+            if (found == own.end() || found->second == each.material) continue;
             remark("region " + each.name + " is of the material of its name, no longer of " +
                    each.material);
-            each.material = each.name;
+            each.material = found->second;
         }
     }
 
+    /// The section's length and height [m], had the drawing been in these units.
     void tell_size(const std::vector<Soil>& soils) {
         const scene::Box box = box_of(soils);
-        result_.report["size"] = as_json(box.high - box.low);
+        const Vec2 size = box.high - box.low;
+        result_.report["size"] = as_json(size);
+        const double own = unit_named(drawing_.unit).value_or(Unit{"m", 1.0}).metres;
+        std::string all;
+        for (const char* each : {"m", "cm", "mm", "ft"}) {
+            const Vec2 other = size * (unit_named(each)->metres / own);
+            all += (all.empty() ? "" : ", ") + extent(other.x()) + " by " + extent(other.y()) +
+                   " in " + each;
+        }
+        result_.report["other_units"] = all;
+    }
+
+    void doubt(const std::string& pointer, const std::string& cause, const std::string& remedy) {
+        if (wish_.confirmed) return remark(cause + ": confirmed");
+        result_.doubts.push_back(
+            {pointer, cause,
+             remedy + "; or confirm it with --yes (\"confirmed\": true in a request)"});
+    }
+
+    /// Sizes and shapes that are likelier a slip than a section.
+    void doubt_shape(const std::vector<Soil>& soils, const std::optional<Slope>& slope) {
+        constexpr double least = 3.0, most = 500.0;  // m
+        const scene::Box box = box_of(soils);
+        const Vec2 size = box.high - box.low;
+        const double height = slope ? slope->fall() : size.y();
+        if (height < least || height > most)
+            doubt("unit",
+                  std::string(slope ? "the slope" : "the section") + " is " + extent(height) +
+                      (height < least ? " high only, read in " : " high, read in ") +
+                      drawing_.unit + "; the section would be " +
+                      result_.report.at("other_units").get<std::string>(),
+                  "say its unit: --unit m, cm, mm or ft");
+        if (size.y() > size.x())
+            doubt("drawing",
+                  "the section is " + extent(size.x()) + " long and " + extent(size.y()) +
+                      " high: x and y look swapped",
+                  "give the distance along the section as x and the level as y");
+        if (looks_upside_down(soils))
+            doubt("drawing",
+                  "the section's top is a straight line and its bottom a slope: depths look taken "
+                  "for "
+                  "levels",
+                  "give levels as y, positive upwards: -depth");
     }
 
     void tell_areas(const std::vector<Soil>& soils) {
@@ -404,9 +450,29 @@ class Import {
         return faults;
     }
 
+    /// Cells that the scene's own check takes: halved for thin layers, at most to an eighth of an
+    /// element. Layers that are thinner still are computed with too coarse cells, and that is told.
+    std::pair<Document, check::Checked> with_sound_cells(const std::vector<Soil>& soils) const {
+        const auto is_coarse = [](const Fault& each) { return each.pointer == "/mpm/cell_size"; };
+        constexpr double finest = 0.125;
+        for (double share = 1.0;; share *= 0.5) {
+            Document document = document_of(scene_name(wish_), materials_, soils, lines_, share);
+            check::Checked read = checked(document.scene);
+            const auto coarse = std::ranges::find_if(read.faults, is_coarse);
+            if (coarse == read.faults.end()) return {std::move(document), std::move(read)};
+            if (share > finest) continue;
+            document = document_of(scene_name(wish_), materials_, soils, lines_);
+            document.scene["mpm"]["allow_coarse_cells"] = true;
+            document.remarks.push_back("/mpm/cell_size " + coarse->cause +
+                                       ": runouts will be questionable; merge thin layers, or give "
+                                       "them fewer depths");
+            read = checked(document.scene);
+            return {std::move(document), std::move(read)};
+        }
+    }
+
     void finish(const std::vector<Soil>& soils) {
-        Document document = document_of(scene_name(wish_), materials_, soils, lines_);
-        check::Checked read = checked(document.scene);
+        auto [document, read] = with_sound_cells(soils);
         if (!read.faults.empty() && lines_.phreatic.empty() && document.scene.contains("lem")) {
             json without = document.scene;
             without.erase("lem");
@@ -425,7 +491,12 @@ class Import {
         for (const fault::Flag& each : read.scene.warnings)
             remark(each.pointer + ": " + each.message);
         result_.report["guessed"] = document.guessed;
+        if (document.slope)
+            result_.report["slope"] = {{"crest", as_json(document.slope->crest)},
+                                       {"toe", as_json(document.slope->toe)}};
         result_.faults = seen_from_drawing(std::move(read.faults), soils);
+        doubt_shape(soils, document.slope);
+        for (const Fault& each : result_.doubts) result_.faults.push_back(each);
         result_.scene = std::move(document.scene);
         result_.sketch = std::move(read.scene);
     }

@@ -31,13 +31,16 @@ struct Wish {
     double tolerance = 0.05;             ///< nearer is meant to touch [m]
     std::optional<double> flatten = {};  ///< arcs become chords that are off by so much [m]
     std::string name = "";               ///< of the scene; empty: of the file
+    bool confirmed = false;              ///< sizes that look like a slip are meant
 };
 
 struct Imported {
     nlohmann::json scene;  ///< null when there are faults
     /// unit, unit_from ("asked", "drawing", "default"), size [length, height, m], tolerance, healed,
-    /// areas, guessed, remarks
+    /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
     nlohmann::json report;
+    /// What looks like a slip and is not confirmed; they are faults as well.
+    std::vector<fault::Fault> doubts;
     std::vector<fault::Fault> faults;  ///< pointers: "line 12", an option's name, or into the scene
     scene::Scene sketch;  ///< to be drawn: the scene, or the outlines as they were sent
 };

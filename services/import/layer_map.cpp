@@ -33,6 +33,8 @@ LayerMap::LayerMap(const std::vector<std::string>& entries, const std::set<std::
             told_[layer] = {*line, "", true};
         } else if (materials.contains(word)) {
             told_[layer] = {Role::soil, word, true};
+        } else if (const auto own = own_.find(lower(word)); own != own_.end()) {
+            told_[layer] = {Role::soil, own->second, true};
         } else {
             std::string all;
             for (const std::string& name : materials) all += (all.empty() ? "" : ", ") + name;

@@ -18,11 +18,6 @@ std::string joined_names(const json& names) {
     return all;
 }
 
-/// "45.7 m", "1250 m"
-std::string extent(double length) {
-    return length < 100.0 ? metres(length) : std::to_string(std::lround(length)) + " m";
-}
-
 /// Which unit was taken and from where, and how large that made the section.
 std::string unit_line(const json& report) {
     const std::string unit = report.at("unit"), from = report.at("unit_from");
@@ -34,11 +29,25 @@ std::string unit_line(const json& report) {
            extent(size[1]) + " high";
 }
 
+/// Between which places the slope lies that is searched.
+std::string slope_line(const json& slope) {
+    const auto place = [&](const char* name) {
+        return Vec2(slope.at(name)[0].get<double>(), slope.at(name)[1].get<double>());
+    };
+    const Vec2 crest = place("crest"), toe = place("toe");
+    return "guessed: the slope from its crest " + text(crest) + " to its toe " + text(toe) + ", " +
+           extent(crest.y() - toe.y()) + " high";
+}
+
 }  // namespace
 
 std::vector<std::string> lines_of(const json& report, std::size_t most) {
     std::vector<std::string> lines;
-    if (report.contains("size")) lines.push_back(unit_line(report));
+    if (report.contains("size")) {
+        lines.push_back(unit_line(report));
+        lines.push_back("the same numbers would be " + report.at("other_units").get<std::string>());
+    }
+    if (report.contains("slope")) lines.push_back(slope_line(report.at("slope")));
     const json& healed = report.at("healed");
     std::map<std::string, std::size_t> counts;
     double largest = 0.0;

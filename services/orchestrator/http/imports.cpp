@@ -24,6 +24,9 @@ class Entries {
     std::optional<double> number(const std::string& name) {
         return take<double>(name, &json::is_number, "a number");
     }
+    bool flag(const std::string& name) {
+        return take<bool>(name, &json::is_boolean, "true or false").value_or(false);
+    }
     std::vector<std::string> texts(const std::string& name) {
         std::vector<std::string> list;
         const json entry = take<json>(name, &json::is_array, "a list of texts").value_or(json());
@@ -87,7 +90,8 @@ importing::Wish wish_from(const std::string& text) {
                          .unit = entries.text("unit"),
                          .tolerance = entries.number("tolerance").value_or(0.05),
                          .flatten = entries.number("flatten"),
-                         .name = entries.text("name")};
+                         .name = entries.text("name"),
+                         .confirmed = entries.flag("confirmed")};
     entries.finish();
     return wish;
 }

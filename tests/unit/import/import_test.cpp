@@ -309,5 +309,113 @@ TEST(Import, PolygonsInATableAreTheSameSection) {
     EXPECT_EQ(imported.scene.at("lem"), drawn.scene.at("lem"));
 }
 
+// A dam of 30 m whose face ends at (200, 100); the ground beyond falls by 2 %.
+const Line falling_ground{{0, 90}, {400, 86}, {400, 96}, {200, 100}, {0, 100}};
+const Line dam_on_it{{0, 100}, {200, 100}, {164, 112}, {156, 112}, {110, 130}, {0, 129}};
+
+TEST(Import, TheToeIsWhereTheFaceEndsThoughTheGroundFallsOn) {
+    const std::string drawn = light("ROCK", falling_ground) + light("TAILINGS", dam_on_it);
+    for (const double way : {1.0, -1.0}) {
+        const auto turned = [&](Line ring) {
+            for (Vec2& each : ring) each.x() *= way;
+            return ring;
+        };
+        const Imported imported = import_section(test::wish(
+            dxf(light("ROCK", turned(falling_ground)) + light("TAILINGS", turned(dam_on_it)))));
+        ASSERT_EQ(test::told(imported.faults), "");
+        EXPECT_EQ(imported.report.at("slope").at("toe"), json({way * 200.0, 100.0}));
+        EXPECT_EQ(imported.report.at("slope").at("crest"), json({way * 110.0, 130.0}));
+        const json exit = imported.scene.at("lem").at("search").at("exit");
+        EXPECT_LT(std::min(way * exit[0].get<double>(), way * exit[1].get<double>()), 160.0);
+        EXPECT_GT(std::max(way * exit[0].get<double>(), way * exit[1].get<double>()), 210.0);
+        EXPECT_LT(std::max(way * exit[0].get<double>(), way * exit[1].get<double>()), 250.0);
+    }
+    Wish wish = test::wish(dxf(drawn));
+    wish.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
+    const Imported imported = import_section(wish);
+    ASSERT_EQ(test::told(imported.faults), "");
+    const json& mpm = imported.scene.at("mpm");
+    EXPECT_EQ(mpm.at("runout").at("toe"), json({200.0, 100.0}));
+    EXPECT_EQ(mpm.at("runout").at("regions"), json({"TAILINGS"}));
+    EXPECT_EQ(mpm.at("overlap_correction").at("rate"), 5);
+    EXPECT_EQ(mpm.at("floor").at("friction").at(0).at("from"), mpm.at("domain_x").at(0));
+    EXPECT_EQ(mpm.at("floor").at("friction").at(0).at("to"), mpm.at("domain_x").at(1));
+}
+
+TEST(Import, ASlopeThatIsTooLowToBeOneIsAskedForWithItsSizeInOtherUnits) {
+    // Drawn in metres, and the file says inches: 12 m become 0.3 m.
+    const std::string drawn =
+        light("ROCK", test::rock) + light("CLAY", test::clay) + light("TAILINGS", test::tailings);
+    Wish wish = test::wish(dxf(drawn, 1));
+    const Imported asked = import_section(wish);
+    ASSERT_EQ(asked.faults.size(), 1u) << test::told(asked.faults);
+    EXPECT_EQ(asked.doubts.size(), 1u);
+    EXPECT_TRUE(asked.scene.is_null());
+    EXPECT_EQ(asked.faults[0].pointer, "unit");
+    for (const char* each : {"is 0.305 m high only, read in in", "120 m by 22 m in m",
+                             "1.2 m by 0.22 m in cm", "36.6 m by 6.71 m in ft"})
+        EXPECT_NE(asked.faults[0].cause.find(each), std::string::npos) << asked.faults[0].cause;
+    wish.confirmed = true;
+    EXPECT_EQ(test::told(import_section(wish).faults), "");
+    wish.confirmed = false;
+    wish.unit = "m";
+    EXPECT_EQ(test::told(import_section(wish).faults), "");
+}
+
+TEST(Import, SwappedAxesAndDepthsForLevelsAreAskedFor) {
+    const auto cause = [](auto change) {
+        const auto changed = [&](Line ring) {
+            for (Vec2& each : ring) each = change(each);
+            return ring;
+        };
+        const Imported imported = import_section(
+            test::wish(dxf(light("ROCK", changed(test::rock)) + light("CLAY", changed(test::clay)) +
+                           light("TAILINGS", changed(test::tailings)))));
+        return test::told(imported.doubts);
+    };
+    EXPECT_EQ(cause([](const Vec2& v) { return v; }), "");
+    EXPECT_NE(cause([](const Vec2& v) {
+                  return Vec2(v.y(), v.x());
+              }).find("the section is 22 m long and 120 m high: x and y look swapped"),
+              std::string::npos);
+    EXPECT_NE(cause([](const Vec2& v) {
+                  return Vec2(v.x(), 12.0 - v.y());
+              }).find("depths look taken for levels"),
+              std::string::npos);
+}
+
+TEST(Import, CellsFitTheLayersThatItCutsItself) {
+    const auto cell = [](const std::string& layers) {
+        Wish wish = test::wish(dxf(light("ROCK", falling_ground) + light("TAILINGS", dam_on_it) +
+                                   light("PHREATIC", {{0, 127}, {110, 120}, {200, 100}}, false)));
+        wish.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
+        wish.layers = {layers};
+        for (const char* part : {"TAILINGS_0_3", "TAILINGS_3_6", "TAILINGS_0_0p4"}) {
+            wish.materials[part] = wish.materials["tailings"];
+            wish.materials[part]["law"]["c_kPa"] = part[9] == '3' ? 5 : 8;
+        }
+        const Imported imported = import_section(wish);
+        EXPECT_EQ(test::told(imported.faults), "");
+        return imported.scene.at("mpm");
+    };
+    EXPECT_EQ(cell("TAILINGS=20").at("cell_size"), 2.0);
+    EXPECT_EQ(cell("TAILINGS=3,6").at("cell_size"), 1.0);
+    EXPECT_EQ(cell("TAILINGS=0.4").at("allow_coarse_cells"), true);
+}
+
+TEST(Import, NamesOfMaterialsAndRegionsMatchInAnyCase) {
+    Wish wish = test::wish(dxf(light("TAILINGS", {{0, 0}, {20, 0}, {20, 8}, {0, 8}}) +
+                               light("CORE", {{20, 0}, {40, 0}, {20, 8}}) +
+                               light("PHREATIC", {{0, 7}, {20, 6}}, false)));
+    wish.layers = {"Tailings=3"};
+    wish.map = {"core=CLAY"};
+    wish.materials["tailings_0_3"] = wish.materials["tailings"];
+    const Imported imported = import_section(wish);
+    ASSERT_EQ(test::told(imported.faults), "");
+    EXPECT_EQ(region(imported.scene, "TAILINGS_0_3").at("material"), "tailings_0_3");
+    EXPECT_EQ(region(imported.scene, "TAILINGS_below_3").at("material"), "tailings");
+    EXPECT_EQ(region(imported.scene, "CORE").at("material"), "clay");
+}
+
 }  // namespace
 }  // namespace breach::importing::import_test
