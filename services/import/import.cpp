@@ -410,8 +410,7 @@ class Import {
                   "give the distance along the section as x and the level as y");
         if (looks_upside_down(soils))
             doubt("drawing",
-                  "the section's top is a straight line and its bottom a slope: depths look taken "
-                  "for "
+                  "the section's top is level and its bottom has a slope: depths look taken for "
                   "levels",
                   "give levels as y, positive upwards: -depth");
     }
