@@ -316,20 +316,22 @@ Json section_of(const Context& all) {
 
 Json stability_of(const Context& all) {
     const Outline& outline = all.outline;
-    const double H = all.values["height"], back = std::max(outline.left, outline.crest_from - H);
+    const double H = all.values["height"],
+                 back = std::max(outline.left, outline.crest_from - 3.0 * H);
     const double beyond = std::min(0.5 * H, 0.9 * all.values["foundation_extent"]);
     const double face = -outline.crest.x();
     Json lem{
         {"notes",
-         {"depths below a tenth of the height are left out: a slip in the face is no breach",
+         {"surfaces less deep than a quarter of the height are left out: a slip in the face is no "
+          "breach",
           "phreatic line: Dupuit's parabola from the pond (assumed: steady flow over a tight base)",
           all.with_fem ? "residual strengths: residual_ratio times sigma'_v0 of every slice"
                        : "residual strengths: those of the layers in the runout"}}};
-    lem["search"] = {{"entry", {millimetres(back), millimetres(outline.crest.x() - 0.01 * H)}},
+    lem["search"] = {{"entry", {millimetres(back), millimetres(outline.crest.x() + 0.75 * face)}},
                      {"exit",
                       {millimetres(outline.crest.x() + 0.25 * face),
                        millimetres(has(all, "foundation") ? beyond : 0.0)}},
-                     {"minimum_depth", millimetres(0.1 * H)}};
+                     {"minimum_depth", millimetres(0.25 * H)}};
     lem["water"] = {{"line", points(outline.phreatic)}};
     Json liquefaction = Json::array();
     for (const Region& each : layers_of(all)) {

@@ -8,8 +8,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "services/templates/templates.hpp"
+
 namespace {
 
+namespace templates = breach::templates;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -24,9 +27,11 @@ class LemTool : public testing::Test {
     void TearDown() override { fs::remove_all(folder_); }
 
     int run(const std::string& arguments, const std::string& scene = "slope") const {
-        const std::string command =
-            std::string(BREACH_BIN) + "/lem_tool " BREACH_ROOT "/workflows/scenes/" + scene +
-            ".json " + arguments + " > " + (folder_ / "out").string() + " 2>&1";
+        return run_file(BREACH_ROOT "/workflows/scenes/" + scene + ".json", arguments);
+    }
+    int run_file(const std::string& scene, const std::string& arguments) const {
+        const std::string command = std::string(BREACH_BIN) + "/lem_tool " + scene + " " +
+                                    arguments + " > " + (folder_ / "out").string() + " 2>&1";
         return WEXITSTATUS(std::system(command.c_str()));
     }
     json result() const {
@@ -103,6 +108,21 @@ TEST_F(LemTool, FlagsTheEdgeOfARangeWhereAStageEndsToo) {
     EXPECT_EQ(flag.at("code"), "range_edge");
     EXPECT_EQ(flag.at("pointer"), "/lem/search/entry");
     EXPECT_NE(flag.at("message").get<std::string>().find("2 layers liquefied"), std::string::npos);
+}
+
+TEST_F(LemTool, FindsNoCriticalSurfaceAtTheEdgeOfATemplatesRanges) {
+    const std::string coarse =
+        " --set /lem/search/entry_points=12 --set /lem/search/exit_points=12"
+        " --set /lem/search/depths=10";
+    for (const templates::Template& each : templates::catalogue()) {
+        const fs::path scene = folder_ / "scene.json";
+        std::ofstream(scene) << templates::make(each.name, json::object()).scene;
+        ASSERT_EQ(run_file(scene.string(), "--progress none --output " + folder_.string() + coarse),
+                  0)
+            << printed();
+        EXPECT_EQ(result().at("flags").dump().find("range_edge"), std::string::npos)
+            << each.name << " " << result().at("flags");
+    }
 }
 
 TEST_F(LemTool, RefusesASurfaceOfStraightPiecesOffTheGround) {
