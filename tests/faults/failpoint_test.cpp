@@ -6,7 +6,6 @@
 
 #include <fstream>
 
-#include "services/orchestrator/store/versions.hpp"
 #include "tests/faults/invariants.hpp"
 
 namespace breach::testing {
@@ -18,9 +17,9 @@ using nlohmann::json;
 std::vector<std::string> places() {
     std::vector<std::string> found;
     for (const std::string_view each : orchestrator::failpoint_names) {
-        const bool elsewhere = each.starts_with("firing") || each.starts_with("migration") ||
-                               each.starts_with("sbatch") || each.starts_with("reuse") ||
-                               each.starts_with("removal") || each.starts_with("upload");
+        const bool elsewhere = each.starts_with("firing") || each.starts_with("sbatch") ||
+                               each.starts_with("reuse") || each.starts_with("removal") ||
+                               each.starts_with("upload");
         if (!elsewhere) found.emplace_back(each);
     }
     return found;
@@ -104,36 +103,6 @@ TEST_P(TroubledAt, NoTaskIsLeftWhereNobodyMovesItOn) {
 
 INSTANTIATE_TEST_SUITE_P(Place, TroubledAt, ::testing::ValuesIn(places_of_threads()),
                          [](const auto& each) { return each.param; });
-
-TEST(Migration, KilledHalfWayIsDoneByTheNextStart) {
-    const Sandbox sandbox;
-    std::filesystem::create_directories(sandbox.data());
-    {
-        orchestrator::Connection old(sandbox.data() / "breachline.sqlite",
-                                     orchestrator::Access::read_write);
-        old.script(orchestrator::version_1);
-        old.script("PRAGMA user_version=1");
-        old.script(
-            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('old', 'old', '', "
-            "'2026-01-01T00:00:00.000Z', '{\"transfer_times\":[]}', '{}')");
-        old.script(
-            "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state) VALUES "
-            "('old-00000', 'old', 'lem_tool', 'lem', 'at_once', '', '[]', 'ready')");
-    }
-    Service killed(sandbox, {"--slots", "1"}, {"BREACHLINE_FAILPOINT=migration_half_way:1"});
-    EXPECT_FALSE(killed.valid());
-    {
-        orchestrator::Connection left(sandbox.data() / "breachline.sqlite",
-                                      orchestrator::Access::read_write);
-        std::int64_t version = 0;
-        left.query("PRAGMA user_version", {},
-                   [&](const orchestrator::Row& row) { version = row.integer(0); });
-        EXPECT_EQ(version, 1) << "nothing of a half migration is kept";
-    }
-    Service next(sandbox);
-    ASSERT_TRUE(next.valid()) << next.complaint();
-    EXPECT_EQ(next.get("/v1/runs/old").status, 200);
-}
 
 }  // namespace
 }  // namespace breach::testing

@@ -6,7 +6,7 @@
 
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/audit/history.hpp"
-#include "services/orchestrator/store/migrations.hpp"
+#include "services/orchestrator/store/schema.hpp"
 
 namespace breach::orchestrator {
 
@@ -30,7 +30,7 @@ class Auditor {
 
     Audit audit() && {
         look_at_database();
-        if (audit_.version != newest_version()) return std::move(audit_);
+        if (refusal_of(audit_.version)) return std::move(audit_);
         look_at_history();
         look_at_counts();
         look_at_outputs();
@@ -51,17 +51,8 @@ class Auditor {
 
     void look_at_database() {
         const std::string file = data_.database().string();
-        const std::int64_t newest = newest_version();
-        if (audit_.version > newest)
-            find({"database", file,
-                  "is of version " + std::to_string(audit_.version) + ", this program knows " +
-                      std::to_string(newest),
-                  "check it with the program that made it"});
-        if (audit_.version < newest)
-            find({"database", file,
-                  "is of version " + std::to_string(audit_.version) + ", this program's is " +
-                      std::to_string(newest),
-                  "start the service once: it keeps a copy and brings it up to date"});
+        if (const auto refusal = refusal_of(audit_.version))
+            find({"database", file, *refusal, "check it with the program that made it"});
         database_.query("PRAGMA integrity_check(20)", {}, [&](const Row& row) {
             if (row.text(0) != "ok")
                 find(

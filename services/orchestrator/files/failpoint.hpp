@@ -17,16 +17,15 @@ namespace breach::orchestrator {
 enum class Failpoint {
     store_before_commit,
     store_after_commit,
-    claim_before,        ///< a task is to be started, nothing is stored
-    claim_after,         ///< its attempt's row is stored, nothing is started
-    start_after,         ///< its process is started, which is not stored
-    exit_before,         ///< its exit record was read, nothing is stored
-    exit_after,          ///< its end is stored, its outputs are not registered
-    outputs_before,      ///< its outputs are hashed, nothing is stored
-    outputs_after,       ///< they are stored, nobody was told
-    firing_before,       ///< a trigger was met, nothing is stored
-    firing_after,        ///< the firing is stored
-    migration_half_way,  ///< between two versions of the database
+    claim_before,    ///< a task is to be started, nothing is stored
+    claim_after,     ///< its attempt's row is stored, nothing is started
+    start_after,     ///< its process is started, which is not stored
+    exit_before,     ///< its exit record was read, nothing is stored
+    exit_after,      ///< its end is stored, its outputs are not registered
+    outputs_before,  ///< its outputs are hashed, nothing is stored
+    outputs_after,   ///< they are stored, nobody was told
+    firing_before,   ///< a trigger was met, nothing is stored
+    firing_after,    ///< the firing is stored
     supervisor_before_phase,
     supervisor_after_phase,   ///< the phase has ended, there is no record
     supervisor_after_record,  ///< there is
@@ -41,7 +40,7 @@ enum class Failpoint {
     upload_after,             ///< it has its name, which is not committed
 };
 
-constexpr std::array<std::string_view, 24> failpoint_names{"store_before_commit",
+constexpr std::array<std::string_view, 23> failpoint_names{"store_before_commit",
                                                            "store_after_commit",
                                                            "claim_before",
                                                            "claim_after",
@@ -52,7 +51,6 @@ constexpr std::array<std::string_view, 24> failpoint_names{"store_before_commit"
                                                            "outputs_after",
                                                            "firing_before",
                                                            "firing_after",
-                                                           "migration_half_way",
                                                            "supervisor_before_phase",
                                                            "supervisor_after_phase",
                                                            "supervisor_after_record",

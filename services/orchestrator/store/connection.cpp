@@ -95,7 +95,7 @@ Connection::Connection(const std::filesystem::path& file, Access access) {
     script("PRAGMA foreign_keys=ON");
     if (access == Access::read_only) return;
     // What a large removal wrote does not stay in the log's file. auto_vacuum first: it is only
-    // taken by a database without tables (store/migrations.cpp turns an older one round).
+    // taken by a database without tables.
     // What is written hits the same pages of a dozen indexes: they stay in memory (64 MB), and are
     // copied from the log to the database once for many commits (every 16 MB).
     script(

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "services/orchestrator/files/failpoint.hpp"
-#include "services/orchestrator/store/migrations.hpp"
+#include "services/orchestrator/store/schema.hpp"
 
 namespace breach::orchestrator {
 
@@ -15,16 +15,16 @@ constexpr std::size_t largest_group = 256;
 constexpr std::size_t most_idle_readers =
     32;  // as many as ask at once on a busy day; each has some 100 kB
 
-std::filesystem::path migrated(const std::filesystem::path& file) {
+std::filesystem::path with_schema(const std::filesystem::path& file) {
     Connection database(file, Access::read_write);
-    migrate(database, file);
+    make_schema(database, file);
     return file;
 }
 
 }  // namespace
 
 Store::Store(const std::filesystem::path& file)
-    : file_(migrated(file)), writing_(file, Access::read_write) {
+    : file_(with_schema(file)), writing_(file, Access::read_write) {
     writing_.query("SELECT coalesce(max(seq), 0) FROM events", {},
                    [&](const Row& row) { last_event_ = row.integer(0); });
     writer_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });

@@ -1,5 +1,4 @@
-// breachline check, and databases of every earlier version (databases/): migrated, they are sound and
-// say what they said.
+// breachline check on a database with rows of every kind (audit_rows.sql), sound and damaged.
 #include "services/orchestrator/audit/audit.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +8,6 @@
 #include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/scene/reading.hpp"
-#include "services/orchestrator/store/migrations.hpp"
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator::audit_test {
@@ -31,10 +29,6 @@ class AuditTest : public ::testing::Test {
 
     void make_database(const std::string& sql) const {
         Connection(data_.database(), Access::read_write).script(sql);
-    }
-    void make_version(int version) const {
-        make_database(scene::text_of(BREACH_ROOT "/tests/unit/orchestrator/databases/version_" +
-                                     std::to_string(version) + ".sql"));
     }
     /// Files that are what the database says of them.
     void make_outputs() const {
@@ -67,67 +61,20 @@ class AuditTest : public ::testing::Test {
     DataPaths data_;
 };
 
-class AuditOfVersion : public AuditTest, public ::testing::WithParamInterface<int> {};
-
-TEST_P(AuditOfVersion, IsOldThenMigratedThenSound) {
-    make_version(GetParam());
-    const Audit old = audited(data_, Look::at_contents);
-    ASSERT_EQ(old.findings.size(), 1u) << old.findings.back().cause;
-    EXPECT_NE(old.findings[0].remedy.find("start the service once"), std::string::npos);
-    EXPECT_EQ(old.version, GetParam());
-    {
-        const Store store(data_.database());
-        EXPECT_EQ(store.run("r1")->state, "questionable");
-        EXPECT_EQ(store.run("r1bad")->state, "failed");
-        EXPECT_EQ(store.run("r1open")->state, "queued");
-        ASSERT_EQ(store.results("r1").size(), 2u);
-        EXPECT_EQ(store.tasks_to_start({}, 10).at(0).id, "r1open-00000");
-        if (GetParam() >= 2) {
-            EXPECT_EQ(store.run_of_key("key-2")->run, "r2again");
-            EXPECT_EQ(store.run("r2off")->state, "cancelled");
-            EXPECT_TRUE(store.recipe(std::string(62, '0') + "4d"));
-        }
-        if (GetParam() >= 3) {
-            EXPECT_EQ(store.firings_of("r1").size(), 1u);
-        }
-        if (GetParam() >= 6) {
-            EXPECT_EQ(store.run("r6")->state, "questionable");
-            EXPECT_EQ(store.results("r6").size(), 2u);
-        }
-        if (GetParam() >= 7) {
-            EXPECT_EQ(store.run("r7")->state, "partial");
-        }
-        if (GetParam() >= 9) {
-            EXPECT_EQ(store.means("r9").size(), 1u);
-        }
-        if (GetParam() >= 10) {
-            EXPECT_TRUE(store.run("r9")->pinned);
-            EXPECT_EQ(store.files_of("r9").size(), 1u);
-        }
-        double spent = 0.0;
-        for (const Task& each : store.tasks_of("r1"))
-            for (const Attempt& attempt : store.attempts_of(each.id))
-                spent += attempt.cpu_seconds.value_or(0.0);
-        EXPECT_DOUBLE_EQ(store.run("r1")->spent, spent);
-    }
-    EXPECT_TRUE(fs::exists(data_.database().string() + ".before_version_" +
-                           std::to_string(newest_version())));
-    make_outputs();
-    for (const Finding& each : audited(data_, Look::at_contents).findings)
-        ADD_FAILURE() << each.part << ": " << each.where << ": " << each.cause;
-}
-
-INSTANTIATE_TEST_SUITE_P(Of, AuditOfVersion, ::testing::Range(1, 11));
-
-TEST(Databases, OfEveryEarlierVersionAreKept) {
-    EXPECT_EQ(newest_version(), 11) << "keep one of the version before: databases/, AuditOfVersion";
+TEST_F(AuditTest, ADatabaseOfAnotherVersionIsNamedAndLeftAlone) {
+    { const Store store(data_.database()); }
+    make_database("PRAGMA user_version=11");
+    const Audit audit = audited(data_, Look::at_contents);
+    ASSERT_EQ(audit.findings.size(), 1u);
+    EXPECT_NE(audit.findings[0].cause.find("breach export"), std::string::npos);
+    EXPECT_THROW(Store{data_.database()}, StoreError);
 }
 
 class AuditOfDamage : public AuditTest {
   protected:
     AuditOfDamage() {
-        make_version(9);
-        { const Store migrated(data_.database()); }
+        { const Store store(data_.database()); }
+        make_database(scene::text_of(BREACH_ROOT "/tests/unit/orchestrator/audit_rows.sql"));
         make_outputs();
     }
 };

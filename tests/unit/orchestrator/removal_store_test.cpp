@@ -5,7 +5,6 @@
 
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"
-#include "services/orchestrator/store/versions.hpp"
 #include "tests/folder.hpp"
 #include "tests/unit/orchestrator/small_run.hpp"
 
@@ -137,41 +136,6 @@ TEST_F(RemovalStore, TheDatabaseShrinks) {
     EXPECT_GT(store.free_pages(), full / 2);
     while (store.free_pages() > 0) store.write([](Transaction& t) { t.shrink(50); });
     EXPECT_LT(pages(), full / 2) << "of " << full;
-}
-
-TEST_F(RemovalStore, DatabaseOfTheVersionBeforeIsTakenOver) {
-    {
-        Connection database(file(), Access::read_write);
-        database.script("PRAGMA auto_vacuum=NONE; VACUUM");
-        for (const char* version : {version_1, version_2, version_3, version_4, version_5,
-                                    version_6, version_7, version_8, version_9})
-            database.script(version);
-        database.script(
-            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
-            "'2026-01-01T00:00:00.000Z', '{}', '{}');"
-            "INSERT INTO recipes VALUES (printf('%064d', 1), 'fem_solver', 1, '{}');"
-            "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state, finished, "
-            "result, recipe, input_sha256) VALUES "
-            "('r-00000', 'r', 'fem_solver', 'fem', 'at_once', '', '[]', 'succeeded', '1', '{}', "
-            "printf('%064d', 1), ''),"
-            "('r-00001', 'r', 'fem_solver', 'again', 'at_once', '', '[]', 'cached', '1', '{}', "
-            "printf('%064d', 1), '');"
-            "UPDATE tasks SET same_as='r-00000' WHERE id='r-00001';"
-            "INSERT INTO events (seq, time, run, task, kind, detail) VALUES (41, 't', 'r', NULL, "
-            "'run', '{}'), (42, 't', 'r', 'r-00000', 'task', '{}');"
-            "PRAGMA user_version=9");
-    }
-    Store store(file());
-    EXPECT_EQ(store.last_event(), 42);
-    EXPECT_EQ(store.events_after(0, 10).size(), 2u);
-    EXPECT_FALSE(store.run("r")->pinned);
-    EXPECT_EQ(store.answers_to(std::string(63, '0') + "1", "", 8).size(), 2u)
-        << "what was taken from the cache answers, too";
-    Connection(file(), Access::read_only).query("PRAGMA auto_vacuum", {}, [](const Row& row) {
-        EXPECT_EQ(row.integer(0), 2);
-    });
-    EXPECT_EQ(removed(store, "r"), Removal::done);
-    EXPECT_EQ(store.last_event(), 43);
 }
 
 }  // namespace

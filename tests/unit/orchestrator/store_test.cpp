@@ -12,8 +12,7 @@
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
-#include "services/orchestrator/store/migrations.hpp"
-#include "services/orchestrator/store/versions.hpp"
+#include "services/orchestrator/store/schema.hpp"
 #include "services/orchestrator/triggers/batch_watch.hpp"
 #include "tests/folder.hpp"
 #include "tests/unit/orchestrator/small_run.hpp"
@@ -723,80 +722,21 @@ TEST_F(StoreTest, ReopenedStoreKnowsEverything) {
     EXPECT_EQ(again.tasks_of(run.id).size(), 3u);
 }
 
-TEST_F(StoreTest, DatabaseOfANewerProgramIsRefused) {
-    { const Store store(file()); }
-    Connection(file(), Access::read_write).script("PRAGMA user_version=99");
-    EXPECT_THROW(Store{file()}, StoreError);
-}
-
-/// A database as the first released program left it, with a run half done.
-void make_version_1(const std::filesystem::path& file) {
-    Connection database(file, Access::read_write);
-    database.script(version_1);
-    database.script(
-        "INSERT INTO runs VALUES ('r', 'old', '', '2026-01-01T00:00:00.000Z', '{}', '{}');"
-        "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state, started, "
-        "finished, result) VALUES ('r-00000', 'r', 'fem_solver', 'fem', 'at_once', '', '[]', "
-        "'succeeded', '1', '2', '{}');"
-        "INSERT INTO tasks (id, run, phase, label, release, input, overrides, state) VALUES "
-        "('r-00001', 'r', 'mpm_solver', 'mpm', 'at_once', '', '[]', 'ready');"
-        "PRAGMA user_version=1");
-}
-
-TEST_F(StoreTest, DatabaseOfAnOlderProgramIsMigratedAndItsStateIsKept) {
-    make_version_1(file());
-    Store store(file());
-    const auto run = store.run("r");
-    ASSERT_TRUE(run);
-    EXPECT_EQ(run->state, "running");
-    EXPECT_EQ(run->tasks_total, 2);
-    EXPECT_EQ(run->tasks_done, 1);
-    EXPECT_EQ(store.tasks_to_start({}, 10).at(0).id, "r-00001");
-    EXPECT_TRUE(store.tasks_to_start({"mpm_solver"}, 10).empty());
-    bool backed_up = false;
-    for (const auto& entry : std::filesystem::directory_iterator(file().parent_path()))
-        backed_up |= entry.path().string().find(".before_version_") != std::string::npos;
-    EXPECT_TRUE(backed_up);
-}
-
-TEST_F(StoreTest, ResultsOfAnOlderDatabaseSayWhatTheyKnew) {
-    {
+TEST_F(StoreTest, DatabaseOfAnotherVersionIsRefusedAndLeftAsItIs) {
+    for (const char* version : {"11", "99"}) {
+        { const Store store(file()); }
         Connection database(file(), Access::read_write);
-        for (const char* version : {version_1, version_2, version_3, version_4, version_5})
-            database.script(version);
-        database.script(
-            "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
-            "'2026-01-01T00:00:00.000Z', '{\"variants\": [{\"name\": \"b\"}, {\"name\": "
-            "\"a\"}]}', '{}');"
-            "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
-            "overrides, state, finished, result, variant) VALUES "
-            "('r-0', 'r', 'transfer_tool', 'ta', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
-            "'{}', 'a'),"
-            "('r-1', 'r', 'transfer_tool', 'tb', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
-            "'{}', 'b'),"
-            "('r-2', 'r', 'mpm_solver', 'ma', 1, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
-            "'{\"runout\": 1, \"at_rest\": true}', 'a'),"
-            "('r-3', 'r', 'mpm_solver', 'mb', 1, 'r-1', 'at_once', '', '[]', 'succeeded', '1', "
-            "'{\"runout\": 2, \"at_rest\": false}', 'b');"
-            "PRAGMA user_version=5");
+        database.script(std::string("PRAGMA user_version=") + version);
+        EXPECT_THROW(Store{file()}, StoreError);
+        EXPECT_EQ(std::to_string(version_of(database)), version);
+        database.script("PRAGMA user_version=12");
     }
-    Store store(file());
-    const auto rows = store.results("r");
-    ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(value_of(rows[0], "variant"), "b");
-    EXPECT_EQ(value_of(rows[0], "state"), "questionable");
-    EXPECT_EQ(codes_of(value_of(rows[0], "flags")), "still_moving");
-    EXPECT_EQ(value_of(rows[1], "state"), "succeeded");
-    EXPECT_TRUE(value_of(rows[1], "questionable").is_null());
-    EXPECT_EQ(store.run("r")->state, "questionable");
-    EXPECT_EQ(store.run("r")->message, "1 of 2 runouts still moving: lower bounds");
 }
 
-TEST_F(StoreTest, DrawsOfAnOlderDatabaseHaveTheirMeans) {
+TEST_F(StoreTest, DrawsHaveTheirMeans) {
+    { const Store made(file()); }
     {
         Connection database(file(), Access::read_write);
-        for (const char* version : {version_1, version_2, version_3, version_4, version_5})
-            database.script(version);
         database.script(
             "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
             "'2026-01-01T00:00:00.000Z', '{\"draws\": 2, \"variants\": [{\"name\": "
@@ -808,12 +748,13 @@ TEST_F(StoreTest, DrawsOfAnOlderDatabaseHaveTheirMeans) {
             "('r-1', 'r', 'mpm_solver', 'ma', 1, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
             "'{\"runout\": 1, \"at_rest\": true}', 'soft_dam'),"
             "('r-2', 'r', 'mpm_solver', 'mb', 1, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
-            "'{\"runout\": 3, \"at_rest\": false}', 'soft_dam_d2'),"
+            "'{\"runout\": 3, \"at_rest\": false, \"flags\": [{\"code\": \"still_moving\", "
+            "\"severity\": \"questionable\"}]}', 'soft_dam_d2'),"
             "('r-3', 'r', 'mpm_solver', 'mc', 2, 'r-0', 'at_once', '', '[]', 'succeeded', '1', "
             "'{\"runout\": 5, \"at_rest\": true}', 'soft_dam'),"
             "('r-4', 'r', 'mpm_solver', 'md', 2, 'r-0', 'at_once', '', '[]', 'failed', '1', NULL, "
             "'soft_dam_d2');"
-            "PRAGMA user_version=5");
+            "UPDATE tasks SET result = result WHERE result IS NOT NULL");
     }
     const Store store(file());
     const std::vector<ResultRow> means = store.means("r");
@@ -851,20 +792,6 @@ TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {
         EXPECT_EQ(columns.contains(each.name), !worked_out) << each.name;
     }
     EXPECT_FALSE(columns.contains("outdated"));
-}
-
-TEST_F(StoreTest, MigrationThatFailsHalfWayLeavesTheOldDatabase) {
-    make_version_1(file());
-    Connection(file(), Access::read_write).script("CREATE TABLE run_counts (in_the_way TEXT)");
-    EXPECT_THROW(Store{file()}, StoreError);
-    Connection again(file(), Access::read_write);
-    again.query("PRAGMA user_version", {}, [](const Row& row) { EXPECT_EQ(row.integer(0), 1); });
-    int columns = 0;
-    again.query("SELECT count(*) FROM pragma_table_info('tasks') WHERE name='recipe'", {},
-                [&](const Row& row) { columns = static_cast<int>(row.integer(0)); });
-    EXPECT_EQ(columns, 0);
-    again.script("DROP TABLE run_counts");
-    EXPECT_EQ(Store(file()).run("r")->tasks_total, 2);
 }
 
 TEST_F(StoreTest, CountsOfARunAreThoseOfItsTasksWhateverHappens) {

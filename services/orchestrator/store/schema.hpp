@@ -1,0 +1,22 @@
+// The tables of the database, their version (PRAGMA user_version) and the views.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "services/orchestrator/store/connection.hpp"
+
+namespace breach::orchestrator {
+
+/// The version of a database: 0 when it is empty.
+std::int64_t version_of(Connection& database);
+
+/// Why this program does not read a database of that version, and what to do; nothing if it does.
+std::optional<std::string> refusal_of(std::int64_t version);
+
+/// Makes the tables of an empty database, and the views where they are another program's, in one
+/// transaction. Throws StoreError for a database of another version.
+void make_schema(Connection& database, const std::filesystem::path& file);
+
+}  // namespace breach::orchestrator
