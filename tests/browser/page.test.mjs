@@ -169,6 +169,7 @@ test("the FEM mesh is drawn deformed", async () => {
     await until("colours", async () => (await canvas_facts(page)).colours > 20);
 });
 
+const measures_speed = process.env.BREACH_BROWSER_SPEED; // set it to print times per picture
 const spread = (times) => [["median", 0.5], ["95 % within", 0.95], ["longest", 1]]
     .map(([name, share]) => `${name} ${times[Math.floor(share * (times.length - 1))].toFixed(1)} ms`).join(", ");
 
@@ -186,10 +187,11 @@ async function processor_clock() {
     };
 }
 
-test("100,000 particles are drawn whole; the time per picture is printed", async () => {
+test("100,000 particles are drawn whole", async () => {
     await open_run(api.add_run({ ...study, name: "large", transfer_times: [1] }, { points: 100000, began: Date.now() - 60000 }).id);
     await until("100,000 points", async () => /^(99|100)\d{3} points$/.test(await text_of("#view-count")), 40000);
     await until("soil", async () => (await canvas_facts(page)).share > 0.05);
+    if (!measures_speed) return;
     const picture = await page.evaluate(async () => {
         const { PointView } = await import("/static/points.js");
         const paint = PointView.prototype.paint;
@@ -233,10 +235,10 @@ test("100,000 particles are drawn whole; the time per picture is printed", async
     }
 });
 
-test("a mesh of 20,000 elements is drawn; the time per picture is printed", async () => {
+test("a mesh of 20,000 elements is drawn", async () => {
     await open_run("run-1");
     await until("soil", async () => (await canvas_facts(page)).share > 0.05);
-    const times = await page.evaluate(async () => {
+    const times = await page.evaluate(async (pictures) => {
         const { PointView } = await import("/static/points.js");
         const [columns, rows] = [201, 101];
         const count = columns * rows;
@@ -253,15 +255,15 @@ test("a mesh of 20,000 elements is drawn; the time per picture is printed", asyn
                     columns: { x: of((i) => i), y: of((_, j) => j), r_u: of((i, j) => Math.abs(Math.sin(i / 30) * Math.cos(j / 20))) } },
                   { field: "r_u", low: 0, high: 1 }, 1);
         const taken = [];
-        for (let i = 0; i < 15; i += 1) {
+        for (let i = 0; i < pictures; i += 1) {
             await new Promise((resume) => setTimeout(resume, 20));
             view.paint();
             view.context.getImageData(0, 0, 1, 1); // waits for the picture
             taken.push(view.paint_time);
         }
         return taken.sort((a, b) => a - b);
-    });
-    console.log(`painting 20,000 elements: least ${times[0].toFixed(1)} ms, ${spread(times)}`);
+    }, measures_speed ? 15 : 1);
+    if (measures_speed) console.log(`painting 20,000 elements: least ${times[0].toFixed(1)} ms, ${spread(times)}`);
     assert.ok((await canvas_facts(page)).colours > 20);
 });
 

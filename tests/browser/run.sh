@@ -14,8 +14,11 @@ for program in /usr/bin/chromium node npm; do
 done
 
 mkdir -p "$build"
-if ! cmp -s "$here/package-lock.json" "$build/package-lock.json" || [ ! -d "$build/node_modules/playwright-core" ]; then
-    cp "$here/package.json" "$here/package-lock.json" "$build/"
-    (cd "$build" && npm ci --ignore-scripts --no-audit --no-fund)
-fi
+(
+    flock 9 # the first of several tests installs
+    if ! cmp -s "$here/package-lock.json" "$build/package-lock.json" || [ ! -d "$build/node_modules/playwright-core" ]; then
+        cp "$here/package.json" "$here/package-lock.json" "$build/"
+        cd "$build" && npm ci --ignore-scripts --no-audit --no-fund
+    fi
+) 9> "$build/lock"
 BREACH_BROWSER_BUILD=$build exec node "$here/$test_file"
