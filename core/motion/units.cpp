@@ -107,10 +107,16 @@ bool is_word(const std::string& token) {
 
 /// The text behind UNITS OF, up to the end of its sentence.
 std::optional<std::string> phrase_of_units(const std::string& text) {
-    std::size_t at = text.find("UNIT");
+    const auto is_letter = [&](std::size_t i) {
+        return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+    };
+    std::size_t at = text.find("UNIT"), end = 0;
+    for (; at != std::string::npos; at = text.find("UNIT", at + 4)) {
+        end = text.compare(at, 5, "UNITS") == 0 ? at + 5 : at + 4;
+        if ((at == 0 || !is_letter(at - 1)) && !is_letter(end)) break;
+    }
     if (at == std::string::npos) return std::nullopt;
-    at += text.compare(at, 5, "UNITS") == 0 ? 5 : 4;
-    std::string phrase = text.substr(at);
+    std::string phrase = text.substr(end);
     constexpr std::string_view fillers[] = {" ", ":", "=", "OF ", "IN ", "ARE "};
     for (bool found = true; found;) {
         found = false;

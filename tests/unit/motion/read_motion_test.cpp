@@ -155,6 +155,7 @@ TEST(Unit, IsAWholeWordOfTheHeader) {
         {"ACCELERATION IN UNITS OF IN/S2", 0.0254},
         {"ACCELERATION IN UNITS OF FT/SEC2", 0.3048},
         {"ACCELERATION AT 12 M DEPTH IN G", 9.80665},
+        {"COMMUNITY HALL, ACCELERATION IN UNITS OF GAL", 0.01},
     };
     for (const auto& [text, factor] : accelerations) {
         const auto [value, quantity] = unit_of(text);
