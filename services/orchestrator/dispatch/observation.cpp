@@ -1,6 +1,7 @@
 // The dispatcher's watching half: what an attempt prints, how it ends, and what follows from that.
 #include <spdlog/spdlog.h>
 
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -185,6 +186,16 @@ void Dispatcher::retry_or_give_up(Transaction& transaction, const Live& live, Ta
 /// What the phase itself says (fault.json), else the last line of its log.
 TaskFault Dispatcher::fault_of(const Live& live, const ExitRecord& record) const {
     TaskFault fault{record.exit_code, in_words(record)};
+    if (record.signal == SIGKILL && !record.stopped) {
+        const std::int64_t asked = live.task.resources.memory_mb;
+        fault.summary +=
+            ": most likely the machine's memory, or a memory or time limit of Slurm, was exceeded; "
+            "the phase asked for " +
+            (asked > 0 ? std::to_string(asked) + " MB" : std::string("no memory of its own")) +
+            ". Raise it in the study (\"resources\": {\"" + live.task.phase +
+            "\": {\"memory_MB\": ...}}), or the time limit (breachline serve "
+            "--slurm-option=--time=HH:MM:SS)";
+    }
     if (!record.exit_code) return fault;
     std::ifstream stream(data_.output(live.task) / phases::files::fault);
     const json said = json::parse(stream, nullptr, false);

@@ -51,6 +51,39 @@ std::optional<JobName> read_job_name(const AttemptFolder& folder) {
     return JobName{document.at("name"), document.at("index")};
 }
 
+/// Value of the last option of sbatch with this name ("--time", "-t"); empty: there is none.
+std::string option_of(const std::vector<std::string>& options, const std::string& name) {
+    const std::string start = name.starts_with("--") ? name + "=" : name;
+    std::string value;
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        if (options[i] == name && i + 1 < options.size())
+            value = options[i + 1];
+        else if (options[i].starts_with(start))
+            value = options[i].substr(start.size());
+    }
+    return value;
+}
+
+/// The limits that a job had, and how to raise them. state: Slurm's word for how it ended.
+std::string limits_in_words(const std::string& state, const Order& order,
+                            const std::vector<std::string>& options) {
+    const std::string asked =
+        order.memory_mb > 0 ? std::to_string(order.memory_mb) + " MB" : option_of(options, "--mem");
+    const std::string brief = option_of(options, "-t"), long_one = option_of(options, "--time");
+    const std::string limit = long_one.empty() ? brief : long_one;
+    const std::string time = "time limit " +
+                             (limit.empty() ? std::string("of the partition") : limit) +
+                             " (raise it: breachline serve --slurm-option=--time=HH:MM:SS)";
+    const std::string memory =
+        "memory " + (asked.empty() ? std::string("of the partition") : asked) +
+        " (raise it in the study: \"resources\": {\"" + order.program.filename().string() +
+        "\": {\"memory_MB\": " + std::to_string(std::max<std::int64_t>(4000, 2 * order.memory_mb)) +
+        "}})";
+    if (state == "TIMEOUT") return "it reached its " + time;
+    if (state == "OUT_OF_MEMORY") return "it needed more than its " + memory;
+    return "its limits were: " + time + ", " + memory;
+}
+
 }  // namespace
 
 SlurmExecutor::SlurmExecutor(SlurmSettings settings, const std::filesystem::path& self)
@@ -185,7 +218,8 @@ Vitals SlurmExecutor::vitals_of(Job& job) const {
     // Cancelled before it began: nothing of it can come any more.
     const bool never_began = job.state == "CANCELLED" && !job.heartbeat;
     if (!never_began && Clock::now() - *job.silent_since < grace()) return {Life::queued};
-    return {Life::gone, "Slurm says " + job.state + ", and it left no exit record"};
+    return {Life::gone, "Slurm says " + job.state + ", and the job left no exit record; " +
+                            limits_in_words(job.state, job.order, settings_.options)};
 }
 
 void SlurmExecutor::stop(const AttemptFolder& folder, StopReason reason) {
