@@ -314,6 +314,12 @@ class Breach(unittest.TestCase):
         self.assertEqual(report["healed"][0]["size"], 0.02)
         self.assertEqual((report["unit"], report["unit_from"], report["size"]), ("m", "default", [40, 11]))
         self.assertEqual(call(nowhere, *wishes[:-2], "--phreatic", self.here / "none.csv").returncode, 74)
+        low = [*wishes, "--map", "base=clay", "--unit", "in"]
+        refused = call(nowhere, *low)
+        self.assertEqual(refused.returncode, 65)
+        self.assertIn("the slope is 0.203 m high only, read in in; the section would be 40 m by 11 m in m", refused.stderr)
+        self.assertIn("confirm it with --yes", refused.stderr)
+        self.assertEqual(call(nowhere, *low, "--yes").returncode, 0)
 
     def test_draw_of_nothing_is_65_and_leaves_no_picture(self):
         for text in ("{", "[]", '{"name": "a scene"}'):
