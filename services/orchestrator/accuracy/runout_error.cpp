@@ -17,6 +17,10 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_studies = 20;  // the newest are asked
+/// Standard deviation of a runout over lattices of points where no draws tell it: about what
+/// docs/accuracy.md has of short runouts (up to 0.5 of a cell) and of long ones (1.2 to 1.5 %).
+constexpr double scatter_in_cells = 0.5;
+constexpr double scatter_of_runout = 0.015;
 constexpr const char* noise_of_points =
     "noise of the points, not the error of the setting or of a FEM before it";
 constexpr const char* noise_of_fem =
@@ -194,6 +198,17 @@ class Scatter {
                     " draws, Student's 90 %: " + noise_};
     }
 
+    /// Root mean square of what the draws scatter by over all places; nothing: none has two.
+    std::optional<double> everywhere() const {
+        double sum = 0.0, places = 0.0;
+        for (const auto& [place, runouts] : runouts_) {
+            if (runouts.size() < 2) continue;
+            sum += std::pow(repeats_of(runouts).deviation.value_or(0.0), 2.0);
+            ++places;
+        }
+        return places > 0.0 ? std::optional(std::sqrt(sum / places)) : std::nullopt;
+    }
+
     /// The MPM's task of a draw that has a runout; nothing: none has.
     std::optional<std::string> task_of(const Place& place) const {
         const auto found = tasks_.find(place);
@@ -246,6 +261,33 @@ class OverTransferTime {
     std::map<Place, double> scatter_;
 };
 
+/// Size of a runout's cells [m]; nothing: its recipe is not known.
+std::optional<double> cell_size_of(const Store& store, const ResultRow& row) {
+    const auto task = store.task(value_of(row, "mpm_task").get<std::string>());
+    const auto recipe = task && task->recipe ? store.recipe(*task->recipe) : std::nullopt;
+    if (!recipe) return std::nullopt;
+    const json part = json::parse(recipe->part);
+    const json::json_pointer at("/mpm/cell_size");
+    return part.contains(at) ? std::optional(part.at(at).get<double>()) : std::nullopt;
+}
+
+/// Runouts at neighbouring transfer times begin from nearly equal points on one lattice: what they
+/// scatter by shrinks with the step between the times, and says nothing of other lattices.
+Estimate at_least_lattices(Estimate beside, double runout, const std::optional<double>& draws,
+                           const std::optional<double>& cell) {
+    const double usual =
+        std::max(scatter_in_cells * cell.value_or(0.0), scatter_of_runout * std::abs(runout));
+    const double floor = draws.value_or(usual);
+    if (floor <= *beside.error) return beside;
+    const std::string why = draws ? "scatter of the draws of other rows"
+                                  : "what lattices of points usually scatter by, half a cell and " +
+                                        words::text_of(100.0 * scatter_of_runout) +
+                                        " % of the runout at least (\"draws\" would tell it)";
+    return {floor, why + "; neighbouring transfer times share a lattice and scatter by " +
+                       words::text_of(*beside.error, 2) +
+                       " m only: noise, not the error of the setting or of the FEM"};
+}
+
 /// Bias by an accuracy study and scatter by the draws themselves.
 Estimate of_mean(const std::optional<Estimate>& studied, Estimate scatter) {
     if (!studied || !studied->bias || !scatter.error) return scatter;
@@ -276,12 +318,15 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         if (!estimate || !estimate->error) {
             auto noise = scatter.estimate(row);
             if (!over_time) over_time.emplace(all_rows());
-            const auto beside = over_time->estimate(row);
+            auto beside = over_time->estimate(row);
             if (noise && beside) {
                 noise->from += "; neighbouring transfer times scatter by " +
                                words::text_of(*beside->error, 2) +
                                " m, the curve's own bends among it";
             }
+            if (!noise && beside)
+                beside = at_least_lattices(*beside, value_of(row, "runout"), scatter.everywhere(),
+                                           cell_size_of(store, row));
             if (noise || beside) estimate = noise ? noise : beside;
         }
         if (!estimate)

@@ -393,7 +393,10 @@ TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
 }
 
 TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
-    const json rows = rows_of_sweep({{"transfer_times", {0.25, 0.5, 0.75, 1.0, 1.25}}});
+    json sweep = accuracy_study();
+    sweep["scene"]["fem"]["stages"].back()["duration"] = 5;
+    const json rows = rows_of_sweep(
+        {{"scene", sweep.at("scene")}, {"transfer_times", {1.0, 2.0, 3.0, 4.0, 5.0}}});
     ASSERT_EQ(rows.size(), 5u);
     const auto runout = [&](std::size_t i) { return rows[i].at("runout").get<double>(); };
     double squares = 0.0;
@@ -404,6 +407,21 @@ TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
         EXPECT_TRUE(row.at("runout_error_from")
                         .get<std::string>()
                         .starts_with("scatter among neighbouring transfer times"));
+    }
+}
+
+TEST(RunoutError, OfNeighboursIsAtLeastWhatLatticesScatterBy) {
+    // Times so near each other that their runouts hardly differ.
+    const double cell = accuracy_study().at("scene").at("mpm").at("cell_size");
+    for (const double step : {1e-3, 1e-5}) {
+        json times = json::array();
+        for (int i = 0; i < 5; ++i) times.push_back(0.5 + i * step);
+        for (const json& row : rows_of_sweep({{"transfer_times", times}})) {
+            const double floor = std::max(0.5 * cell, 0.015 * row.at("runout").get<double>());
+            EXPECT_NEAR(row.at("runout_error").get<double>(), floor, 1e-12);
+            const std::string from = row.at("runout_error_from");
+            EXPECT_TRUE(from.starts_with("what lattices of points usually scatter by")) << from;
+        }
     }
 }
 
