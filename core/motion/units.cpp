@@ -65,13 +65,13 @@ std::optional<Unit> plain_unit(std::string_view token) {
     if (token == "GAL") return Unit{Quantity::acceleration, 0.01};
     constexpr std::pair<std::string_view, double> lengths[] = {
         {"MM", 0.001}, {"CM", 0.01}, {"M", 1.0}, {"IN", 0.0254}, {"FT", 0.3048}};
-    const std::string_view length = token.substr(0, token.find('/'));
-    const std::string_view over = token.substr(length.size());
+    const std::string_view top = token.substr(0, token.find('/'));
+    const std::string_view below = token.substr(top.size());
     for (const auto& [name, metres] : lengths) {
-        if (length != name) continue;
-        if (over.empty()) return Unit{Quantity::displacement, metres};
-        if (over == "/S") return Unit{Quantity::velocity, metres};
-        if (over == "/S/S" || over == "/S2") return Unit{Quantity::acceleration, metres};
+        if (top != name) continue;
+        if (below.empty()) return Unit{Quantity::displacement, metres};
+        if (below == "/S") return Unit{Quantity::velocity, metres};
+        if (below == "/S/S" || below == "/S2") return Unit{Quantity::acceleration, metres};
     }
     return std::nullopt;
 }
