@@ -61,7 +61,7 @@ TEST_F(Motion, AFileThatIsNotThereIsNamed) {
 TEST_F(Motion, ColumnsHeaderAndNumbersAreRead) {
     expect_only(with("a.csv", "t,a\n" + rows(0.01, 0.3)), "/fem/motion/file",
                 "line 1: is no known header");
-    expect_only(with("b.csv", "time_s,acceleration_gal\n" + rows(0.01, 0.3)), "/fem/motion/file",
+    expect_only(with("b.csv", "time_s,acceleration_mg\n" + rows(0.01, 0.3)), "/fem/motion/file",
                 "is no known header");
     expect_only(with("c.csv", header + "0,0,0\n0.01,0.1,0.1\n"), "/fem/motion/file",
                 "line 2: has 3 columns");
