@@ -38,7 +38,8 @@ std::string sent_name(const Call& call) {
         name, [](unsigned char c) { return c < ' ' || c == 0x7f || c == '"' || c == '\\'; });
     if (name.empty() || name.size() > longest || !plain)
         throw bad_request(
-            "name must be the file's name: the ending .msh says that it is a mesh, anything else is "
+            "name must be the file's name: the ending .msh says that it is a mesh, anything else "
+            "is "
             "a motion");
     return name;
 }
