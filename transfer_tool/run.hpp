@@ -7,7 +7,7 @@
 namespace breach::transfer {
 
 /// Raised when the numbers change for the same input: the cache takes no result of another one.
-inline constexpr int numerics = 10;
+inline constexpr int numerics = 11;
 
 process::Plan plan(const scene::Scene& scene);
 process::Outcome run(process::Session& session);

@@ -28,7 +28,10 @@ Corners shape_gradients(const Vec2& xi) {
     return dN;
 }
 
-Matrix2 jacobian(const Corners& x, const Vec2& xi) { return x * shape_gradients(xi).transpose(); }
+Matrix2 jacobian(const Corners& x, const Vec2& xi) {
+    // From a corner: at 500 km from the origin the sum would lose the digits of an element's size.
+    return (x.colwise() - x.col(0)) * shape_gradients(xi).transpose();
+}
 
 Eigen::Vector4d corner_jacobians(const Corners& x) {
     Eigen::Vector4d J;
