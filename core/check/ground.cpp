@@ -26,6 +26,61 @@ void check_terrain(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+/// Where the section hangs above what should carry it: it falls as far before it flows.
+struct Clearance {
+    double size = 0.0;  ///< largest [m]
+    double x = 0.0;     ///< of the largest [m]
+    double from = std::numeric_limits<double>::infinity();
+    double to = -std::numeric_limits<double>::infinity();
+};
+
+Clearance clearance_below_section(const scene::Scene& scene, double told) {
+    const scene::Mpm& mpm = *scene.mpm;
+    const scene::Box box = extent(scene);
+    const double near = 1e-6 * (box.high.x() - box.low.x());
+    std::vector<double> places = abscissae(scene);
+    for (const Vec2& kink : mpm.terrain) places.push_back(kink.x());
+    Clearance gap;
+    const auto lowest = [&](double x) {
+        const std::vector<Stratum> strata = strata_at(scene, x);
+        return strata.empty() ? std::numeric_limits<double>::quiet_NaN()
+                              : std::ranges::min(strata, {}, &Stratum::bottom).bottom;
+    };
+    const auto look = [&](double place, double side) {
+        const double x = place + side;
+        const double bottom = lowest(x);
+        const bool overhangs =
+            std::abs(lowest(x + side) - bottom) > near;  // steeper than 45 degrees
+        if (std::isnan(bottom) || overhangs) return;
+        const double size =
+            bottom - (mpm.terrain.empty() ? mpm.floor.level : straight_level_at(mpm.terrain, x));
+        if (size <= told) return;
+        gap.from = std::min(gap.from, place);
+        gap.to = std::max(gap.to, place);
+        if (size > gap.size) gap.size = size, gap.x = place;
+    };
+    for (const double place : places)
+        for (const double side : {-near, near}) look(place, side);
+    return gap;
+}
+
+void check_support(const scene::Scene& scene, Findings& findings) {
+    const scene::Mpm& mpm = *scene.mpm;
+    const Clearance gap = clearance_below_section(scene, 0.1 * mpm.cell_size);
+    if (gap.size == 0.0) return;
+    const bool on_floor = mpm.terrain.empty();
+    const double support = on_floor ? mpm.floor.level : straight_level_at(mpm.terrain, gap.x);
+    const std::string level = text(support + gap.size);
+    warn(findings, "implausible", on_floor ? "/mpm/floor/level" : "/mpm/terrain",
+         "the section lies up to " + metres(gap.size) + " above the " +
+             (on_floor ? "floor" : "terrain") + " (from x = " + text(gap.from) + " to " +
+             metres(gap.to) + ", most at x = " + metres(gap.x) +
+             "): the soil falls as far before it flows; " +
+             (on_floor ? "write \"floor\": {\"level\": " + level + "}"
+                       : "raise the terrain to y = " + metres(support + gap.size) + " there") +
+             ", or draw the soil that fills the gap");
+}
+
 void check_toe(const scene::Scene& scene, Findings& findings) {
     const scene::Mpm& mpm = *scene.mpm;
     const Vec2& toe = mpm.runout.toe;
@@ -70,6 +125,7 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
 
 void check_ground(const scene::Scene& scene, Findings& findings) {
     check_terrain(scene, findings);
+    check_support(scene, findings);
     check_toe(scene, findings);
     check_upstream_end(scene, findings);
 }
