@@ -126,6 +126,14 @@ void finish(Session& session, Simulation& simulation, double speed) {
     session.progress(1.0, "done");
 }
 
+/// What was doubted of the scene before it ran, and may be why it broke down.
+std::string warnings_before(const scene::Scene& scene) {
+    std::string text;
+    for (const fault::Flag& each : scene.warnings)
+        text += "\n  warned before the run: " + each.pointer + ": " + each.message;
+    return text;
+}
+
 }  // namespace
 
 Outcome run(Session& session) {
@@ -139,7 +147,7 @@ Outcome run(Session& session) {
         const auto file = session.output("last_good.vtkhdf");
         exchange::write_particle_state(file, simulation.last_good_state(), session.provenance());
         throw fault::Breakdown(std::string(breakdown.what()) + "; last good state in " +
-                               file.string());
+                               file.string() + warnings_before(session.scene()));
     }
     const double seconds = session.cpu_seconds() - began;
     const double work = static_cast<double>(simulation.body().points.size()) *
