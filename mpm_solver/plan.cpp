@@ -77,6 +77,13 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
     plan.push_back(decided.order.line);
     plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
                     "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
+    plan.push_back({"damping of what does not yield",
+                    mpm.damping_ratio > 0.0 ? Use::on : Use::left_out,
+                    mpm.damping_ratio > 0.0
+                        ? text_of(mpm.damping_ratio) +
+                              " of critical at the mobile soil's height; what flows is not damped"
+                        : "0: stress waves in soil that stands go on",
+                    "/mpm/damping_ratio"});
     plan.push_back(decided.overlap.line);
     plan.push_back(decided.shaking.line);
     plan.push_back({"stiffness scaling", mpm.stiffness_scale != 1.0 ? Use::on : Use::left_out,

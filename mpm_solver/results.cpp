@@ -151,7 +151,9 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             .deposit_depth =
                 row.runout_beyond_toe > 0.0 ? row.area_beyond_toe / row.runout_beyond_toe : 0.0,
             .cell_size = mpm.cell_size,
-            .until_rest = mpm.until_rest};
+            .until_rest = mpm.until_rest,
+            .tension_share = mpm.tension_share,
+            .damping_ratio = mpm.damping_ratio};
 }
 
 void conclude(Session& session, const Simulation& simulation, const Ending& ending, double speed) {

@@ -1,5 +1,6 @@
 #include "core/materials/law.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace breach::materials {
@@ -44,6 +45,15 @@ Law scaled(Law law, double stiffness, double softening_strains) {
     if (Softening* softens = softening(law)) {
         softens->epsilon_q_start *= softening_strains;
         softens->epsilon_q_end *= softening_strains;
+    }
+    return law;
+}
+
+Law with_tension_share(Law law, double share) {
+    if (auto* cone = std::get_if<MohrCoulomb>(&law)) cone->tension_share = share;
+    if (auto* cone = std::get_if<DruckerPrager>(&law)) {
+        const double q = 2.0 * cone->c * std::cos(cone->phi) / (1.0 - std::sin(cone->phi));
+        cone->tension_cutoff = std::max(cone->tension_cutoff, share * q / 3.0);  // of the mean
     }
     return law;
 }

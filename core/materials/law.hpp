@@ -144,5 +144,7 @@ Law with_S(Law law, double S);
 
 /// E and, where given, the strains of softening multiplied.
 Law scaled(Law law, double stiffness, double softening_strains);
+/// Carries at least this share of its unconfined compressive strength in tension, where it has one.
+Law with_tension_share(Law law, double share);
 
 }  // namespace breach::materials

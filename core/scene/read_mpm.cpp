@@ -173,7 +173,7 @@ Rest rest_from(const json& mpm, double H, double g) {
             .peak_share = mpm.at("rest_peak_share")};
 }
 
-void read_end(const Reader& reader, const Scene& scene, const json& mpm, Mpm& result) {
+void read_scales(const Reader& reader, const Scene& scene, const json& mpm, Mpm& result) {
     const double g = gravity_of(reader);
     const double W = result.domain_x[1] - result.domain_x[0];
     const double D = std::hypot(W, result.domain_y[1] - result.domain_y[0]);
@@ -181,8 +181,10 @@ void read_end(const Reader& reader, const Scene& scene, const json& mpm, Mpm& re
     result.duration = result.until_rest
                           ? number_or(mpm.at("longest_duration"), 100.0 * std::sqrt(D / g))
                           : mpm.at("duration").get<double>();
-    const double H = mobile_height(scene, result);
-    result.rest = rest_from(mpm, H > 0.0 ? H : D, g);
+    const double mobile = mobile_height(scene, result);
+    const double H = mobile > 0.0 ? mobile : D;
+    result.rest = rest_from(mpm, H, g);
+    result.blending_rate = number_or(mpm.at("blending_rate"), std::sqrt(g / H));
 }
 
 }  // namespace
@@ -212,7 +214,8 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.kernel = word_at<Kernel>(mpm, "kernel");
     result.gimp_half_size = mpm.at("gimp_half_size");
     result.order = word_at<UpdateOrder>(mpm, "order");
-    result.blending_rate = mpm.at("blending_rate");
+    result.tension_share = mpm.at("tension_share");
+    result.damping_ratio = mpm.at("damping_ratio");
     result.anti_locking = word_at<AntiLocking>(mpm, "anti_locking");
     result.gap_closure = mpm.at("gap_closure");
     result.gap_room =
@@ -228,7 +231,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.runout.toe = point_from(mpm.at("runout").at("toe"));
     result.runout.regions = mpm.at("runout").at("regions").get<std::vector<std::string>>();
     result.runout.front_depth = mpm.at("runout").at("front_depth");
-    read_end(reader, scene, mpm, result);
+    read_scales(reader, scene, mpm, result);
     for (const json& gauge : mpm.at("gauges")) {
         result.gauges.push_back({gauge.at("name"), gauge.at("x"), gauge.at("arrival_depth")});
     }

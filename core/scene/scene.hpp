@@ -633,6 +633,10 @@ struct Mpm {
     double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
     double blending_rate;  ///< affine PIC rate beta [1/s]
+    /// Share of critical damping of what does not yield, at the mobile height's frequency [-]
+    double damping_ratio = 0.0;
+    /// Least tensile strength over the unconfined compressive strength in force [-]
+    double tension_share = 0.0;
     AntiLocking anti_locking;
     bool gap_closure;
     /// Open volume is held to the room between the neighbours; unless the scene says, where more

@@ -23,6 +23,18 @@ void refuse_points_outside(const Grid& grid, const Points& points, const std::st
                 "enlarge /mpm/domain_x and /mpm/domain_y, or lower /mpm/floor/level"}});
 }
 
+/// As if nothing had yielded before; a checkpoint's points have it.
+void start_viscosity(Body& body) {
+    const auto resists = [](const Zone& zone) { return zone.viscosity + zone.damping > 0.0; };
+    std::vector<double>& eta = body.points.eta;
+    if (!eta.empty() || std::ranges::none_of(body.zones, resists)) return;
+    eta.resize(body.points.size());
+    for (const Zone& zone : body.zones)
+        std::fill(eta.begin() + static_cast<std::ptrdiff_t>(zone.begin),
+                  eta.begin() + static_cast<std::ptrdiff_t>(zone.end),
+                  zone.viscosity + zone.damping);
+}
+
 /// Fewer points than this per thread cost more to share than to do.
 constexpr std::size_t least_points_per_thread = 2000;
 
@@ -67,6 +79,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     if (body.softening.is_on() && body.points.epsilon_q_shared.empty())
         NonlocalSoftening::remember(body.points);
     const std::size_t n = body.points.size();
+    start_viscosity(body);
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
     body.team = std::make_shared<numerics::Team>(useful_threads(computing.threads, n));
@@ -112,16 +125,19 @@ double wave_speed(const Body& body) {
     return fastest;
 }
 
-double viscous_speed(const Zone& zone, double h) {
-    return 16.0 / 3.0 * zone.viscosity * zone.largest_specific_volume / h;
+double viscous_speed(const Zone& zone, double eta, double h) {
+    return 16.0 / 3.0 * eta * zone.largest_specific_volume / h;
 }
 
 double courant_step(const Body& body, double cfl) {
-    double damping = 0.0;
+    double viscous = 0.0;
+    double damped = 0.0;
     for (const Zone& zone : body.zones) {
-        damping = std::max(damping, viscous_speed(zone, body.grid.h));
+        viscous = std::max(viscous, viscous_speed(zone, zone.viscosity, body.grid.h));
+        damped = std::max(damped, viscous_speed(zone, zone.viscosity + zone.damping, body.grid.h));
     }
-    return cfl * body.grid.h / (wave_speed(body) + body.tally.fastest + damping);
+    const double speed = wave_speed(body) + body.tally.fastest;
+    return body.grid.h * std::min(cfl / (speed + viscous), largest_courant / (speed + damped));
 }
 
 }  // namespace breach::mpm

@@ -77,7 +77,10 @@ double wave_speed(const Body& body);
 
 /// What viscosity adds to the wave speed in the Courant step, 16 eta / (3 rho h) [m/s]: a lagged
 /// damping of eigenvalue (4/3) eta 8 / (rho h^2) is stable up to half its period.
-double viscous_speed(const Zone& zone, double h);
+double viscous_speed(const Zone& zone, double eta, double h);
+
+/// Up to which explicit steps are stable; damping takes from what a Courant number leaves below it.
+inline constexpr double largest_courant = 0.8;
 
 /// Largest step at this Courant number: cfl h / (c + |v|) [s].
 double courant_step(const Body& body, double cfl);

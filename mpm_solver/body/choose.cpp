@@ -44,15 +44,16 @@ Decided<VolumeRule> volume_rule_of(const scene::Mpm& mpm, const SoilOfZone& soil
             {what, Use::on, "opened volume closes before pressure builds again", pointer}};
 }
 
-Decided<Viscosity> viscosity_of(const SoilOfZone& soil) {
+Decided<Viscosity> viscosity_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
     const std::string what = "viscosity of " + soil.material;
     const std::string pointer = "/materials/" + soil.material + "/viscosity";
     if (soil.viscosity > 0.0)
         return {
             Viscosity::newtonian,
             {what, Use::on, text_of(soil.viscosity) + " Pa s beside the law's stress", pointer}};
-    return {Viscosity::none,
-            {what, Use::left_out, "0: nothing but the law and the scheme dissipates", pointer}};
+    return {mpm.damping_ratio > 0.0 ? Viscosity::newtonian : Viscosity::none,
+            {what, Use::left_out, "0: what yields dissipates by its law and the scheme alone",
+             pointer}};
 }
 
 process::PlanLine line_of_kernel(const scene::Mpm& mpm) {
@@ -116,7 +117,7 @@ Decided<scene::Shaking> shaking_of(scene::Shaking asked) {
 }  // namespace
 
 SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil) {
-    return {averages_of(mpm, soil), volume_rule_of(mpm, soil), viscosity_of(soil)};
+    return {averages_of(mpm, soil), volume_rule_of(mpm, soil), viscosity_of(mpm, soil)};
 }
 
 SchemeDecisions decide(const scene::Mpm& mpm) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/scene/beds.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
@@ -21,6 +23,19 @@ double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
                             ? scene::band_in_nonlocal_lengths * *soil.nonlocal_length
                             : mpm.cell_size;
     return *mpm.softening_length / band;
+}
+
+/// Viscosity 2 xi G / omega, which damps by the share xi the shear wave that the mobile soil's height H
+/// holds, omega = pi c_s / (2 H); at most what leaves the time step alone (courant_step).
+double damping_of(const scene::Scene& scene, const scene::Material& soil,
+                  const mechanics::Elasticity& elasticity) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    if (mpm.damping_ratio == 0.0) return 0.0;
+    constexpr double cells = 0.55;
+    const double impedance = std::sqrt(elasticity.shear_modulus() * soil.density);
+    return impedance *
+           std::min(4.0 / std::numbers::pi * mpm.damping_ratio * scene::mobile_height(scene, mpm),
+                    cells * mpm.cell_size);
 }
 
 materials::LawLanes lanes_of(const materials::Law& law, const scene::Material& soil) {
@@ -52,8 +67,9 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
              std::size_t begin, std::size_t end) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     const scene::Material& soil = scene.materials[material];
-    const materials::Law law =
-        materials::scaled(soil.law, mpm.stiffness_scale, softening_scale(mpm, soil));
+    const materials::Law law = materials::with_tension_share(
+        materials::scaled(soil.law, mpm.stiffness_scale, softening_scale(mpm, soil)),
+        mpm.tension_share);
     Zone zone{.material = soil.name,
               .law = law,
               .lanes = lanes_of(law, soil),
@@ -61,6 +77,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
               .volume_rule = decide(mpm, {soil.name, law, soil.viscosity}).volume_rule.value,
               .softening_scale = softening_scale(mpm, soil),
               .viscosity = soil.viscosity,
+              .damping = damping_of(scene, soil, materials::elasticity(law)),
               .nonlocal_length = soil.nonlocal_length.value_or(0.0),
               .walls_y = walls_of(scene, material),
               .begin = begin,

@@ -33,7 +33,10 @@ struct Points {
     /// The same when neighbourhoods last shared what it had grown by; empty unless some softening is
     /// nonlocal
     std::vector<double> epsilon_q_shared;
-    std::vector<double> gap;     ///< volume strain to be closed after tension [-]
+    std::vector<double> gap;  ///< volume strain to be closed after tension [-]
+    std::vector<double>
+        eta;  ///< viscosity in force: the material's and, of soil that did not yield
+              ///< in the last step, its damping's [Pa s]; empty without either
     std::vector<double> excess;  ///< overlap beyond what is tolerated; see OverlapMeter [-];
                                  ///< empty unless the body corrects it
     /// Strengths before and after softening [Pa, -], of soils whose material has a profile, 0 of
@@ -66,6 +69,7 @@ void for_each_real(AnyPoints& points, Visit&& visit) {
     visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
     visit("gap", points.gap);
     if (!points.epsilon_q_shared.empty()) visit("epsilon_q_shared", points.epsilon_q_shared);
+    if (!points.eta.empty()) visit("eta", points.eta);
     if (!points.excess.empty()) visit("excess", points.excess);
     if (points.c.empty()) return;
     visit("c", points.c), visit("tan_phi", points.tan_phi);
@@ -87,6 +91,7 @@ struct Zone {
     VolumeRule volume_rule;
     double softening_scale;  ///< of the law's strains of softening, and of the points' own [-]
     double viscosity;        ///< eta [Pa s]
+    double damping;          ///< viscosity of what does not yield, beside it [Pa s]
     double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
     WallRows walls_y;        ///< the floor's, and the top of a bed (core/scene/beds.hpp)
     std::size_t begin;

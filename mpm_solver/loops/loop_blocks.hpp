@@ -57,14 +57,14 @@ class Tail {
         visit(p.m, t.m), visit(p.V_0, t.V_0), visit(p.V, t.V), visit(p.volume, t.volume);
         visit(p.sxx, t.sxx), visit(p.syy, t.syy), visit(p.szz, t.szz), visit(p.sxy, t.sxy);
         visit(p.epsilon_q, t.epsilon_q), visit(p.epsilon_q_plastic, t.epsilon_q_plastic);
-        visit(p.gap, t.gap), visit(p.excess, t.excess);
+        visit(p.gap, t.gap), visit(p.eta, t.eta), visit(p.excess, t.excess);
         visit(p.drift_x, t.drift_x), visit(p.drift_y, t.drift_y);
         visit(p.c, t.c), visit(p.tan_phi, t.tan_phi);
         visit(p.c_residual, t.c_residual), visit(p.tan_phi_residual, t.tan_phi_residual);
     }
 
     static constexpr int N = Isa::lanes;
-    static constexpr int arrays_of_reals = 26;
+    static constexpr int arrays_of_reals = 27;
     double values_[arrays_of_reals][N];
     std::int32_t cells_[N];
     PointArrays arrays_{};

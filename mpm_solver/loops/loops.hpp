@@ -29,7 +29,7 @@ struct Span {
 /// The arrays of Points; see there.
 struct PointArrays {
     double *x, *y, *vx, *vy, *Lxx, *Lxy, *Lyx, *Lyy, *m, *V_0, *V, *volume, *sxx, *syy, *szz, *sxy,
-        *epsilon_q, *epsilon_q_plastic, *gap, *excess;
+        *epsilon_q, *epsilon_q_plastic, *gap, *eta, *excess;
     double *drift_x, *drift_y;                            ///< null unless MUSL
     double *c, *tan_phi, *c_residual, *tan_phi_residual;  ///< null unless points have strengths
     std::int32_t* cell;
@@ -61,7 +61,8 @@ struct ZoneWork {
     CellSum* cells;   ///< null when nothing is averaged
     const void* law;  ///< of the type in materials::LaneLaws that the loops were chosen for
     materials::Moduli moduli;
-    double eta;  ///< viscosity [Pa s]
+    double eta;      ///< viscosity [Pa s]
+    double damping;  ///< viscosity of what does not yield, beside it [Pa s]
     double gimp_half_size;
     double dt;
     double blend;         ///< beta dt, at most 1 [-]

@@ -52,8 +52,8 @@ template <int N, Scattered what, Viscosity viscosity>
         Real yy = load<Real>(a.syy + p);
         Real xy = load<Real>(a.sxy + p);
         if constexpr (viscosity == Viscosity::newtonian) {
-            const Real eta(work.eta);
-            const Real two_eta(2.0 * work.eta);
+            const Real eta = load<Real>(a.eta + p);
+            const Real two_eta = eta + eta;
             const Real mean = (Lxx + Lyy) * Real(1.0 / 3.0);
             xx = xx + two_eta * (Lxx - mean);
             yy = yy + two_eta * (Lyy - mean);

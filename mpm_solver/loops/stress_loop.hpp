@@ -27,11 +27,11 @@ template <class Real>
     return materials::lanes::root(Real(2.0 / 3.0) * e_e);
 }
 
-/// Dissipation by viscosity, sum of V 2 eta dev D : dev D dt [J].
+/// Dissipation by viscosity and damping, sum of V 2 eta dev D : dev D dt [J].
 template <class Isa>
 void dissipate(const ZoneWork& work, Span span, Totals& sums) {
     using Real = Lanes<Isa::lanes>;
-    Real V_D_D(0.0);
+    Real V_eta_D_D(0.0);
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
             const auto& [a, p, first, count] = block;
@@ -42,10 +42,12 @@ void dissipate(const ZoneWork& work, Span span, Totals& sums) {
             const Real yy = Lyy - mean;
             const Real shear = load<Real>(a.Lxy + p) + load<Real>(a.Lyx + p);
             const Real D_D = xx * xx + yy * yy + mean * mean + Real(0.5) * shear * shear;
-            V_D_D = V_D_D + materials::lanes::select(own_lanes<Real>(block),
-                                                     load<Real>(a.V + p) * D_D, Real(0.0));
+            V_eta_D_D = V_eta_D_D +
+                        materials::lanes::select(own_lanes<Real>(block),
+                                                 load<Real>(a.V + p) * load<Real>(a.eta + p) * D_D,
+                                                 Real(0.0));
         });
-    sums.viscous += 2.0 * work.eta * work.dt * sum_of(V_D_D);
+    sums.viscous += 2.0 * work.dt * sum_of(V_eta_D_D);
 }
 
 /// A block's strain in the step, as its law gets it.
@@ -168,6 +170,19 @@ template <class Law, VolumeRule volume_rule, class Real>
     }
 }
 
+/// Damping is of soil that the law left elastic: what flows has the law's dissipation alone.
+template <class Real>
+[[gnu::always_inline]] inline void damp(const Block& block, const ZoneWork& work,
+                                        const materials::StressOf<Real>& trial,
+                                        const materials::StressOf<Real>& sigma) {
+    using materials::lanes::magnitude;
+    const Real returned = magnitude(sigma.xx - trial.xx) + magnitude(sigma.yy - trial.yy) +
+                          magnitude(sigma.zz - trial.zz) + magnitude(sigma.xy - trial.xy);
+    const Real eta(work.eta);
+    store(block.arrays.eta + block.p,
+          materials::lanes::select(returned > Real(0.0), eta, eta + Real(work.damping)));
+}
+
 /// Anti-locking: the block's part in the mean stress of its cells.
 template <int N>
 [[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells,
@@ -197,6 +212,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
             const Increment<Real> increment = increments.of(block);
             const materials::UpdateOf<Real> update = answer<Law>(law, block, increment);
             keep<Law, volume_rule>(block, increment, update);
+            if (work.damping > 0.0) damp(block, work, increment.trial, update.sigma);
             if constexpr (Law::yields) plastic = plastic + V * update.plastic_work;
             if constexpr (overlap == Overlap::corrected) {
                 pushed_in = pushed_in - V * increment.sigma_m * increment.hidden;

@@ -15,14 +15,24 @@ std::string three_digits(double value) { return words::text_of(value, 3); }
 
 Flag still_moving(const Ending& ending) {
     const char* bound = ending.until_rest ? "/mpm/longest_duration" : "/mpm/duration";
-    const std::string remedy = ending.until_rest
-                                   ? "raise /mpm/longest_duration"
-                                   : "raise /mpm/duration or set it to until_rest (--until-rest)";
+    const bool waves = ending.stood && ending.damping_ratio < usual_damping_ratio;
+    const std::string remedy =
+        waves ? "the soil stands, and its stress waves are not damped: write \"damping_ratio\": " +
+                    text_of(usual_damping_ratio)
+        : ending.until_rest ? "raise /mpm/longest_duration"
+                            : "raise /mpm/duration or set it to until_rest (--until-rest)";
     return {"still_moving", Severity::questionable,
             "still moving at " + three_digits(ending.time) + " s with " +
                 three_digits(100.0 * ending.kinetic_share) + " % of the released energy (" +
                 *ending.moving + "): the runout is a lower bound; " + remedy,
             bound};
+}
+
+/// Soil without tensile strength falls apart in its stress waves, whatever the cells.
+std::string or_tension(const Ending& ending, const std::string& remedy) {
+    if (ending.tension_share >= usual_tension_share) return remedy;
+    return "write \"tension_share\": " + text_of(usual_tension_share) +
+           " where the soil has cohesion; else " + remedy;
 }
 
 Flag thin_deposit(const Ending& ending) {
@@ -87,16 +97,20 @@ std::vector<Flag> doubts_of(const Ending& ending) {
              "the scheme " + std::string(ending.numerical_share > 0.0 ? "took " : "made ") +
                  three_digits(100.0 * std::abs(ending.numerical_share)) +
                  " % of the released energy (at most 20 % can be trusted): the runout is the "
-                 "scheme's as much as the soil's; try smaller cells, more points per cell, a "
-                 "smaller /mpm/cfl, and the materials' viscosity",
+                 "scheme's as much as the soil's; " +
+                 or_tension(ending,
+                            "try smaller cells, more points per cell, a smaller /mpm/cfl, "
+                            "and the materials' viscosity"),
              "/mpm"});
     }
     if (!(ending.volume_ratio >= least_volume_ratio && ending.volume_ratio <= most_volume_ratio)) {
         doubts.push_back({"volume_ratio", Severity::questionable,
                           "the mobile soil has " + three_digits(ending.volume_ratio) +
                               " of its initial volume (0.8 to 1.3 can be trusted): depth and "
-                              "length of the deposit are wrong; look for spray in the last frame, "
-                              "set /mpm/gap_room, try smaller cells or a smaller /mpm/cfl",
+                              "length of the deposit are wrong; " +
+                              or_tension(ending,
+                                         "look for spray in the last frame, set /mpm/gap_room, "
+                                         "try smaller cells or a smaller /mpm/cfl"),
                           "/mpm"});
     }
     if (!(ending.overlap <= told_overlap)) doubts.push_back(overlap(ending));

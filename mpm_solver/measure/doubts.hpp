@@ -35,6 +35,11 @@ constexpr double largest_correction_share = 0.05;
 /// strengths from the start ran 68, 140, 180 and 176 m on 1.6, 2.7, 5.2 and 11 (docs/mpm_convergence.md).
 constexpr double deposit_cells_wanted = 5.0;
 
+/// What makes soil that stands, stand: a bank of 5 m with c 300 kPa fell apart without the first, and a
+/// slope with nu 0.45 did not come to rest within 200 s without the second.
+constexpr double usual_tension_share = 0.03;
+constexpr double usual_damping_ratio = 0.1;
+
 /// How a run ended, as far as doubts go.
 struct Ending {
     double time;                        ///< [s]
@@ -48,6 +53,8 @@ struct Ending {
     double deposit_depth;  ///< mean over what lies beyond the toe; 0: nothing does [m]
     double cell_size;      ///< [m]
     bool until_rest;       ///< the run was to go on until rest, and met its bound
+    double tension_share;  ///< /mpm/tension_share
+    double damping_ratio;  ///< /mpm/damping_ratio
 };
 
 std::vector<fault::Flag> doubts_of(const Ending& ending);

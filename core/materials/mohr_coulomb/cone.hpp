@@ -15,7 +15,13 @@ struct Cone {
     enum class Tip { apex, cut_off } tip;  ///< which of the two T is
 };
 
-/// c [Pa] >= 0, tan_phi >= tan_psi >= 0, cut-off [Pa] >= 0.
-Cone make_cone(double c, double tan_phi, double tan_psi, double tension_cutoff);
+/// Tension that a soil carries: a number, and at least a share of its unconfined compressive strength.
+struct Tension {
+    double cutoff;       ///< [Pa] >= 0
+    double share = 0.0;  ///< of q [-] >= 0
+};
+
+/// c [Pa] >= 0, tan_phi >= tan_psi >= 0.
+Cone make_cone(double c, double tan_phi, double tan_psi, const Tension& tension);
 
 }  // namespace breach::materials

@@ -13,7 +13,7 @@ namespace breach::materials {
 struct MohrCoulombNumbers {
     Moduli moduli;
     double c, tan_phi, tan_psi;
-    double tension_cutoff;
+    Tension tension;
     Softens softens;
     // unused without softening
     double epsilon_q_start, epsilon_q_end;
@@ -32,7 +32,7 @@ struct ConeOf {
 
 template <class Real>
 [[gnu::always_inline]] inline ConeOf<Real> cone_of(const Real& c, const Real& tan_phi,
-                                                   const Real& tan_psi, double tension_cutoff) {
+                                                   const Real& tan_psi, const Tension& tension) {
     using namespace lanes;
     const Real one(1.0);
     const Real least_psi = smaller(tan_psi, tan_phi);
@@ -41,9 +41,9 @@ template <class Real>
     const Real infinite(__builtin_inf());
     const auto has_apex = tan_phi > Real(0.0);
     const Real apex = select(has_apex, c / select(has_apex, tan_phi, one), infinite);
-    const Real cutoff(tension_cutoff);
-    return {root_k * root_k, root_m * root_m, Real(2.0) * c * root_k, smaller(cutoff, apex),
-            !(cutoff < apex)};
+    const Real q = Real(2.0) * c * root_k;
+    const Real cutoff = larger(Real(tension.cutoff), Real(tension.share) * q);
+    return {root_k * root_k, root_m * root_m, q, smaller(cutoff, apex), !(cutoff < apex)};
 }
 
 /// Share of the way from peak to residual strength, 0 to 1 [-].
@@ -64,12 +64,12 @@ template <Softens softens, class Real>
     const Real tan_phi(law.tan_phi);
     const Real tan_psi(law.tan_psi);
     if constexpr (softens == Softens::never) {
-        return cone_of(c, tan_phi, tan_psi, law.tension_cutoff);
+        return cone_of(c, tan_phi, tan_psi, law.tension);
     } else {
         const Real way = softened_by(law, epsilon_q);
         return cone_of(c + way * Real(law.c_residual - law.c),
                        tan_phi + way * Real(law.tan_phi_residual - law.tan_phi), tan_psi,
-                       law.tension_cutoff);
+                       law.tension);
     }
 }
 
@@ -81,7 +81,7 @@ template <class Real>
     const Real way = softened_by(law, epsilon_q);
     return cone_of(of.c + way * (of.c_residual - of.c),
                    of.tan_phi + way * (of.tan_phi_residual - of.tan_phi), Real(law.tan_psi),
-                   law.tension_cutoff);
+                   law.tension);
 }
 
 template <class Real>

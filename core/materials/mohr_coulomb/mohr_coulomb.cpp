@@ -6,6 +6,8 @@ namespace breach::materials {
 
 namespace {
 
+Tension tension_of(const MohrCoulomb& law) { return {law.tension_cutoff, law.tension_share}; }
+
 /// c and tan(phi) at a strain between the two of softening.
 template <class Strain>
 Strength softened(const Strength& peak, const Strength& residual, const Strain& of,
@@ -165,20 +167,20 @@ MohrCoulombNumbers ready(const MohrCoulomb& law) {
             .c = law.c,
             .tan_phi = tan_phi,
             .tan_psi = tan_psi,
-            .tension_cutoff = law.tension_cutoff,
+            .tension = tension_of(law),
             .softens = softens_of(law),
             .epsilon_q_start = softening.epsilon_q_start,
             .epsilon_q_end = softening.epsilon_q_end,
             .c_residual = softening.c_residual,
             .tan_phi_residual = softening.tan_phi_residual,
-            .peak = make_cone(law.c, tan_phi, tan_psi, law.tension_cutoff)};
+            .peak = make_cone(law.c, tan_phi, tan_psi, tension_of(law))};
 }
 
 Cone cone_at(const MohrCoulombNumbers& law, double epsilon_q) {
     if (law.softens == Softens::never || epsilon_q <= law.epsilon_q_start) return law.peak;
     const auto [c, tan_phi] =
         softened({law.c, law.tan_phi}, {law.c_residual, law.tan_phi_residual}, law, epsilon_q);
-    return make_cone(c, tan_phi, std::min(law.tan_psi, tan_phi), law.tension_cutoff);
+    return make_cone(c, tan_phi, std::min(law.tan_psi, tan_phi), law.tension);
 }
 
 Update return_from(const MohrCoulombNumbers& law, const Cone& cone, const State& trial) {
@@ -272,9 +274,7 @@ double yield_excess(const MohrCoulomb& law, const State& state) {
     const double cos_phi = 1.0 / std::sqrt(1.0 + tan_phi * tan_phi);
     const double sin_phi = tan_phi * cos_phi;
     const double cone = s1 - s3 + (s1 + s3) * sin_phi - 2.0 * c * cos_phi;
-    const double cut_off =
-        tan_phi > 0.0 ? std::min(law.tension_cutoff, c / tan_phi) : law.tension_cutoff;
-    return std::max(cone, s1 - cut_off);
+    return std::max(cone, s1 - make_cone(c, tan_phi, 0.0, tension_of(law)).T);
 }
 
 }  // namespace breach::materials

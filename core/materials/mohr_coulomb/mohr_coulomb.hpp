@@ -23,6 +23,7 @@ struct MohrCoulomb {
     /// point: in the MPM c, phi and their residuals are each point's own (strength/profile.hpp);
     /// the law's serve who knows no points
     StrengthOf strength_of = StrengthOf::law;
+    double tension_share = 0.0;  ///< see Tension
 };
 
 /// The law of one point that has a strength of its own.

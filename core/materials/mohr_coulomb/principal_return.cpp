@@ -6,14 +6,15 @@
 
 namespace breach::materials {
 
-Cone make_cone(double c, double tan_phi, double tan_psi, double tension_cutoff) {
+Cone make_cone(double c, double tan_phi, double tan_psi, const Tension& tension) {
     // sqrt(k) = tan phi + sec phi
     const double root_k = tan_phi + std::sqrt(1.0 + tan_phi * tan_phi);
     const double root_m = tan_psi + std::sqrt(1.0 + tan_psi * tan_psi);
     const double apex = tan_phi > 0.0 ? c / tan_phi : std::numeric_limits<double>::infinity();
-    const Cone::Tip tip = tension_cutoff < apex ? Cone::Tip::cut_off : Cone::Tip::apex;
-    return {root_k * root_k, root_m * root_m, 2.0 * c * root_k, std::min(tension_cutoff, apex),
-            tip};
+    const double q = 2.0 * c * root_k;
+    const double cutoff = std::max(tension.cutoff, tension.share * q);
+    const Cone::Tip tip = cutoff < apex ? Cone::Tip::cut_off : Cone::Tip::apex;
+    return {root_k * root_k, root_m * root_m, q, std::min(cutoff, apex), tip};
 }
 
 namespace {

@@ -166,7 +166,9 @@ Ending sound() {
             .overlap = 0.01,
             .deposit_depth = 6.0,
             .cell_size = 1.0,
-            .until_rest = false};
+            .until_rest = false,
+            .tension_share = usual_tension_share,
+            .damping_ratio = usual_damping_ratio};
 }
 
 std::vector<std::string> codes(const Ending& ending) {

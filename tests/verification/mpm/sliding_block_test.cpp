@@ -63,6 +63,33 @@ TEST(SlidingBlock, AcceleratesDownAnInclineAsCoulombSays) {
                         (centre_of_mass(body.points).x() - from) / exact - 1.0, 0.01);
 }
 
+/// Friction that would have let the block go as far in t as it went [-].
+double effective_friction(double theta, double mu, double t, double damping_ratio) {
+    scene::Scene scene = block(100e6, mu, scene::UpdateOrder::usl);
+    scene.mpm->damping_ratio = damping_ratio;
+    Body body = filled_body(scene);
+    body.gravity = g * mechanics::Vec2{std::sin(theta), -std::cos(theta)};
+    settle(body, 2000.0 * std::cos(theta), 2.0, 0.3);
+    const double from = centre_of_mass(body.points).x();
+    advance(body, scene, t);
+    const double slid = centre_of_mass(body.points).x() - from;
+    std::printf("    mu %.3f: %.4f m in %.0f s\n", mu, slid, t);
+    return std::tan(theta) - 2.0 * slid / (t * t * g * std::cos(theta));
+}
+
+// tan 20 degrees = 0.364. Undamped, the block rattles: contact that opens and closes carries less
+// friction, and at 0.40 it still slides.
+TEST(SlidingBlock, RestsWhereFrictionJustHoldsItWhenItsWavesAreDamped) {
+    const double theta = 20.0 * std::numbers::pi / 180.0;
+    const double critical = std::tan(theta);
+    for (const double mu : {0.368, 0.38, 0.40})
+        expect_error_within("effective friction at rest, of tan 20 degrees",
+                            effective_friction(theta, mu, 3.0, 0.1) / critical - 1.0, 0.005);
+    for (const double mu : {0.30, 0.35})
+        expect_error_within("effective friction when it slides",
+                            effective_friction(theta, mu, 3.0, 0.1) / mu - 1.0, 0.01);
+}
+
 TEST(SlidingBlock, EnergyGoesIntoFriction) {
     const double v0 = 5.0;
     const scene::Scene scene = block(100e6, 0.3, scene::UpdateOrder::usl);
