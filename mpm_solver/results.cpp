@@ -11,6 +11,7 @@
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
 #include "mpm_solver/measure/doubts.hpp"
+#include "mpm_solver/measure/ends.hpp"
 
 namespace breach::mpm {
 
@@ -254,6 +255,17 @@ void write_envelope(Session& session, const Simulation& simulation) {
     session.announce(file, {{"kind", "envelope"}, {"time", simulation.clock().time}});
 }
 
+Depths depths_of(const Simulation& simulation) {
+    const Records& records = simulation.records();
+    const auto columns = static_cast<std::ptrdiff_t>(records.envelope.depth.size());
+    Depths depths{
+        .first = {records.profiles.depths.begin(), records.profiles.depths.begin() + columns},
+        .largest = records.envelope.depth,
+        .last = {}};
+    for (const Flow& flow : simulation.profile()) depths.last.push_back(flow.depth);
+    return depths;
+}
+
 /// What a person wants to know first, for the log.
 void say(const Session& session, const Ending& ending, const Row& row) {
     std::string flags;
@@ -287,6 +299,9 @@ void write_results(Session& session, const Simulation& simulation, double speed)
     const Ending ending = ending_of(*session.scene().mpm, simulation);
     conclude(session, simulation, ending, speed);
     for (fault::Flag& each : doubts_of(ending)) session.flag(std::move(each));
+    for (fault::Flag& each :
+         doubts_of_ends(session.scene(), simulation.view(), depths_of(simulation)))
+        session.flag(std::move(each));
     say(session, ending, simulation.last_row());
 }
 

@@ -1,0 +1,160 @@
+#include "mpm_solver/measure/ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/scene/ground.hpp"
+#include "core/scene/resolution.hpp"
+#include "core/words/number.hpp"
+#include "mpm_solver/body/terrain.hpp"
+
+namespace breach::mpm {
+
+namespace {
+
+using fault::Flag;
+using fault::Severity;
+using scene::Wall;
+using words::text_of;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A rise of the mobile soil's depth that is a flow's and not a settlement's.
+double told_rise(const FlowView& view, double first) {
+    return std::max(0.1 * view.width, 0.02 * first);
+}
+
+double rise_at(const FlowView& view, const Depths& depths, std::size_t k) {
+    const double rise = depths.largest[k] - depths.first[k];
+    return rise > told_rise(view, depths.first[k]) ? rise : 0.0;
+}
+
+Flag pressed(const char* side, double x, double rise, const scene::Mpm& mpm) {
+    const double length = mpm.domain_x[1] - mpm.domain_x[0];
+    const bool right = x > mpm.domain_x[0];
+    const std::string low = text_of(mpm.domain_x[0] - (right ? 0.0 : length), 9);
+    const std::string high = text_of(mpm.domain_x[1] + (right ? length : 0.0), 9);
+    return {"reached_wall", Severity::questionable,
+            "soil came against the " + std::string(side) + " wall of the grid (x = " +
+                text_of(x, 9) + " m), where it stood up to " + text_of(rise) +
+                " m higher than before: no such wall stands in nature, and the runout is too short "
+                "(unsafe); write \"domain_x\": [" +
+                low + ", " + high + "], and draw ground, terrain and friction zones as far",
+            "/mpm/domain_x"};
+}
+
+std::vector<Flag> walls_reached(const scene::Mpm& mpm, const FlowView& view, const Depths& depths) {
+    std::vector<Flag> flags;
+    const std::size_t last = depths.first.size() - 1;
+    const double right = rise_at(view, depths, last);
+    if (mpm.right != Wall::open && right > 0.0)
+        flags.push_back(pressed("right", view.high, right, mpm));
+    const bool free_before = depths.first.front() < told_rise(view, 0.0);
+    const double left = rise_at(view, depths, 0);
+    if (mpm.left != Wall::open && free_before && left > 0.0)
+        flags.push_back(pressed("left", view.low, left, mpm));
+    return flags;
+}
+
+/// Downstream end of the soil that does not count for the runout, and its level there.
+struct GroundEnd {
+    double x = -infinity;
+    double top = -infinity;
+};
+
+std::optional<GroundEnd> ground_end(const scene::Scene& scene) {
+    const auto& named = scene::mpm_of(scene).runout.regions;
+    GroundEnd end;
+    for (const scene::Region& region : scene.section.regions) {
+        if (named.empty() || std::ranges::find(named, region.name) != named.end()) continue;
+        for (const scene::Vec2& vertex : region.polygon) {
+            if (vertex.x() < end.x) continue;
+            end.top = vertex.x() > end.x ? vertex.y() : std::max(end.top, vertex.y());
+            end.x = vertex.x();
+        }
+    }
+    if (end.x == -infinity) return std::nullopt;
+    return end;
+}
+
+/// The ground ends in a step down, and soil went over it.
+std::optional<Flag> ground_left(const scene::Scene& scene, const FlowView& view,
+                                const Depths& depths) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    const auto end = ground_end(scene);
+    if (!end || end->x + view.width > view.high) return std::nullopt;
+    const double beyond =
+        mpm.terrain.empty() ? mpm.floor.level : Terrain(mpm.terrain).level(end->x + view.width);
+    const double step = end->top - beyond;
+    if (step < 0.5 * view.width) return std::nullopt;
+    const std::vector<double> places = profile_places(view);
+    double deepest = 0.0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        if (places[k] >= end->x + view.width) deepest = std::max(deepest, rise_at(view, depths, k));
+    if (deepest == 0.0) return std::nullopt;
+    return Flag{"reached_wall", Severity::questionable,
+                "soil flowed over the end of the section's ground (x = " + text_of(end->x, 9) +
+                    " m), where the model drops by " + text_of(step) +
+                    " m and nature does not: the runout is wrong; draw the ground on to the end of "
+                    "domain_x, x = " +
+                    text_of(view.high, 9) +
+                    " m, or write the terrain beyond it: \"terrain\": [..., [" +
+                    text_of(end->x, 9) + ", " + text_of(end->top, 9) + "], [" +
+                    text_of(view.high, 9) + ", " + text_of(end->top, 9) + "]]",
+                "/section/regions"};
+}
+
+/// Farthest downstream place where the mobile soil stood about as high as anywhere: the crest's edge.
+double crest_edge(const std::vector<double>& places, const std::vector<double>& depth) {
+    const double highest = *std::ranges::max_element(depth);
+    std::size_t k = depth.size() - 1;
+    while (k > 0 && depth[k] < 0.95 * highest) --k;
+    return places[k];
+}
+
+/// Soil that has left lowers the surface.
+std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowView& view,
+                                         const Depths& depths) {
+    const double H = scene::mobile_height(scene, scene::mpm_of(scene));
+    const std::vector<double> places = profile_places(view);
+    std::size_t k = 0;
+    while (k < places.size() && depths.first[k] < told_rise(view, 0.0)) ++k;
+    if (k > 1) return std::nullopt;  // a free face, or no soil that counts
+    const double end = places[k];
+    const double told = std::max(0.05 * H, 0.5 * view.width);
+    while (k < places.size() && depths.first[k] - depths.last[k] <= told) ++k;
+    if (k == places.size() || places[k] - end > H) return std::nullopt;
+    const bool narrow = crest_edge(places, depths.first) - end < H;
+    const std::string fact = "the failure reached x = " + text_of(places[k], 9) + " m, " +
+                             text_of(places[k] - end) +
+                             " m from the upstream end (x = " + text_of(end, 9) +
+                             " m; the mobile soil is " + text_of(H) + " m high)";
+    if (narrow)
+        return Flag{"upstream_wall", Severity::warning,
+                    fact +
+                        ", behind a crest narrower than that: right where a wall or a plane of "
+                        "symmetry stands; where soil goes on upstream, draw it, or the runout is "
+                        "too short",
+                    "/section/regions"};
+    return Flag{"upstream_wall", Severity::questionable,
+                fact +
+                    ": the section is too short, soil that would have followed is missing, and "
+                    "the runout is too short (unsafe); draw the section and begin domain_x at "
+                    "least " +
+                    text_of(std::ceil(5.0 * H)) + " m farther upstream, until this flag is gone",
+                "/section/regions"};
+}
+
+}  // namespace
+
+std::vector<Flag> doubts_of_ends(const scene::Scene& scene, const FlowView& view,
+                                 const Depths& depths) {
+    std::vector<Flag> flags = walls_reached(scene::mpm_of(scene), view, depths);
+    if (auto flag = ground_left(scene, view, depths)) flags.push_back(std::move(*flag));
+    if (auto flag = upstream_end_reached(scene, view, depths)) flags.push_back(std::move(*flag));
+    return flags;
+}
+
+}  // namespace breach::mpm

@@ -1,0 +1,21 @@
+// Where the model ends and nature does not: walls that the flow met, the end of the firm ground, and the
+// upstream end that the failure reached.
+#pragma once
+
+#include "core/fault/flag.hpp"
+#include "mpm_solver/measure/envelope.hpp"
+
+namespace breach::mpm {
+
+/// Depths of the mobile soil over the columns of profile_places [m].
+struct Depths {
+    std::vector<double> first;    ///< at time 0
+    std::vector<double> largest;  ///< so far
+    std::vector<double> last;     ///< now
+};
+
+/// Flags `reached_wall` and `upstream_wall`.
+std::vector<fault::Flag> doubts_of_ends(const scene::Scene& scene, const FlowView& view,
+                                        const Depths& depths);
+
+}  // namespace breach::mpm
