@@ -124,7 +124,7 @@ def test_outputs_and_resume(scratch):
     # 2 s are too short, and it says so
     assert result["at_rest"] is False and result["ended"] == "duration" and result["end_time"] == 2.0, result
     assert 0.05 < result["kinetic_share"] < 0.5 and result["rest"]["moving"], result
-    assert result["questionable"] is True and [each["code"] for each in result["flags"]] == ["still_moving", "overlap"], result["flags"]
+    assert result["questionable"] is True and [each["code"] for each in result["flags"]] == ["still_moving", "overlap", "upstream_wall"], result["flags"]
     message = result["flags"][0]["message"]
     assert f"still moving at 2 s with {100 * result['kinetic_share']:.3g} % of the released energy" in message, message
     for words in (f"runout {result['runout']:.2f} m", f"beyond it {result['runout_beyond_toe']:.2f} m", "STILL MOVING", "volume ratio",
