@@ -18,7 +18,7 @@ Flag still_moving(const Ending& ending) {
     const bool waves = ending.stood && ending.damping_ratio < usual_damping_ratio;
     const std::string remedy =
         waves ? "the soil stands, and its stress waves are not damped: write \"damping_ratio\": " +
-                    text_of(usual_damping_ratio)
+                    three_digits(usual_damping_ratio)
         : ending.until_rest ? "raise /mpm/longest_duration"
                             : "raise /mpm/duration or set it to until_rest (--until-rest)";
     return {"still_moving", Severity::questionable,
@@ -31,7 +31,7 @@ Flag still_moving(const Ending& ending) {
 /// Soil without tensile strength falls apart in its stress waves, whatever the cells.
 std::string or_tension(const Ending& ending, const std::string& remedy) {
     if (ending.tension_share >= usual_tension_share) return remedy;
-    return "write \"tension_share\": " + text_of(usual_tension_share) +
+    return "write \"tension_share\": " + three_digits(usual_tension_share) +
            " where the soil has cohesion; else " + remedy;
 }
 
