@@ -40,27 +40,30 @@ std::vector<std::int32_t> first_coincident(const std::vector<Vec2>& nodes, doubl
     return first;
 }
 
-struct BorderEdge {
+/// An edge that belongs to one element only, counter-clockwise around it.
+struct MeshEdge {
     std::int32_t a, b;
-    std::int32_t region;
+    std::size_t element;
 };
 
-/// Edges that belong to one element only.
-std::vector<BorderEdge> border_of(const Mesh& mesh) {
-    std::map<std::pair<std::int32_t, std::int32_t>, std::pair<int, std::int32_t>> uses;
+std::vector<MeshEdge> border_of(const Mesh& mesh) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<MeshEdge>> uses;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         for (std::size_t k = 0; k < 4; ++k) {
-            const auto [low, high] = std::minmax(mesh.quads[e][k], mesh.quads[e][(k + 1) % 4]);
-            auto& use = uses[{low, high}];
-            ++use.first;
-            use.second = mesh.region_of_element[e];
+            const std::int32_t a = mesh.quads[e][k], b = mesh.quads[e][(k + 1) % 4];
+            uses[std::minmax(a, b)].push_back({a, b, e});
         }
     }
-    std::vector<BorderEdge> border;
+    std::vector<MeshEdge> border;
     for (const auto& [edge, use] : uses) {
-        if (use.first == 1) border.push_back({edge.first, edge.second, use.second});
+        if (use.size() == 1) border.push_back(use.front());
     }
     return border;
+}
+
+Vec2 outwards(const Mesh& mesh, const MeshEdge& edge) {
+    const Vec2 along = (mesh.nodes[edge.b] - mesh.nodes[edge.a]).normalized();
+    return {along.y(), -along.x()};
 }
 
 std::string text_of(const Vec2& x) {
@@ -69,36 +72,63 @@ std::string text_of(const Vec2& x) {
     return out.str();
 }
 
-/// A node of one region that lies on, or almost on, a border edge of another without being one of
-/// its ends.
+/// By at least the tolerance.
+bool lies_inside(const Mesh& mesh, std::size_t element, const Vec2& x, double tolerance) {
+    const Quad& quad = mesh.quads[element];
+    for (std::size_t k = 0; k < 4; ++k) {
+        const MeshEdge edge{quad[k], quad[(k + 1) % 4], element};
+        if (outwards(mesh, edge).dot(x - mesh.nodes[edge.a]) > -tolerance) return false;
+    }
+    return true;
+}
+
+/// What a node of the border is to another region's border edge. A layer that is thin beside its
+/// elements' edges has nodes near the edge, too: only what faces the edge leaves a gap.
+const char* misfit(const Mesh& mesh, const MeshEdge& edge, std::int32_t node,
+                   const std::vector<Vec2>& outwards_of_node, double tolerance) {
+    constexpr double gap_share = 0.05;  // of the edge: nearer than this was meant to touch
+    constexpr double faces = -0.5;      // cosine between the normals
+    const Vec2 &A = mesh.nodes[edge.a], &B = mesh.nodes[edge.b], &X = mesh.nodes[node];
+    const double length = (B - A).norm(), along = (B - A).dot(X - A) / length;
+    if (along < -tolerance || along > length + tolerance) return nullptr;
+    const Vec2 out = outwards(mesh, edge);
+    const double off = out.dot(X - A);
+    if (std::abs(off) <= tolerance) return "hanging node";
+    if (std::abs(off) > gap_share * length) return nullptr;
+    if (off < 0.0) return lies_inside(mesh, edge.element, X, tolerance) ? "overlap" : nullptr;
+    const auto facing = [&](const Vec2& other) { return out.dot(other) < faces; };
+    return std::ranges::any_of(outwards_of_node, facing) ? "gap" : nullptr;
+}
+
 std::vector<fault::Fault> misfits(const Mesh& mesh, const scene::Section& section,
                                   double tolerance) {
-    constexpr double gap_share = 0.05;  // of the edge: nearer than this was meant to touch
-    const std::vector<BorderEdge> border = border_of(mesh);
-    std::map<std::int32_t, std::int32_t> region_of_node;
-    for (const BorderEdge& edge : border) {
-        region_of_node.emplace(edge.a, edge.region);
-        region_of_node.emplace(edge.b, edge.region);
+    struct BorderNode {
+        std::int32_t region;
+        std::vector<Vec2> outwards;
+    };
+    const std::vector<MeshEdge> border = border_of(mesh);
+    std::map<std::int32_t, BorderNode> nodes;
+    for (const MeshEdge& edge : border) {
+        for (const std::int32_t node : {edge.a, edge.b}) {
+            const auto [at, first] = nodes.try_emplace(node);
+            if (first) at->second.region = mesh.region_of_element[edge.element];
+            at->second.outwards.push_back(outwards(mesh, edge));
+        }
     }
     std::vector<fault::Fault> faults;
     std::map<std::pair<std::int32_t, std::int32_t>, int> reported;
-    for (const BorderEdge& edge : border) {
-        const Vec2 A = mesh.nodes[edge.a], B = mesh.nodes[edge.b];
-        const double near = gap_share * (B - A).norm();
-        for (const auto& [node, region] : region_of_node) {
-            if (region == edge.region || node == edge.a || node == edge.b) continue;
-            const Vec2& X = mesh.nodes[node];
-            if (X.x() < std::min(A.x(), B.x()) - near || X.x() > std::max(A.x(), B.x()) + near)
-                continue;
-            const double distance = scene::distance_to_segment(X, A, B);
-            if (distance > near) continue;
-            if (reported[std::minmax(region, edge.region)]++ > 0) continue;
-            const std::string kind = distance <= tolerance ? "hanging node" : "gap";
+    for (const MeshEdge& edge : border) {
+        const std::int32_t own = mesh.region_of_element[edge.element];
+        for (const auto& [node, of_node] : nodes) {
+            if (of_node.region == own || node == edge.a || node == edge.b) continue;
+            const char* kind = misfit(mesh, edge, node, of_node.outwards, tolerance);
+            if (!kind || reported[std::minmax(of_node.region, own)]++ > 0) continue;
             faults.push_back(
-                {"/section/regions/" + std::to_string(region),
-                 kind + " between regions '" + section.regions[region].name + "' and '" +
-                     section.regions[edge.region].name + "': node " + text_of(X) +
-                     " lies beside the edge " + text_of(A) + " - " + text_of(B),
+                {"/section/regions/" + std::to_string(of_node.region),
+                 std::string(kind) + " between regions '" + section.regions[of_node.region].name +
+                     "' and '" + section.regions[own].name + "': node " +
+                     text_of(mesh.nodes[node]) + " lies beside the edge " +
+                     text_of(mesh.nodes[edge.a]) + " - " + text_of(mesh.nodes[edge.b]),
                  "give both regions the same vertices and divisions on their shared side"});
         }
     }

@@ -126,6 +126,44 @@ TEST(Join, NamesAGap) {
     EXPECT_NE(faults[0].cause.find("gap"), std::string::npos);
 }
 
+scene::Region layer(const std::string& name, double left, double right, double bottom, double top,
+                    std::array<int, 2> divisions) {
+    return block(name, {{left, bottom}, {right, bottom}, {right, top}, {left, top}}, {0, 1, 2, 3},
+                 divisions);
+}
+
+TEST(Join, MeshesLayersThinBesideTheirNeighboursElements) {
+    const scene::Section seam{{layer("low", 0, 1, 0, 5, {1, 10}),
+                               layer("seam", 0, 1, 5, 5.02, {1, 1}),
+                               layer("top", 0, 1, 5.02, 10.02, {1, 10})}};
+    EXPECT_TRUE(faults_of_join(seam).empty());
+    const scene::Section wide{{layer("low", 0, 200, 0, 1, {4, 1}),
+                               layer("high", 0, 200, 1, 2, {4, 2}),
+                               layer("lens", 50, 200, 2, 2.4, {3, 2})}};
+    EXPECT_TRUE(faults_of_join(wide).empty());
+}
+
+TEST(Join, TellsThinLayersFromGapsAndOverlaps) {
+    const auto kind = [](double bottom) {
+        const auto faults = faults_of_join(
+            {{layer("low", 0, 200, 0, 1, {4, 1}), layer("high", 0, 200, bottom, 2, {4, 1})}});
+        return faults.empty() ? std::string("none")
+                              : faults[0].cause.substr(0, faults[0].cause.find(" between"));
+    };
+    EXPECT_EQ(kind(1.0), "none");
+    EXPECT_EQ(kind(1.3), "gap");
+    EXPECT_EQ(kind(0.9), "hanging node");  // on its side
+    const auto within = faults_of_join(
+        {{layer("low", 0, 200, 0, 1, {4, 1}), layer("high", 10, 190, 0.9, 2, {4, 1})}});
+    ASSERT_EQ(within.size(), 1u);
+    EXPECT_EQ(within[0].cause.substr(0, 7), "overlap");
+    // Beside each other, with one element each: only corners face each other.
+    const auto beside = faults_of_join(
+        {{layer("left", 0, 10, 0, 1, {1, 1}), layer("right", 10.01, 20, 0, 1, {1, 1})}});
+    ASSERT_EQ(beside.size(), 1u);
+    EXPECT_EQ(beside[0].cause.substr(0, 3), "gap");
+}
+
 TEST(Join, LetsRegionsThatDoNotTouchBe) {
     EXPECT_TRUE(faults_of_join({{square("a", 0, 0, {3, 3}), square("b", 5, 0, {4, 2})}}).empty());
 }
