@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace breach::element_bench {
 
@@ -42,13 +43,42 @@ class Test {
         }
         record_.last = trial.specimen;
         ++accepted_;
-        if (answer() > record_.peak) {
-            record_.peak = answer();
-            record_.peak_strain = strain();
-        }
+        note_peak(record_.last);
         return true;
     }
     bool advance(double d) { return accept(attempt(d)); }
+
+    /// How much the response would rise in a call of `d` if it went on as it begins [Pa].
+    double rise(double d) {
+        constexpr double share = 1e-3;  // of the call
+        const Trial trial = attempt(share * d);
+        return trial.outcome == Ending::done
+                   ? (response(trial.specimen, boundary_) - answer()) / share
+                   : 0.0;
+    }
+    /// The response rose where a call of `d` began, from `at`, and falls where it ended: takes the way
+    /// again in tenths, and the tenths around its first peak in tenths, until the peak stays.
+    void refine_peak(Specimen at, double d) {
+        constexpr double settled = 1e-5;
+        for (int level = 0; level < 8; ++level) {
+            const double known = record_.peak, part = 0.1 * d;
+            Specimen before = at, here = at;
+            for (int k = 0; k < 10; ++k) {
+                Trial trial = driven(here, boundary_, part, held_);
+                record_.counts += trial.counts;
+                ++record_.calls;
+                if (trial.outcome == Ending::failed) return;
+                note_peak(trial.specimen);
+                const bool falls = response(trial.specimen, boundary_) < response(here, boundary_);
+                if (falls) break;
+                before = std::exchange(here, std::move(trial.specimen));
+            }
+            if (level > 0 && record_.peak - known <= settled * std::abs(record_.peak)) return;
+            at = std::move(before);
+            d = 2.0 * part;
+        }
+    }
+    double peak() const { return record_.peak; }
 
     bool due() const { return pace_.every > 0 && accepted_ % pace_.every == 0; }
     void read(double cycles) {
@@ -73,6 +103,13 @@ class Test {
     }
 
   private:
+    void note_peak(const Specimen& specimen) {
+        const double here = response(specimen, boundary_);
+        if (!(here > record_.peak)) return;
+        record_.peak = here;
+        record_.peak_strain = driven_strain(specimen, boundary_);
+    }
+
     Boundary boundary_;
     Pace pace_;
     double held_;
@@ -88,8 +125,13 @@ Record monotonic(const Specimen& start, Boundary boundary, double target, const 
     const double way = target - driven_strain(start, boundary);
     const long steps = std::max(1L, std::lround(std::abs(way) / pace.step));
     const double d = way / static_cast<double>(steps);
+    double rise = test.rise(d);
     for (long i = 0; i < steps; ++i) {
+        const Specimen before = test.specimen();
+        const double bound = test.answer() + rise;
         if (!test.advance(d)) break;
+        const bool rose = std::exchange(rise, test.rise(d)) > 0.0;
+        if (rose && rise < 0.0 && bound > test.peak()) test.refine_peak(before, d);
         if (test.due()) test.read(0.0);
     }
     return test.finish(0.0);

@@ -23,7 +23,7 @@ struct Reading {
 
 struct Record {
     std::vector<Reading> readings;
-    double peak = 0.0;         ///< largest response of all calls [Pa]
+    double peak = 0.0;         ///< largest response; monotonic: between the calls, too [Pa]
     double peak_strain = 0.0;  ///< the driven strain there
     Specimen last;
     Ending outcome = Ending::done;

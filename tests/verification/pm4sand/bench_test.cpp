@@ -104,6 +104,23 @@ TEST(ElementBench, ALoopThatTheSpecimenDoesNotFinishHasNoNumbers) {
     }
 }
 
+/// The peak lies within the first call of 1e-2.
+TEST(ElementBench, ThePeakIsSoughtBetweenTheCalls) {
+    const pm4sand::Ready law = pm4sand::ready(soil("tailings_cal"));
+    const Specimen sand{SandPoint{law, {}, consolidated(law, 100.0, 0.5)}};
+    const auto shear = [&](double step) {
+        return monotonic(sand, Boundary::undrained_shear, 0.1, {.step = step, .every = 0});
+    };
+    const Record fine = shear(1e-6);
+    for (const double step : {1e-4, 1e-3, 1e-2, 0.1}) {
+        const Record coarse = shear(step);
+        std::printf("    step %g: %.4f kPa at %.3e, %ld calls\n", step, coarse.peak / 1e3,
+                    coarse.peak_strain, coarse.calls);
+        EXPECT_NEAR(coarse.peak / fine.peak, 1.0, 1e-3) << step;
+        EXPECT_NEAR(coarse.peak_strain / fine.peak_strain, 1.0, 0.1) << step;
+    }
+}
+
 TEST(ElementBench, StressReversalsLieOnTheirTargets) {
     const Specimen specimen = elastic();
     const CyclicResult result =
