@@ -104,7 +104,7 @@ Outcome Analysis::run() {
         if (end == StageEnd::entangled) break;
         position_.stage_begun = false;
         position_.load = 0.0;
-        position_.dt = 0.0;
+        if (stage.kind == StageKind::static_equilibrium) position_.dt = 0.0;  // it ends at rest
     }
     position_.stage = std::min(position_.stage, stages - 1);
     write_last_snapshot();
@@ -170,7 +170,9 @@ void Analysis::begin_stage(const Stage& stage) {
         stage_force_ -= of_water;
         return;
     }
-    position_.dt = stage.time_step;
+    // A motion that goes on does so with the step before: over a longer one the velocities at a
+    // ramp's end would count as if they lasted.
+    position_.dt = position_.dt > 0.0 ? std::min(position_.dt, stage.time_step) : stage.time_step;
     position_.easy_steps = 0;
     for (std::size_t i = 0; i < model_.water.is_unknown.size(); ++i)
         if (const auto n = static_cast<Eigen::Index>(i); !model_.water.is_unknown[i])

@@ -89,6 +89,51 @@ TEST(Terzaghi, HoldsWithWaterAThousandTimesSofterThanTheSkeleton) {
     }
 }
 
+struct Newmarks {
+    double beta, gamma;
+};
+
+/// A load put on in 10 s with short steps, then steps 1.6e5 times as long: the velocity at the ramp's
+/// end is none that lasts.
+Consolidated behind_a_ramp(WetColumn column, const Newmarks& newmark) {
+    const double end = column.time_of(0.1), q = 1e5;
+    json load = dynamic_stage("load", 10.0, 0.5);
+    load["ramp"] = 10.0;
+    load["surcharge"] = {{{"from", 0}, {"to", 1}, {"pressure_kPa", q / 1e3}}};
+    column.stages = json::array({{{"type", "static"}, {"name", "rest"}, {"laws", "elastic"}},
+                                 load,
+                                 dynamic_stage("wait", end - 10.0, 0.1 * end)});
+    json scene = column.scene();
+    scene["fem"]["force_tolerance"] = 1e-6;
+    scene["fem"]["newmark_beta"] = newmark.beta;
+    scene["fem"]["newmark_gamma"] = newmark.gamma;
+    bench::Run run(scene);
+    const Analysis& a = run.go();
+    std::printf("    %lld steps\n", static_cast<long long>(a.position().step));
+    const auto base = static_cast<Eigen::Index>(nearest_node(a.model().mesh, {0.0, 0.0}));
+    const double p = (a.motion().p[base] - a.beginning().p[base]) / (q * column.share());
+    // Settlement: 1 - mean p / p_0 of the drained one, sqrt(4 T_v / pi) while T_v < 0.2.
+    const double settled = bench::u_at(a, {0.0, column.H}).y() / (-q * column.H / column.modulus());
+    return {std::abs(p - terzaghi(0.0, column.H, 0.1)),
+            settled - (1.0 - column.share() * (1.0 - std::sqrt(0.4 / std::numbers::pi)))};
+}
+
+TEST(Terzaghi, IsMetByLongStepsBehindAShortRamp) {
+    for (const char* element : {"bbar", "ssp"}) {
+        for (const Newmarks newmark : {Newmarks{0.3025, 0.6}, {4.0 / 9, 5.0 / 6}, {0.25, 0.5}}) {
+            for (const double k : {1e-8, 1e-7, 1e-6}) {
+                const WetColumn column{.k = k, .gravity = 9.81, .element = element};
+                const Consolidated now = behind_a_ramp(column, newmark);
+                const std::string what = std::string(element) + ", k " + std::to_string(k * 1e6) +
+                                         "e-6, gamma " + std::to_string(newmark.gamma);
+                expect_error(what + ": |p - Terzaghi| / p_0 at the base", now.error, 0.02);
+                expect_error(what + ": settlement over the drained one", std::abs(now.settlement),
+                             0.02);
+            }
+        }
+    }
+}
+
 TEST(Permeability, OfZeroIsRefusedWithPlaceAndRemedy) {
     for (const int way : {0, 1}) {
         json scene = WetColumn{}.scene();
