@@ -12,6 +12,7 @@
 #include "fem_solver/analysis.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/monitors/strength.hpp"
+#include "fem_solver/monitors/upstream_wall.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
 
@@ -296,6 +297,11 @@ void Analysis::report_end() {
     }
     Reading last = read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
     watch_.read(model_, motion_, beginning_, last);
+    const FailureSurfaces surfaces =
+        watch_.failure_surfaces(epsilon_q_of_elements(model_, motion_));
+    if (auto near =
+            upstream_wall(fem_, model_, motion_, beginning_, surfaces, excess_pressure_max_))
+        session_.flag(std::move(*near));
     const nlohmann::json surface = first_time(history_, &Reading::failure_surfaces, 1.0);
     double depth = last.liquefaction_depth;
     for (const Reading& each : history_) depth = std::max(depth, each.liquefaction_depth);

@@ -393,5 +393,48 @@ TEST(Crest, FarFromEveryNodeIsSaid) {
     EXPECT_EQ(far.session().result().at("crest").at("distance"), 500.0);
 }
 
+/// A vertical cut of 5 m in soft clay, `width` behind it.
+json cut_in_clay(double width, double c_kPa) {
+    bench::Block block{.width = width, .height = 5.0};
+    block.law = {{"type", "mohr_coulomb"}, {"E_MPa", 20},  {"nu", 0.3},
+                 {"c_kPa", c_kPa},         {"phi_deg", 0}, {"tension_cutoff_kPa", 100}};
+    block.columns = static_cast<int>(width);
+    block.rows = 5;
+    block.stages.push_back(
+        {{"type", "dynamic"}, {"name", "failure"}, {"duration", 2.0}, {"time_step", 0.01}});
+    json scene = bench::scene_of(block);
+    scene["section"]["regions"].push_back(
+        {{"name", "foot"},
+         {"material", "soil"},
+         {"polygon", {{0, -2}, {width + 6, -2}, {width + 6, 0}, {width, 0}, {0, 0}, {0, -2}}},
+         {"mesh",
+          {{"type", "block"},
+           {"divisions", {block.columns + 6, 2}},
+           {"corners", {{0, -2}, {width + 6, -2}, {width + 6, 0}, {0, 0}}}}}});
+    scene["fem"]["supports"] = {
+        {{"name", "left"}, {"from", {0, -2}}, {"to", {0, 5}}, {"fixes", "x"}},
+        {{"name", "right"}, {"from", {width + 6, -2}}, {"to", {width + 6, 0}}, {"fixes", "x"}},
+        {{"name", "base"}, {"from", {0, -2}}, {"to", {width + 6, -2}}, {"fixes", "xy"}}};
+    return scene;
+}
+
+std::string upstream_wall_of(double width, double c_kPa) {
+    bench::Run run(cut_in_clay(width, c_kPa));
+    run.go();
+    for (const fault::Flag& each : run.session().flags())
+        if (each.code == "upstream_wall") {
+            EXPECT_EQ(each.severity, fault::Severity::questionable);
+            std::printf("    %s\n", each.message.c_str());
+            return each.message;
+        }
+    return "";
+}
+
+TEST(UpstreamWall, IsToldWhereTheFailingMassComesNear) {
+    EXPECT_NE(upstream_wall_of(8.0, 5.0).find("at least"), std::string::npos);
+    EXPECT_EQ(upstream_wall_of(40.0, 5.0), "") << "far behind the failure";
+    EXPECT_EQ(upstream_wall_of(8.0, 100.0), "") << "nothing fails";
+}
+
 }  // namespace
 }  // namespace breach::fem::failure_test
