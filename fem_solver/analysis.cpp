@@ -534,7 +534,7 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
 /// What has liquefied once does not regain its strength when its pore pressure dips.
 void Analysis::keep_largest_excess_pressure() {
     if (beginning_.p.size() == 0) return;
-    const std::vector<double> excess = watch_.excess_pressure(motion_, beginning_);
+    const std::vector<double> excess = watch_.excess_pressure(model_, motion_, beginning_);
     if (excess_pressure_max_.empty()) excess_pressure_max_ = excess;
     std::ranges::transform(excess, excess_pressure_max_, excess_pressure_max_.begin(),
                            [](double now, double before) { return std::max(now, before); });

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/materials/norsand/instability.hpp"
+#include "fem_solver/model/pore_water.hpp"
 
 namespace breach::fem {
 namespace {
@@ -83,9 +84,9 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
     s.velocity = per_node(motion.v, nodes);
     s.acceleration = per_node(motion.a, nodes);
     s.nodal_mass = first(model.nodal_mass, nodes);
-    if (motion.p.size() > 0) s.pore_pressure = first(motion.p, nodes);
+    if (motion.p.size() > 0) s.pore_pressure = first(without_suction(model.water, motion.p), nodes);
     if (beginning.p.size() > 0) {
-        s.pore_pressure_0 = first(beginning.p, nodes);
+        s.pore_pressure_0 = first(without_suction(model.water, beginning.p), nodes);
         s.sigma_v0 = beginning.sigma_v0;
         s.excess_pressure_max = excess_pressure_max;
     }

@@ -17,7 +17,8 @@ const scene::Material& material_of(const scene::Scene& scene, const Model& model
     return scene.materials[scene.section.regions[region].material];
 }
 
-/// Depth of each node below the phreatic line; within `tolerance` of it counts as on it [m].
+/// Depth of each node below the phreatic line; within `tolerance` of it counts as on it, above it is
+/// negative [m].
 std::vector<double> depths_below(const GroundWater& water, const Mesh& mesh, double tolerance) {
     std::vector<double> depth;
     for (const Vec2& x : mesh.nodes) {
@@ -28,18 +29,19 @@ std::vector<double> depths_below(const GroundWater& water, const Mesh& mesh, dou
 }
 
 /// Whether they are there or not.
-std::vector<bool> wet_elements(const GroundWater& water, const Mesh& mesh,
-                               const std::vector<double>& depth) {
+std::vector<bool> wet_elements(const Mesh& mesh, const std::vector<double>& depth) {
     std::vector<bool> wet(mesh.quads.size(), false);
-    for (std::size_t e = 0; e < wet.size(); ++e) {
-        if (water.above == AboveWater::dry) {
-            const Vec2 centre = corners_of(mesh, e).rowwise().mean();
-            wet[e] = centre.y() < level_at(water.line, centre.x());
-            continue;
-        }
+    for (std::size_t e = 0; e < wet.size(); ++e)
         for (const std::int32_t node : mesh.quads[e]) wet[e] = wet[e] || depth[node] > 0.0;
-    }
     return wet;
+}
+
+/// Nothing flows in it: it is dry, or most of it where all above the line is.
+bool stands_still(const GroundWater& water, const Mesh& mesh, std::size_t element,
+                  const std::vector<bool>& wet) {
+    if (!wet[element] || water.above != AboveWater::dry) return !wet[element];
+    const Vec2 centre = corners_of(mesh, element).rowwise().mean();
+    return centre.y() >= level_at(water.line, centre.x());
 }
 
 void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tolerance,
@@ -52,7 +54,8 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
             const Vec2& x = mesh.nodes[i];
             if (scene::distance_to_segment(x, boundary.from, boundary.to) > tolerance) continue;
             found = true;
-            prescribed[i] = boundary.level ? weight * std::max(0.0, *boundary.level - x.y()) : 0.0;
+            const double p = boundary.level ? weight * std::max(0.0, *boundary.level - x.y()) : 0.0;
+            if (p > 0.0 || !prescribed[i] || *prescribed[i] > 0.0) prescribed[i] = p;
         }
         if (found) continue;
         faults.push_back({water.boundaries_at + "/" + std::to_string(b),
@@ -62,8 +65,8 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
     if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
 }
 
-/// On and above the line p = 0; on submerged ground the pond's pressure; between wet and dry
-/// elements the hydrostatic one.
+/// On the line p = 0, and above it what lets it fall to 0 there; on submerged ground the pond's
+/// pressure; between wet and dry elements the hydrostatic one.
 std::vector<std::optional<double>> prescribed_pressures(
     const scene::Scene& scene, const GroundWater& water, const Model& model,
     const std::vector<double>& depth, const std::vector<bool>& wet, double tolerance) {
@@ -71,15 +74,11 @@ std::vector<std::optional<double>> prescribed_pressures(
     std::vector<std::optional<double>> prescribed(depth.size());
     std::vector<bool> meets_dry(depth.size(), false);
     for (std::size_t e = 0; e < wet.size(); ++e) {
-        if (wet[e]) continue;
+        if (!stands_still(water, model.mesh, e, wet)) continue;
         for (const std::int32_t node : model.mesh.quads[e]) meets_dry[node] = true;
     }
     for (std::size_t i = 0; i < depth.size(); ++i) {
-        if (depth[i] <= 0.0) {
-            prescribed[i] = 0.0;
-        } else if (meets_dry[i]) {
-            prescribed[i] = weight * depth[i];
-        }
+        if (depth[i] <= 0.0 || meets_dry[i]) prescribed[i] = weight * depth[i];
     }
     for (const GroundEdge& edge : ground_edges(model)) {
         for (const std::int32_t node : {edge.a, edge.b}) {
@@ -134,20 +133,24 @@ double unit_weight(const scene::Scene& scene) {
 
 std::vector<bool> elements_below(const GroundWater& water, const Mesh& mesh) {
     const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
-    return wet_elements(water, mesh, depths_below(water, mesh, tolerance));
+    return wet_elements(mesh, depths_below(water, mesh, tolerance));
 }
 
 PoreWater ground_water(const scene::Scene& scene, const GroundWater& water, const Model& model) {
     const double tolerance = 1e-6 * quality_of(model.mesh).shortest_edge;
-    const std::vector<double> depth = depths_below(water, model.mesh, tolerance);
-    std::vector<bool> wet = wet_elements(water, model.mesh, depth);
+    std::vector<double> depth = depths_below(water, model.mesh, tolerance);
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        depth[i] = depth[model.constraints.pressure_master[i]];
+    std::vector<bool> wet = wet_elements(model.mesh, depth);
     for (std::size_t e = 0; e < wet.size(); ++e) wet[e] = wet[e] && !model.is_absent(e);
     auto fluids = fluids_of(scene, water, model, wet);
     auto prescribed = prescribed_pressures(scene, water, model, depth, wet, tolerance);
     return build_pore_water(model, {.fluids = std::move(fluids),
                                     .wet = std::move(wet),
                                     .prescribed = std::move(prescribed),
-                                    .body = Vec2(0.0, -scene.gravity)});
+                                    .body = Vec2(0.0, -scene.gravity),
+                                    .depth = std::move(depth),
+                                    .rests_as_drawn = water.boundaries.empty()});
 }
 
 void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,

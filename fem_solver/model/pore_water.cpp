@@ -1,7 +1,9 @@
 #include "fem_solver/model/pore_water.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace breach::fem {
@@ -51,6 +53,45 @@ double constrained_modulus(const mechanics::Elasticity& soil) {
     return 2.0 * soil.shear_modulus() * (1.0 - soil.nu) / (1.0 - 2.0 * soil.nu);  // K + 4G/3
 }
 
+/// Shares of the integrals of N_j over the element where the depth, linear along eta, is positive.
+Eigen::Vector4d shares_below(const Corners& x, const Eigen::Vector4d& depth) {
+    if (depth.minCoeff() >= 0.0) return Eigen::Vector4d::Ones();
+    constexpr int slices = 8;  // of xi: sloping lines to 0.1 % of the element
+    const double a = 1.0 / std::sqrt(3.0);
+    Eigen::Vector4d below = Eigen::Vector4d::Zero(), whole = below;
+    const auto add = [&](double xi, double from, double to, Eigen::Vector4d& sum) {
+        for (const double at : {-a, a}) {
+            const Vec2 local(xi, 0.5 * (from + to) + 0.5 * at * (to - from));
+            const mechanics::Matrix2 J = geometry::shape_gradients(local) * x.transpose();
+            sum += 0.5 * (to - from) * J.determinant() * shape_functions(local);
+        }
+    };
+    for (int i = 0; i < 2 * slices; ++i) {
+        const double xi = (i / 2 * 2 + 1 + (i % 2 == 0 ? -a : a)) / slices - 1.0;
+        const double foot = shape_functions({xi, -1.0}).dot(depth);
+        const double top = shape_functions({xi, 1.0}).dot(depth);
+        add(xi, -1.0, 1.0, whole);
+        if (foot <= 0.0 && top <= 0.0) continue;
+        const double zero = foot * top < 0.0 ? (foot + top) / (foot - top) : 1.0;
+        add(xi, foot >= 0.0 ? -1.0 : zero, top >= 0.0 ? 1.0 : zero, below);
+    }
+    return below.cwiseQuotient(whole);
+}
+
+void draw_line(const Mesh& mesh, const Wetness& wetness, const Fluid& fluid,
+               PorousElement& porous) {
+    const Corners x = corners_of(mesh, porous.element);
+    Eigen::Vector4d depth;
+    for (int i = 0; i < 4; ++i) depth[i] = wetness.depth[mesh.quads[porous.element][i]];
+    porous.below = shares_below(x, depth);
+    if (!wetness.rests_as_drawn) return;
+    const Eigen::Vector4d level = depth + x.row(1).transpose();
+    porous.level = -fluid.density * wetness.body.y() * (level.array() - level[0]);
+    if (porous.level.cwiseAbs().maxCoeff() <
+        1e-9 * fluid.density * std::abs(wetness.body.y()) * depth.cwiseAbs().maxCoeff())
+        porous.level.setZero();
+}
+
 }  // namespace
 
 PoreWater build_pore_water(const Model& model, Wetness wetness) {
@@ -67,6 +108,7 @@ PoreWater build_pore_water(const Model& model, Wetness wetness) {
             porous.zone = z;
             porous.skeleton_modulus = modulus;
             porous.density = zone.density;
+            if (!wetness.depth.empty()) draw_line(model.mesh, wetness, *wetness.fluids[z], porous);
             for (const std::int32_t node : model.mesh.quads[e]) touched[node] = true;
         }
     }
@@ -101,6 +143,10 @@ void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater
             evaluate_porous(geometry, x, fluid, water.body, each);
         }
     }
+}
+
+Eigen::VectorXd without_suction(const PoreWater& water, const Eigen::VectorXd& p) {
+    return (water.prescribed.array() < 0.0).select(p.cwiseMax(0.0), p);
 }
 
 void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f) {

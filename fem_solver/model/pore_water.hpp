@@ -12,6 +12,9 @@ struct Wetness {
     std::vector<bool> wet;                          ///< [elements]; of zones without fluid ignored
     std::vector<std::optional<double>> prescribed;  ///< [nodes] pressure, none where free [Pa]
     Vec2 body;
+    std::vector<double> depth = {};  ///< [nodes] below the phreatic line; empty: all is below [m]
+    /// The line as drawn is the water's rest; otherwise seepage finds its own.
+    bool rests_as_drawn = false;
 };
 
 /// Throws BadInput where a connected saturated body has no node with a prescribed pressure: its
@@ -23,6 +26,10 @@ void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater
 
 /// f += Q p, the force of the pore pressure on the nodes [N].
 void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f);
+
+/// The pressure as people are told it: what stands above the line to let it fall linearly to 0 there
+/// is no suction [Pa].
+Eigen::VectorXd without_suction(const PoreWater& water, const Eigen::VectorXd& p);
 
 /// Pressure of steady seepage, H p = flux, with the mobilities in force: hydrostatic where nothing
 /// drives a flow. Throws BadInput when the prescribed pressures do not determine it.

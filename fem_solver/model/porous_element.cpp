@@ -36,7 +36,7 @@ void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid&
     const double V = geometry.volume, compliance = V * fluid.porosity / fluid.bulk_modulus;
     const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
     for (int i = 0; i < 4; ++i) {
-        out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i).replicate<1, 4>();
+        out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i) * out.below.transpose();
     }
     out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
     out.H.noalias() = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
@@ -52,6 +52,7 @@ void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid&
         out.S.array() += compliance / 16.0;
     }
     out.flux.noalias() = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
+    out.flux += out.H * out.level;
 }
 
 void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& fluid,
@@ -74,8 +75,9 @@ void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& 
         out.flux += w * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
     }
     mean /= shares.sum();
+    out.flux += out.H * out.level;
     for (int i = 0; i < 4; ++i) {
-        out.Q.middleRows<2>(2 * i) = mean.col(i) * shares.transpose();
+        out.Q.middleRows<2>(2 * i) = mean.col(i) * shares.cwiseProduct(out.below).transpose();
     }
 }
 

@@ -35,12 +35,17 @@ inline constexpr double alternation_time = 0.02;
 struct PorousElement {
     std::size_t element;
     std::size_t zone;
-    double skeleton_modulus;        ///< K + 4G/3 that the stabilisation is measured by [Pa]
-    double density;                 ///< rho of soil and water [kg/m3]
-    Eigen::Matrix<double, 8, 4> Q;  ///< integral of B^T m N_j dV [m2]
+    double skeleton_modulus;  ///< K + 4G/3 that the stabilisation is measured by [Pa]
+    double density;           ///< rho of soil and water [kg/m3]
+    /// Share of the integral of N_j that lies below the phreatic line [-]
+    Eigen::Vector4d below = Eigen::Vector4d::Ones();
+    /// rho_f g times the line's level at the corners, over that at the first: the flow that keeps the
+    /// pressure as the line is drawn [Pa]
+    Eigen::Vector4d level = Eigen::Vector4d::Zero();
+    Eigen::Matrix<double, 8, 4> Q;  ///< integral of B^T m N_j dV below the line [m2]
     Eigen::Matrix4d S;              ///< storage n / K_f and stabilisation [m3/Pa]
     Eigen::Matrix4d H;              ///< conduction [m3/(Pa s)]
-    Eigen::Vector4d flux;           ///< of the body force, rho_f k b [m3/s]
+    Eigen::Vector4d flux;           ///< of the body force, rho_f k b, and of the level [m3/s]
 };
 
 /// Single point. Q is a one-point integral (McGann et al. 2012): a pressure that alternates from

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/mechanics/excess_pressure.hpp"
+#include "fem_solver/model/pore_water.hpp"
 
 namespace breach::fem {
 
@@ -65,10 +66,13 @@ double slip_across(const Model& model, const Motion& motion, const FailureSurfac
 
 }  // namespace
 
-std::vector<double> Watch::excess_pressure(const Motion& motion, const Beginning& beginning) const {
+std::vector<double> Watch::excess_pressure(const Model& model, const Motion& motion,
+                                           const Beginning& beginning) const {
     const std::size_t nodes = present_.nodes.size();
-    return mechanics::nodal_excess_pressure(present_.nodes, present_.quads,
-                                            {motion.p.data(), nodes}, {beginning.p.data(), nodes});
+    const Eigen::VectorXd p = without_suction(model.water, motion.p);
+    const Eigen::VectorXd p_0 = without_suction(model.water, beginning.p);
+    return mechanics::nodal_excess_pressure(present_.nodes, present_.quads, {p.data(), nodes},
+                                            {p_0.data(), nodes});
 }
 
 void Watch::read(const Model& model, const Motion& motion, const Beginning& beginning,
@@ -90,7 +94,7 @@ void Watch::read_water(const Model& model, const Motion& motion, const Beginning
     }
     reading.excess_pressure_avg = mass > 0.0 ? sum / mass : 0.0;
     if (nodes_.empty()) return;
-    const std::vector<double> excess = excess_pressure(motion, beginning);
+    const std::vector<double> excess = excess_pressure(model, motion, beginning);
     const std::vector<double> r_u = pore_pressure_ratio(excess, beginning.sigma_v0, least_stress_);
     for (const std::int32_t i : nodes_) reading.r_u_max = std::max(reading.r_u_max, r_u[i]);
     reading.liquefaction_depth = liquefaction_depth(body_, nodes_, r_u, window_);

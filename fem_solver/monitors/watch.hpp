@@ -26,7 +26,8 @@ class Watch {
     /// epsilon_q: [elements of the body].
     FailureSurfaces failure_surfaces(std::span<const double> epsilon_q) const;
     /// u - u_0 at the body's nodes, over the same elements as in a snapshot [Pa].
-    std::vector<double> excess_pressure(const Motion& motion, const Beginning& beginning) const;
+    std::vector<double> excess_pressure(const Model& model, const Motion& motion,
+                                        const Beginning& beginning) const;
     double failure_strain() const { return failure_strain_; }
     /// With what is absent.
     const Mesh& body() const { return body_; }

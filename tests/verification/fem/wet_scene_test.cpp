@@ -1,9 +1,11 @@
 // Pore water through scenes: Terzaghi, hydrostatics under gravity, ponded ground, free-field
 // columns, rest, and what is refused.
 #include <fstream>
+#include <functional>
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/phases/files.hpp"
+#include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/wet.hpp"
 
 namespace breach::fem::wet_scene_test {
@@ -180,6 +182,86 @@ TEST(Hydrostatics, OfASceneAreExact) {
         expect_error(std::string(element) + ": p = rho_f g depth at the nodes", p_error, 1e-8);
         expect_error(std::string(element) + ": sigma'_v = (rho - rho_f) g depth", s_error, 1e-8);
     }
+}
+
+/// A section of 20 m by 10 m in elements of 2 m, whatever the line is.
+json drawn_line(const char* element, const char* above, const json& line) {
+    WetColumn column{
+        .H = 10.0, .width = 20.0, .gravity = 9.81, .rows = 5, .columns = 10, .element = element};
+    json scene = column.scene();
+    scene["fem"]["water"]["line"] = line;
+    scene["fem"]["water"]["above"] = above;
+    return scene;
+}
+
+/// Largest |p - rho_f g depth| of the nodes and largest difference of an element's mean sigma'_v from
+/// its closed form, away from the sides by `margin`, over 98.1 kPa.
+struct Drawn {
+    double p, sigma;
+};
+
+Drawn drawn_and_computed(const json& scene, const std::function<double(double)>& level,
+                         double margin = 0.0) {
+    bench::Run run(scene);
+    const Analysis& a = run.go();
+    const Mesh& mesh = a.model().mesh;
+    const exchange::MeshSnapshot told =
+        snapshot_of(run.session().scene(), a.model(), a.motion(), a.beginning(), {}, 0.0, 0);
+    Drawn largest{0.0, 0.0};
+    const auto water = [&](const Vec2& x) { return 9810.0 * std::max(0.0, level(x.x()) - x.y()); };
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+        largest.p = std::max(largest.p, std::abs(told.pore_pressure[i] - water(mesh.nodes[i])));
+    const std::size_t points = a.model().points_per_element;
+    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        const Corners x = corners_of(mesh, e);
+        if (std::abs(x.row(0).mean() - 10.0) > 10.0 - margin) continue;
+        double sigma = 0.0, u = 0.0;
+        for (std::size_t g = 0; g < points; ++g)
+            sigma -= a.motion().points[e * points + g].sigma[1] / static_cast<double>(points);
+        constexpr int n = 200;  // mean of the water's pressure over the element
+        for (int i = 0; i < n; ++i)
+            u += water({x.row(0).mean(), x(1, 0) + 2.0 * (i + 0.5) / n}) / n;
+        const double depth = 10.0 - x.row(1).mean();
+        largest.sigma = std::max(largest.sigma, std::abs(sigma - 2e3 * 9.81 * depth + u));
+    }
+    return {largest.p / 98.1e3, largest.sigma / 98.1e3};
+}
+
+TEST(PhreaticLine, IsTakenAsDrawnWhereverTheRowsLie) {
+    for (const char* element : {"ssp", "bbar"}) {
+        for (const char* above : {"drained", "dry"}) {
+            for (const double level : {6.4, 7.0, 7.5, 8.0, 8.3, 9.9}) {
+                const Drawn now = drawn_and_computed(drawn_line(element, above, {{0, level}}),
+                                                     [&](double) { return level; });
+                const std::string what =
+                    std::string(element) + ", " + above + ", " + std::to_string(level) + " m: ";
+                expect_error(what + "p", now.p, 1e-8);
+                expect_error(what + "mean sigma'_v", now.sigma, 1e-5);
+            }
+        }
+    }
+}
+
+TEST(PhreaticLine, ThatSlopesIsTakenAsDrawn) {
+    for (const char* element : {"ssp", "bbar"}) {
+        for (const char* above : {"drained", "dry"}) {
+            const Drawn now = drawn_and_computed(
+                drawn_line(element, above, {{0, 8.5}, {20, 6.5}}),
+                [](double x) { return 8.5 - 0.1 * x; }, 6.0);
+            expect_error(std::string(element) + ", " + above + ", 1 in 10: p", now.p, 1e-8);
+            // The sides take the difference of the water's thrust: they shift the weight beside them.
+            expect_error("... mean sigma'_v", now.sigma, 0.01);
+        }
+    }
+}
+
+TEST(PhreaticLine, BetweenRowsLeavesAColumnAtRest) {
+    json scene = drawn_line("ssp", "drained", {{0, 8.5}, {20, 6.5}});
+    scene["fem"]["stages"].push_back(dynamic_stage("wait", 1e4, 100.0));
+    bench::Run run(scene);
+    const Analysis& a = run.go();
+    expect_error("change of pressure [Pa] in 1e4 s",
+                 (a.motion().p - a.beginning().p).lpNorm<Eigen::Infinity>(), 1e-2);
 }
 
 TEST(Pond, LoadsTheGroundAndLeavesTheEffectiveStress) {
