@@ -7,13 +7,15 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <set>
 
 #include "core/exchange/archive.hpp"
+#include "lem_tool/answer.hpp"
 #include "lem_tool/drained.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/limit_scene.hpp"
 #include "lem_tool/non_circular.hpp"
-#include "lem_tool/search.hpp"
 #include "lem_tool/stages.hpp"
 #include "lem_tool/variation.hpp"
 
@@ -46,13 +48,16 @@ void add_polylines(const json& result, exchange::Archive& archive) {
     }
 }
 
-void write_surfaces(process::Session& session, const std::vector<PairBest>& pairs,
-                    const Slices& slices) {
+/// The pairs of ends and the slices of the critical circle.
+void write_surfaces(process::Session& session, const Searched& circles) {
+    const Model& model = circles.model;
+    Slices slices = make_slices(model.strata, model.slices);
+    cut(model.strata, model.soils, circles.found.critical->surface, model.slices, slices);
     exchange::Archive archive;
     archive.kind = "lem_surfaces";
     auto& reals = archive.reals;
     add_polylines(session.result(), archive);
-    for (const PairBest& pair : pairs) {
+    for (const PairBest& pair : circles.found.pairs) {
         reals["pair_entry_x"].push_back(pair.entry);
         reals["pair_exit_x"].push_back(pair.exit);
         reals["pair_center_x"].push_back(pair.critical.surface.circle.center.x());
@@ -106,57 +111,27 @@ std::string other_methods(const json& facts) {
     return words;
 }
 
-/// The critical surface ends where the search was not allowed to go on.
-void flag_edges(process::Session& session, const Strata& strata, const scene::SlipSearch& search,
-                const json& result) {
-    std::vector<std::pair<std::string, const json*>> surfaces{{"the critical surface", &result}};
-    if (result.contains("stages"))
-        for (const json& stage : result.at("stages").get_ref<const json::array_t&>())
-            if (const int layers = stage.at("layers_liquefied"); layers > 0)
-                surfaces.emplace_back("the critical surface with " + std::to_string(layers) +
-                                          (layers == 1 ? " layer" : " layers") + " liquefied",
-                                      &stage);
-    const auto look = [&](const std::array<double, 2>& range, const std::string& end) {
-        const double width = strata.right() - strata.left();
-        for (const double edge : range) {
-            const bool ground_ends = edge <= strata.left() || edge >= strata.right();
-            if (ground_ends || range[0] == range[1]) continue;
-            const auto at_edge = [&](const auto& each) {
-                return std::abs(each.second->at(end)[0].template get<double>() - edge) <=
-                       1e-3 * width;
-            };
-            const auto first = std::ranges::find_if(surfaces, at_edge);
-            if (first == surfaces.end()) continue;
-            session.flag({"range_edge", fault::Severity::warning,
-                          first->first + " ends at the edge of this range, x = " +
-                              spelt("%.4g m", edge) + ": a lower factor of safety may lie beyond" +
-                              (first->second == &result ? "" : ", and another critical_depth") +
-                              "; widen it",
-                          "/lem/search/" + end});
-        }
-    };
-    look(search.entry, "entry");
-    look(search.exit, "exit");
-}
-
 /// The answer in words, for whoever reads the log and not result.json.
 void say(const json& result) {
     const double F = result.at("factor_of_safety");
-    spdlog::info("least factor of safety {:.3f} (simplified Bishop{}): {}", F,
-                 other_methods(result), F < 1.0 ? "the slope fails" : "the slope stands");
-    if (const std::string why = result.at("spencer_reason"); !why.empty())
-        spdlog::info("Spencer's method has no answer: {}", why);
-    spdlog::info("its circle about {}, radius {:.4g} m, enters at {}, leaves at {}, lowest at {}",
-                 place(result.at("circle").at("center")),
-                 result.at("circle").at("radius").get<double>(), place(result.at("entry")),
-                 place(result.at("exit")), place(result.at("lowest_point")));
-    for (const auto& [name, what] : {std::pair{"given_polyline",
-                                               "the given surface of straight "
-                                               "pieces"},
-                                     {"non_circular", "the optimised surface of straight pieces"}})
+    const std::string surface = result.at("surface");
+    spdlog::info("least factor of safety {:.3f} ({}, {}): {}", F,
+                 result.at("method") == "spencer" ? "Spencer" : "simplified Bishop",
+                 in_words(surface), F < 1.0 ? "the slope fails" : "the slope stands");
+    const json& bishop = result.at("bishop");
+    spdlog::info("critical circle: simplified Bishop {:.3f}{}",
+                 bishop.at("factor_of_safety").get<double>(), other_methods(bishop));
+    if (const std::string why = bishop.at("spencer_reason"); !why.empty())
+        spdlog::info("Spencer's method has no answer on it: {}", why);
+    spdlog::info("it lies about {}, radius {:.4g} m, enters at {}, leaves at {}, lowest at {}",
+                 place(bishop.at("circle").at("center")),
+                 bishop.at("circle").at("radius").get<double>(), place(bishop.at("entry")),
+                 place(bishop.at("exit")), place(bishop.at("lowest_point")));
+    for (const char* name : {"composite", "given_circle", "given_polyline", "non_circular"})
         if (result.contains(name) && !result.at(name).is_null())
-            spdlog::info("{}: factor of safety {:.3f} (Spencer)", what,
-                         result.at(name).at("factor_of_safety").get<double>());
+            spdlog::info("{}: factor of safety {:.3f} ({})", in_words(name),
+                         result.at(name).at("factor_of_safety").get<double>(),
+                         result.at(name).at("method") == "spencer" ? "Spencer" : "Bishop");
     if (!result.contains("stages")) return;
     for (const json& stage : result.at("stages"))
         spdlog::info("liquefied to {:.4g} m: factor of safety {:.3f}",
@@ -237,6 +212,31 @@ process::Plan plan(const scene::Scene& whole) {
     };
 }
 
+namespace {
+
+/// The given surfaces into `given`; the search, or the given circle in its place.
+Families first_families(const scene::Scene& scene, const Model& model, int threads, json& given) {
+    const scene::Lem& lem = *scene.lem;
+    if (lem.non_circular && !lem.non_circular->given.empty())
+        given["given_polyline"] = given_polyline(scene, model);
+    Families circle;
+    if (lem.circle) circle = given_family(scene, model);
+    if (lem.circle && lem.search) given["given_circle"] = facts_of(circle.circles);
+    if (!lem.search) return circle;
+    Families found = search_families(scene, model, *lem.search, threads);
+    if (!found.circles.found.critical) refuse_search(scene, found.circles.found.tally);
+    return found;
+}
+
+/// A stage repeats what was said of the one before.
+void flag_each_once(process::Session& session, std::vector<fault::Flag>& flags) {
+    std::set<std::pair<std::string, std::string>> said;
+    for (fault::Flag& each : flags)
+        if (said.emplace(each.code, each.pointer).second) session.flag(std::move(each));
+}
+
+}  // namespace
+
 process::Outcome run(process::Session& session) {
     const auto began = std::chrono::steady_clock::now();
     const scene::Scene scene = limit_scene(session.scene());
@@ -244,45 +244,26 @@ process::Outcome run(process::Session& session) {
     const int threads = session.settings().threads;
     for (fault::Flag& each : flags_of_drained(session.scene())) session.flag(std::move(each));
     const Model model = make_model(scene);
-    Slices slices = make_slices(model.strata, model.slices);
     json& result = session.result();
-    SearchResult found;
-    if (lem.circle) {
-        const Critical given = analyse_circle(scene, model, slices);
-        const json facts = facts_of(model, given, slices);
-        if (lem.search) {
-            result["given_circle"] = facts;
-        } else {
-            result = facts;
-            found.critical = given;
-            found.tally.analysed = 1;
-        }
-    }
-    if (lem.search) {
-        found = found_by_search(scene, model, threads);
-        result.update(facts_of(model, *found.critical, slices));
-    }
-    if (lem.non_circular && !lem.non_circular->given.empty())
-        result["given_polyline"] = given_polyline(scene, model);
-    if (lem.non_circular && lem.non_circular->vertices > 0)
-        result["non_circular"] = optimised_polyline(scene, model, found.critical->surface);
-    for (fault::Flag& each : flags_of_polyline(result.value("non_circular", json())))
-        session.flag(std::move(each));
-    result["surfaces"] = facts_of(found.tally);
-    result["surfaces_analysed"] = found.tally.analysed;
-    write_surfaces(session, found.pairs, slices);
+    const Families found = first_families(scene, model, threads, result);
+    result = answer(scene, found, result);
+    result["surfaces"] = facts_of(found.circles.found.tally);
+    result["surfaces_analysed"] = found.circles.found.tally.analysed;
+    write_surfaces(session, found.circles);
+    std::vector<fault::Flag> flags;
+    add_flags_of_state(scene, {"", model, found, result}, threads, flags);
     if (!lem.liquefaction.empty()) {
-        add_stages(scene, model, found, threads, result);
+        add_stages(scene, model, found, threads, result, flags);
         write_table(session, "stages", table_of(result.at("stages")));
-        for (fault::Flag& each : flags_of_stages(result.at("stages")))
-            session.flag(std::move(each));
+        std::ranges::move(flags_of_stages(result.at("stages")), std::back_inserter(flags));
     }
-    if (lem.search) flag_edges(session, model.strata, *lem.search, result);
+    flag_each_once(session, flags);
     if (lem.sensitivity) add_sensitivity(session.scene(), threads, result);
     if (lem.probability) {
         const Samples samples = add_probability(session.scene(), threads, result);
         write_table(session, "samples", table_of(samples));
     }
+    for (fault::Flag& each : flags_of_variations(result)) session.flag(std::move(each));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
     result["seconds"] = took.count();
     say(result);

@@ -114,7 +114,8 @@ json facts_of(const Model& model, const Critical& critical, Slices& slices) {
     const auto rigorous = spencer(slices, s.circle, slide, model.k_h);
     if (const auto* balanced = std::get_if<Spencer>(&rigorous)) {
         facts["spencer"] = {{"factor_of_safety", balanced->factor_of_safety},
-                            {"interslice_inclination", balanced->theta}};
+                            {"interslice_inclination", balanced->theta},
+                            {"least_m_alpha", balanced->m_alpha}};
     } else {
         facts["spencer_reason"] = because(std::get<Unbalanced>(rigorous));
     }
@@ -154,10 +155,7 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
     return *best;
 }
 
-SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads) {
-    SearchResult found = search(model, *scene::lem_of(scene).search, threads);
-    if (found.critical) return found;
-    const Tally& tally = found.tally;
+void refuse_search(const scene::Scene& scene, const Tally& tally) {
     throw fault::BadInput(
         scene.name,
         {{"/lem/search",
@@ -165,6 +163,12 @@ SearchResult found_by_search(const scene::Scene& scene, const Model& model, int 
               std::to_string(tally.too_shallow) + " are shallower than minimum_depth, " +
               std::to_string(tally.no_answer) + " have no factor of safety",
           "put entry on the upper and exit on the lower side of the slope, within the model"}});
+}
+
+SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads) {
+    SearchResult found = search(model, *scene::lem_of(scene).search, threads);
+    if (!found.critical) refuse_search(scene, found.tally);
+    return found;
 }
 
 }  // namespace breach::lem

@@ -16,19 +16,54 @@ namespace {
 /// Ends of a given surface may be so far off the ground, of the model's height: drawings are.
 constexpr double loose_end = 2e-3;
 
-/// By less an optimised surface may always be lower than its circle.
-constexpr double telling_fall = 0.03;
+json point_of(const scene::Vec2& p) { return json::array({p.x(), p.y()}); }
 
-json facts_of(const Bent& bent) {
-    json points = json::array();
-    for (const scene::Vec2& p : bent.surface.points) points.push_back({p.x(), p.y()});
-    return {{"factor_of_safety", bent.spencer.factor_of_safety},
-            {"method", "spencer"},
-            {"interslice_inclination", bent.spencer.theta},
-            {"least_m_alpha", bent.spencer.m_alpha},
-            {"sliding_depth", bent.depth},
-            {"frictionless_share", bent.frictionless},
-            {"points", points}};
+/// Share of the mass's area in soil without friction.
+double frictionless_mass(const Model& model, const Slices& slices) {
+    double all = 0.0;
+    double without = 0.0;
+    for (std::size_t i = 0; i < slices.count; ++i) {
+        const double x = slices.left[i] + 0.5 * slices.width[i];
+        const Strip& strip = model.strata.strips[strip_at(model.strata, x)];
+        for (std::size_t k = strip.first; k < strip.last; ++k) {
+            const Layer& layer = model.strata.layers[k];
+            const double top = layer.top.at(x);
+            if (top <= slices.base[i]) break;
+            const double bottom =
+                k + 1 < strip.last ? std::max(slices.base[i], model.strata.layers[k + 1].top.at(x))
+                                   : slices.base[i];
+            const Soil& soil = model.soils[layer.region];
+            all += slices.width[i] * (top - bottom);
+            if (soil.tan_phi > 0.0) continue;
+            const double wet =
+                soil.above_water && soil.line
+                    ? std::min(top, model.strata.pressures[strip.pressures + *soil.line].top.at(x))
+                    : top;
+            without += slices.width[i] * std::max(0.0, wet - bottom);
+        }
+    }
+    return without / all;
+}
+
+/// Expects the surface's slices in `slices`.
+json facts_of(const Model& model, const Bent& bent, const Slices& slices) {
+    const std::vector<scene::Vec2>& points = bent.surface.points;
+    const bool falls_right = points.front().y() > points.back().y();
+    const auto lowest = std::ranges::min_element(points, {}, [](const auto& p) { return p.y(); });
+    json facts{{"factor_of_safety", bent.spencer.factor_of_safety},
+               {"method", "spencer"},
+               {"interslice_inclination", bent.spencer.theta},
+               {"least_m_alpha", bent.spencer.m_alpha},
+               {"sliding_depth", bent.depth},
+               {"entry", point_of(falls_right ? points.front() : points.back())},
+               {"exit", point_of(falls_right ? points.back() : points.front())},
+               {"lowest_point", point_of(*lowest)},
+               {"slices", slices.count},
+               {"frictionless_share", bent.frictionless},
+               {"frictionless_mass", frictionless_mass(model, slices)},
+               {"points", json::array()}};
+    for (const scene::Vec2& p : points) facts["points"].push_back(point_of(p));
+    return facts;
 }
 
 [[noreturn]] void refuse(const scene::Scene& scene, const std::string& what,
@@ -85,30 +120,24 @@ json given_polyline(const scene::Scene& scene, const Model& model) {
                "that cannot fail, or no inclination of the interslice forces balances it",
                "give a surface within soil that can fail, without pieces steeper than the slide "
                "can follow");
-    return facts_of(*found);
+    return facts_of(model, *found, slices);
 }
 
 json optimised_polyline(const scene::Scene& scene, const Model& model, const Surface& circle) {
     const auto found = optimise(model, room_of(*scene.lem, model.strata), circle);
     if (!found) return nullptr;
-    json facts = facts_of(found->best);
+    Slices slices = make_slices(model.strata, model.slices);
+    json facts = facts_of(model, *analyse(model, found->best.surface, slices), slices);
     facts["start_factor_of_safety"] = found->start;
     facts["surfaces_analysed"] = found->analysed;
     return facts;
 }
 
-std::vector<fault::Flag> flags_of_polyline(const json& optimised) {
-    if (optimised.is_null() || optimised.at("frictionless_share") < 0.5) return {};
-    const double F = optimised.at("factor_of_safety");
-    const double start = optimised.at("start_factor_of_safety");
-    if (F > start * (1.0 - telling_fall)) return {};
-    std::ostringstream words;
-    words.precision(3);
-    words << "the optimised surface has a factor of safety of " << F << ", its circle " << start
-          << ": most of its base is without friction, where a kinked mass shears within itself and "
-             "Spencer's method does not see the strength that this takes; believe the circle";
-    return {{"kinked_without_friction", fault::Severity::warning, words.str(),
-             "/lem/non_circular/vertices"}};
+bool kinks_without_friction(const json& polyline) {
+    constexpr double most_of_base = 0.5;
+    constexpr double thin_layer = 0.1;  // of the mass: above it other soil has the kinks
+    return polyline.at("frictionless_share") >= most_of_base &&
+           polyline.at("frictionless_mass") >= thin_layer;
 }
 
 }  // namespace breach::lem

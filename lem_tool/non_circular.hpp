@@ -17,7 +17,8 @@ nlohmann::json given_polyline(const scene::Scene& scene, const Model& model);
 nlohmann::json optimised_polyline(const scene::Scene& scene, const Model& model,
                                   const Surface& circle);
 
-/// What a reader of the optimised surface must know.
-std::vector<fault::Flag> flags_of_polyline(const nlohmann::json& optimised);
+/// Most of a polyline's base has no friction, and not as a thin layer under soil with friction: its
+/// factor leaves out what the mass needs to shear within itself at the kinks.
+bool kinks_without_friction(const nlohmann::json& polyline);
 
 }  // namespace breach::lem

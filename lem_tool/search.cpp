@@ -183,8 +183,12 @@ class Search {
           threads_(threads),
           boundaries_(boundaries_of(model.strata)) {}
 
-    SearchResult run() {
+    SearchResult run(Effort effort) {
         coarse();
+        if (effort == Effort::coarse) {
+            for (const PairBest& each : result_.pairs) keep(each.critical);
+            return std::move(result_);
+        }
         const std::vector<Place> starts = valleys();
         std::vector<Probe> probes;
         probes.reserve(starts.size());
@@ -195,10 +199,7 @@ class Search {
         numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) { polish(probes[i]); });
         for (const Probe& each : probes) {
             result_.tally += each.tally();
-            const bool lower =
-                each.best() && (!result_.critical || each.best()->bishop.factor_of_safety <
-                                                         result_.critical->bishop.factor_of_safety);
-            if (lower) result_.critical = each.best();
+            if (each.best()) keep(*each.best());
         }
         return std::move(result_);
     }
@@ -210,6 +211,12 @@ class Search {
         double value = none;
         std::optional<PairBest> best;
     };
+
+    void keep(const Critical& each) {
+        if (!result_.critical ||
+            each.bishop.factor_of_safety < result_.critical->bishop.factor_of_safety)
+            result_.critical = each;
+    }
 
     Probe probe(int slices) const { return {model_, ranges_, boundaries_, slices}; }
 
@@ -317,8 +324,9 @@ Tally& Tally::operator+=(const Tally& other) {
     return *this;
 }
 
-SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads) {
-    return Search(model, ranges, threads).run();
+SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads,
+                    Effort effort) {
+    return Search(model, ranges, threads).run(effort);
 }
 
 }  // namespace breach::lem

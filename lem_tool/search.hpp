@@ -61,6 +61,9 @@ struct SearchResult {
 /// The coarse grid takes at most `coarse_slices`; the descents, and so the answer, take the
 /// model's.
 inline constexpr int coarse_slices = 25;
-SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1);
+/// coarse: the best of the grid, an upper bound of what the whole search finds.
+enum class Effort { whole, coarse };
+SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1,
+                    Effort effort = Effort::whole);
 
 }  // namespace breach::lem

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "lem_tool/facts.hpp"
-#include "lem_tool/non_circular.hpp"
 
 namespace breach::lem {
 
@@ -35,7 +34,7 @@ json depth_at_one(const json& stages) {
 /// Depth of what can liquefy.
 double depth_of_layers(const json& stages) { return stages.back().at("liquefied_depth"); }
 
-/// How deep the surface of the least F reaches.
+/// How deep the surface of the least F reaches: that in front of its stage, by whatever method.
 double depth_of_surface(const json& stages) {
     const auto lowest =
         std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
@@ -53,31 +52,36 @@ double critical_depth(const json& stages) {
     return std::min(depth_of_surface(stages), depth_of_layers(stages));
 }
 
+std::string name_of_state(std::size_t layers) {
+    if (layers == 0) return "";
+    return " with " + std::to_string(layers) + (layers == 1 ? " layer" : " layers") + " liquefied";
+}
+
 }  // namespace
 
-void add_stages(const scene::Scene& scene, const Model& sound, const SearchResult& unliquefied,
-                int threads, json& result) {
+void add_stages(const scene::Scene& scene, const Model& sound, const Families& unliquefied,
+                int threads, json& result, std::vector<fault::Flag>& flags) {
     const std::vector<scene::UndrainedRegion>& layers = scene.lem->liquefaction;
     const std::vector<scene::Region>& regions = scene.section.regions;
     const double top = top_of(regions[layers.front().region]);
-    Slices slices = make_slices(sound.strata, sound.slices);
     std::int64_t analysed = 0;
     double deepest = 0.0;
     json stages = json::array();
     for (std::size_t count = 0; count <= layers.size(); ++count) {
         Model model = sound;
         model.soils = liquefied(sound, layers, count);
-        const SearchResult found =
-            count == 0 ? unliquefied : found_by_search(scene, model, threads);
-        json stage = facts_of(model, *found.critical, slices);
+        const Families found =
+            count == 0 ? unliquefied : search_families(scene, model, *scene.lem->search, threads);
+        if (!found.circles.found.critical) refuse_search(scene, found.circles.found.tally);
+        json stage = answer(scene, found);
         stage["layers_liquefied"] = count;
         if (count > 0)
             deepest = std::max(deepest, top - bottom_of(regions[layers[count - 1].region]));
         stage["liquefied_depth"] = deepest;
         stage["lowest_point_depth"] = top - stage.at("lowest_point")[1].get<double>();
-        if (scene.lem->non_circular && scene.lem->non_circular->vertices > 0)
-            stage["non_circular"] = optimised_polyline(scene, model, found.critical->surface);
-        analysed += found.tally.analysed;
+        analysed += found.circles.found.tally.analysed;
+        if (count > 0)
+            add_flags_of_state(scene, {name_of_state(count), model, found, stage}, threads, flags);
         stages.push_back(stage);
     }
     result["stages"] = stages;
@@ -118,15 +122,18 @@ std::vector<fault::Flag> flags_of_stages(const json& stages) {
 
 std::string table_of(const json& stages) {
     std::ostringstream table;
-    table << "layers_liquefied,liquefied_depth_m,factor_of_safety,spencer,center_x_m,center_y_m,"
-             "radius_m,entry_x_m,entry_y_m,exit_x_m,exit_y_m,lowest_point_depth_m\n";
+    table << "layers_liquefied,liquefied_depth_m,factor_of_safety,method,surface,bishop,spencer,"
+             "center_x_m,center_y_m,radius_m,entry_x_m,entry_y_m,exit_x_m,exit_y_m,"
+             "lowest_point_depth_m\n";
     for (const json& stage : stages) {
-        const json& rigorous = stage.at("spencer");
-        const json& center = stage.at("circle").at("center");
+        const json& bishop = stage.at("bishop");
+        const json& rigorous = bishop.at("spencer");
+        const json& center = bishop.at("circle").at("center");
         table << stage.at("layers_liquefied") << ',' << stage.at("liquefied_depth") << ','
-              << stage.at("factor_of_safety") << ','
-              << (rigorous.is_null() ? "" : rigorous.at("factor_of_safety").dump()) << ','
-              << center[0] << ',' << center[1] << ',' << stage.at("circle").at("radius") << ','
+              << stage.at("factor_of_safety") << ',' << stage.at("method").get<std::string>() << ','
+              << stage.at("surface").get<std::string>() << ',' << bishop.at("factor_of_safety")
+              << ',' << (rigorous.is_null() ? "" : rigorous.at("factor_of_safety").dump()) << ','
+              << center[0] << ',' << center[1] << ',' << bishop.at("circle").at("radius") << ','
               << stage.at("entry")[0] << ',' << stage.at("entry")[1] << ',' << stage.at("exit")[0]
               << ',' << stage.at("exit")[1] << ',' << stage.at("lowest_point_depth") << '\n';
     }

@@ -3,14 +3,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "lem_tool/search.hpp"
+#include "lem_tool/bounds.hpp"
 
 namespace breach::lem {
 
-/// Adds stages, critical_depth, depth_at_fs_1 and surfaces_analysed_in_stages to the result. The
-/// first stage, nothing liquefied, is the search that has been done already.
-void add_stages(const scene::Scene& scene, const Model& sound, const SearchResult& unliquefied,
-                int threads, nlohmann::json& result);
+/// Adds stages, critical_depth, depth_at_fs_1 and surfaces_analysed_in_stages to the result, and
+/// the flags of the liquefied states. The first stage, nothing liquefied, is the search that has
+/// been done already.
+void add_stages(const scene::Scene& scene, const Model& sound, const Families& unliquefied,
+                int threads, nlohmann::json& result, std::vector<fault::Flag>& flags);
 
 /// What a reader of the critical depth must know: that the slope fails without liquefaction, or
 /// stands with all of it.

@@ -297,18 +297,22 @@ Crack crack_of(const scene::Scene& scene) {
     if (!lem.tension_crack) return {};
     const auto& [depth, level, filled] = *lem.tension_crack;
     const double gamma_w = (lem.water ? lem.water->density : 1000.0) * scene.gravity;
-    if (depth) return {Crack::Reach::depth, *depth, filled, gamma_w};
-    return {Crack::Reach::level, *level, filled, gamma_w};
+    if (depth) return {Crack::Reach::depth, *depth, 1.0, filled, gamma_w};
+    return {Crack::Reach::level, *level, 1.0, filled, gamma_w};
 }
 
 }  // namespace
 
 Line Strata::crack_foot(const Strip& strip) const {
     const Line& top = ground(strip);
+    const auto below = [&](const Line& foot) {
+        return Line{top.level + crack.share * (foot.level - top.level),
+                    top.slope + crack.share * (foot.slope - top.slope)};
+    };
     if (crack.reach == Crack::Reach::none) return top;
-    if (crack.reach == Crack::Reach::depth) return {top.level - crack.foot, top.slope};
+    if (crack.reach == Crack::Reach::depth) return below({top.level - crack.foot, top.slope});
     // strips end where the level meets the ground: one of the two is lower all over
-    return top.at(0.5 * (strip.from + strip.to)) > crack.foot ? Line{crack.foot, 0.0} : top;
+    return top.at(0.5 * (strip.from + strip.to)) > crack.foot ? below({crack.foot, 0.0}) : top;
 }
 
 Thrust thrust(double gamma_w, double water, double low, double high) {

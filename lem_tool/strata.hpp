@@ -67,6 +67,7 @@ struct Crack {
     enum class Reach { none, depth, level };
     Reach reach = Reach::none;
     double foot = 0.0;     ///< depth below ground, or level [m]
+    double share = 1.0;    ///< of that height which surfaces end in (lem_tool/crack.hpp) [-]
     double filled = 0.0;   ///< share of its height under water [-]
     double gamma_w = 0.0;  ///< [N/m3]
 };

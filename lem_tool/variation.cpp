@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/numerics/blocks.hpp"
+#include "lem_tool/answer.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/hypercube.hpp"
 #include "lem_tool/limit_scene.hpp"
@@ -86,30 +87,39 @@ std::string name_of(const Varied& of_scene, Parameter parameter, std::size_t of)
     return "seismic_coefficient";
 }
 
-/// F of varied scenes, on the surface that is critical without variation or on their own.
+/// Bishop's factor of varied scenes, on the surface that is critical without variation or on their
+/// own.
 class Variations {
   public:
     Variations(const scene::Scene& scene, scene::VariedSurface surface, std::size_t layers,
                int threads)
         : surface_(surface), layers_(layers) {
         const Model model = model_of(scene);
-        Slices slices = make_slices(model.strata, model.slices);
-        base_ = scene.lem->search ? *found_by_search(scene, model, threads).critical
-                                  : analyse_circle(scene, model, slices);
-        cut(model.strata, model.soils, base_.surface, model.slices, slices);
+        const Families families = scene.lem->search
+                                      ? search_families(scene, model, *scene.lem->search, threads)
+                                      : given_family(scene, model);
+        const Searched& least = families.least();
+        if (!least.found.critical) refuse_search(scene, least.found.tally);
+        base_ = *least.found.critical;
+        floor_ = least.floor;
+        crack_share_ = least.model.strata.crack.share;
+        Slices slices = make_slices(least.model.strata, model.slices);
+        cut(least.model.strata, model.soils, base_.surface, model.slices, slices);
         slide_ = slide_of(slices);
     }
 
     double unvaried() const { return base_.bishop.factor_of_safety; }
 
-    /// Infinite where nothing drives the mass.
-    double factor_of(const scene::Scene& varied) const {
-        constexpr double stable = std::numeric_limits<double>::infinity();
-        const Model model = model_of(varied);
+    /// Infinite where nothing drives the mass. Takes a copy of the scene to vary further.
+    double factor_of(scene::Scene varied) const {
         if (surface_ == scene::VariedSurface::searched && varied.lem->search) {
-            const SearchResult found = search(model, *varied.lem->search);
-            return found.critical ? found.critical->bishop.factor_of_safety : stable;
+            const double circles = searched(varied);
+            if (floor_.empty()) return circles;
+            varied.lem->floor = floor_;
+            return std::min(circles, searched(varied));
         }
+        if (!floor_.empty()) varied.lem->floor = floor_;
+        const Model model = model_of(varied);
         Slices slices = make_slices(model.strata, model.slices);
         cut(model.strata, model.soils, base_.surface, model.slices, slices);
         const Bishop result = bishop(slices, slide_, model.k_h, model.m_alpha);
@@ -119,15 +129,25 @@ class Variations {
     }
 
   private:
+    static constexpr double stable = std::numeric_limits<double>::infinity();
+
+    double searched(const scene::Scene& varied) const {
+        const SearchResult found = search(model_of(varied), *varied.lem->search);
+        return found.critical ? found.critical->bishop.factor_of_safety : stable;
+    }
+
     Model model_of(const scene::Scene& varied) const {
         Model model = make_model(varied);
         model.soils = liquefied(model, varied.lem->liquefaction, layers_);
+        model.strata.crack.share = crack_share_;
         return model;
     }
 
     scene::VariedSurface surface_;
     std::size_t layers_;
     Critical base_{};
+    std::vector<scene::Vec2> floor_;  ///< of the weak layer that the surface follows; or none
+    double crack_share_ = 1.0;
     Slide slide_ = Slide::to_left;
 };
 
@@ -197,7 +217,7 @@ void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
         const Strength& strength = strengths[n / 2];
         vary(of_scene, varied, strength.parameter, strength.of,
              1.0 + (n % 2 ? asked.change : -asked.change));
-        factors[n] = variations.factor_of(varied);
+        factors[n] = variations.factor_of(std::move(varied));
     });
     json list = json::array();
     for (std::size_t i = 0; i < strengths.size(); ++i) {
@@ -232,7 +252,7 @@ Samples add_probability(const scene::Scene& scene, int threads, json& result) {
                 vary(of_scene, varied, asked.variables[v].parameter, asked.variables[v].of,
                      samples.factors[v][i]);
             }
-            samples.factor_of_safety[i] = variations.factor_of(varied);
+            samples.factor_of_safety[i] = variations.factor_of(std::move(varied));
         }
     });
     result["probability"] = statistics_of(samples.factor_of_safety);
@@ -240,6 +260,27 @@ Samples add_probability(const scene::Scene& scene, int threads, json& result) {
     result["probability"]["layers_liquefied"] = asked.layers_liquefied;
     result["probability"]["factor_of_safety"] = variations.unvaried();
     return samples;
+}
+
+std::vector<fault::Flag> flags_of_variations(const json& result) {
+    constexpr double telling = 0.03;
+    std::vector<fault::Flag> flags;
+    for (const char* part : {"sensitivity", "probability"}) {
+        if (!result.contains(part)) continue;
+        const std::size_t layers = result.at(part).at("layers_liquefied");
+        const json& state = layers == 0 ? result : result.at("stages").at(layers);
+        const double reported = state.at("factor_of_safety");
+        const double varied = result.at(part).at("factor_of_safety");
+        if (reported >= varied * (1.0 - telling)) continue;
+        std::ostringstream words;
+        words.precision(4);
+        words << part << " varies Bishop's factor, " << varied << ", and the least factor is "
+              << reported << " by Spencer's method: failure is likelier than it says. Vary the "
+              << "strengths in a study instead, whose samples have the least factor each";
+        flags.push_back({"varies_higher_factor", fault::Severity::questionable, words.str(),
+                         std::string("/lem/") + part});
+    }
+    return flags;
 }
 
 std::string table_of(const Samples& samples) {

@@ -24,6 +24,9 @@ struct Samples {
 /// Adds "probability": mean, standard deviation, probability_of_failure, reliability indices.
 Samples add_probability(const scene::Scene& scene, int threads, nlohmann::json& result);
 
+/// The factor that was varied is Bishop's, and the result's own is lower.
+std::vector<fault::Flag> flags_of_variations(const nlohmann::json& result);
+
 /// One line per sample.
 std::string table_of(const Samples& samples);
 

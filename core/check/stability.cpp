@@ -87,6 +87,29 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
                "give a depth within the section");
 }
 
+/// A crack cannot be deeper than the section, and begins in its ground.
+void check_crack(const scene::Scene& scene, const scene::TensionCrack& crack, Findings& findings) {
+    const scene::Box box = extent(scene);
+    const std::string remedy =
+        "give the depth to which the soil stands open, about 2 c / gamma tan(45 + phi / 2), or "
+        "delete /lem/tension_crack";
+    const double height = box.high.y() - box.low.y();
+    if (crack.depth && *crack.depth >= height)
+        refuse(
+            findings, "/lem/tension_crack/depth",
+            "is " + metres(*crack.depth) + ", and the section is only " + metres(height) + " high",
+            remedy);
+    if (crack.level && *crack.level <= box.low.y())
+        refuse(findings, "/lem/tension_crack/level",
+               "is " + metres(*crack.level) + ", and the section ends at " + metres(box.low.y()),
+               remedy);
+    if (crack.level && *crack.level >= box.high.y())
+        refuse(findings, "/lem/tension_crack/level",
+               "is " + metres(*crack.level) + ", above all ground, which reaches up to " +
+                   metres(box.high.y()) + ": there is no crack",
+               remedy);
+}
+
 void check_circle(const scene::Scene& scene, const scene::Circle& circle, Findings& findings) {
     const scene::Box box = extent(scene);
     constexpr int samples = 256;
@@ -326,6 +349,7 @@ void check_stability(const scene::Scene& scene, Findings& findings) {
     if (!check_slices(scene, findings)) return;  // no ground to ask for
     if (lem.search) check_search(scene, *lem.search, findings);
     if (lem.circle) check_circle(scene, *lem.circle, findings);
+    if (lem.tension_crack) check_crack(scene, *lem.tension_crack, findings);
 }
 
 }  // namespace breach::check

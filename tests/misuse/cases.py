@@ -148,6 +148,8 @@ cases = [
     Case("soil that the MPM cannot have", M, "refused", r"(mapping|pm4sand)", drops=["/transfer/mapping/1"]),
     Case("a mapping to a material that is not there", M, "refused", r"honey", {"/transfer/mapping/1/to": "honey"}),
     Case("LEM exits with no ground below them", "slope", "refused", r"exit", {"/lem/search/exit": [200, 300]}),
+    Case("a tension crack deeper than the section", "slope", "refused", r"tension_crack/depth[\s\S]*30 m[\s\S]*15 m high", {"/lem/tension_crack": {"depth": 30}}),
+    Case("a tension crack to a level above all ground", "slope", "refused", r"tension_crack/level[\s\S]*no crack", {"/lem/tension_crack": {"level": 12}}),
     Case("a snapshot after the end", "slope", "refused|warned", r"snapshot", {"/fem/snapshot_times": [50]}),
     Case("an entry that nobody reads", "slope", "refused", r"cell_sise", {"/mpm/cell_sise": 1}),
     Case("a mesh file that is not there", "slope", "refused", r"nowhere\.msh", {"/fem/msh_file": "nowhere.msh"}),

@@ -1,0 +1,227 @@
+#include "lem_tool/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "lem_tool/facts.hpp"
+#include "lem_tool/non_circular.hpp"
+#include "lem_tool/weak_layers.hpp"
+
+namespace breach::lem {
+
+using nlohmann::json;
+
+namespace {
+
+/// Factors of different surfaces differ by so much without anything being wrong with one of them.
+constexpr double telling_difference = 0.03;
+
+/// Of the polyline that is searched without being asked, the schema's default.
+constexpr int usual_vertices = 13;
+
+/// A factor that may be the answer.
+struct Candidate {
+    double factor;
+    std::string method;
+    std::string surface;  ///< its facts' name in the result, "circle" for Bishop's
+    std::string invalid;  ///< why it is not valid; empty: it is
+    bool kinked_without_friction;
+};
+
+std::string name_of(const std::string& surface) { return surface == "circle" ? "bishop" : surface; }
+
+std::string small_m_alpha(double least, double limit) {
+    if (least >= limit) return "";
+    char words[120];
+    std::snprintf(words, sizeof words, "m_alpha of a slice is %.3g, below /lem/m_alpha/least, %.3g",
+                  least, limit);
+    return words;
+}
+
+void add_candidates(const std::string& surface, const json& facts, double least_m_alpha,
+                    std::vector<Candidate>& all) {
+    if (facts.is_null()) return;
+    all.push_back({facts.at("factor_of_safety"), facts.at("method"), surface,
+                   small_m_alpha(facts.at("least_m_alpha"), least_m_alpha), false});
+    if (facts.contains("points")) {
+        all.back().kinked_without_friction = kinks_without_friction(facts);
+        if (all.back().kinked_without_friction)
+            all.back().invalid = "its mass shears within itself in soil without friction";
+        return;
+    }
+    const json& spencer = facts.at("spencer");
+    if (spencer.is_null()) return;
+    Candidate rigorous{spencer.at("factor_of_safety"), "spencer", surface,
+                       small_m_alpha(spencer.at("least_m_alpha"), least_m_alpha), false};
+    if (facts.value("follows_floor", false) && rigorous.invalid.empty())
+        all.back().invalid =
+            "off the arc Bishop's moments depend on the circle's centre, and Spencer's method has "
+            "an answer there";
+    all.push_back(std::move(rigorous));
+}
+
+std::vector<Candidate> candidates_of(const json& parts, double least_m_alpha) {
+    std::vector<Candidate> all;
+    for (const char* surface :
+         {"circle", "composite", "given_circle", "non_circular", "given_polyline"})
+        add_candidates(surface, parts.value(name_of(surface), json()), least_m_alpha, all);
+    return all;
+}
+
+/// The least valid one; where none is valid, the least.
+const Candidate& least_of(const std::vector<Candidate>& all) {
+    return *std::ranges::min_element(all, [](const Candidate& a, const Candidate& b) {
+        if (a.invalid.empty() != b.invalid.empty()) return a.invalid.empty();
+        return a.factor < b.factor;
+    });
+}
+
+double lowest_of(const json& facts) {
+    const double F = facts.at("factor_of_safety");
+    const json& spencer = facts.at("spencer");
+    return spencer.is_null() ? F : std::min(F, spencer.at("factor_of_safety").get<double>());
+}
+
+/// The least of the surfaces along weak layers; null: there is none.
+json least_composite(const std::vector<Searched>& composites) {
+    json least;
+    for (const Searched& each : composites) {
+        json facts = facts_of(each);
+        if (least.is_null() || lowest_of(facts) < lowest_of(least)) least = std::move(facts);
+    }
+    return least;
+}
+
+/// What the result says of the surface in front: as an arc's facts, a polyline's too.
+json front_of(const Candidate& least, const json& facts) {
+    json front = facts;
+    front["factor_of_safety"] = least.factor;
+    front["method"] = least.method;
+    front["surface"] = least.surface;
+    if (!facts.contains("points")) return front;
+    front.erase("start_factor_of_safety");
+    front["spencer"] = {{"factor_of_safety", facts.at("factor_of_safety")},
+                        {"interslice_inclination", facts.at("interslice_inclination")},
+                        {"least_m_alpha", facts.at("least_m_alpha")}};
+    front["spencer_reason"] = "";
+    front["ordinary"] = nullptr;
+    return front;
+}
+
+}  // namespace
+
+std::string in_words(const std::string& surface) {
+    if (surface == "circle") return "the critical circle";
+    if (surface == "composite") return "the surface along the thin weak layer";
+    if (surface == "given_circle") return "the given circle";
+    if (surface == "given_polyline") return "the given surface of straight pieces";
+    return "the optimised surface of straight pieces";
+}
+
+json facts_of(const Searched& searched) {
+    Slices slices = make_slices(searched.model.strata, searched.model.slices);
+    json facts = facts_of(searched.model, *searched.found.critical, slices);
+    for (const scene::Vec2& p : searched.floor) facts["floor"].push_back({p.x(), p.y()});
+    facts["follows_floor"] =
+        std::find(slices.stands_on.begin(),
+                  slices.stands_on.begin() + static_cast<std::ptrdiff_t>(slices.count),
+                  Base::straight) !=
+        slices.stands_on.begin() + static_cast<std::ptrdiff_t>(slices.count);
+    const Crack& crack = searched.model.strata.crack;
+    if (crack.reach == Crack::Reach::none) return facts;
+    const double whole = searched.factor_with_whole_crack;
+    facts["tension_crack"] = {
+        {"share", crack.share},
+        {"tension_zone", tension_zone(searched.model, searched.found.critical->surface)},
+        {"factor_of_safety_whole", std::isfinite(whole) ? json(whole) : json()}};
+    return facts;
+}
+
+const Searched& Families::least() const {
+    const Searched* best = &circles;
+    for (const Searched& each : composites)
+        if (each.factor() < best->factor()) best = &each;
+    return *best;
+}
+
+Families search_families(const scene::Scene& scene, const Model& model,
+                         const scene::SlipSearch& ranges, int threads) {
+    const auto look = [&](const Model& each, Effort effort) {
+        return search(each, ranges, threads, effort);
+    };
+    Families families{with_worst_crack(model, {}, look), {}};
+    for (const Path& line : weak_lines(model, ranges)) {
+        const Path floor = higher(line, scene.lem->floor);
+        Searched along = with_worst_crack(over_floor(scene, model, floor), floor, look);
+        if (along.found.critical) families.composites.push_back(std::move(along));
+    }
+    return families;
+}
+
+Families given_family(const scene::Scene& scene, const Model& model) {
+    Slices slices = make_slices(model.strata, model.slices);
+    std::optional<fault::BadInput> refused;
+    const auto look = [&](const Model& each, Effort) {
+        SearchResult result;
+        try {
+            result.critical = analyse_circle(scene, each, slices);
+            result.tally.analysed = 1;
+        } catch (const fault::BadInput& fault) {
+            if (!refused) refused = fault;
+        }
+        return result;
+    };
+    Families families{with_worst_crack(model, {}, look), {}};
+    if (!families.circles.found.critical) throw fault::BadInput(*refused);
+    return families;
+}
+
+json answer(const scene::Scene& scene, const Families& families, const json& given) {
+    const scene::Lem& lem = *scene.lem;
+    json parts = given;
+    parts["bishop"] = facts_of(families.circles);
+    if (!families.composites.empty()) parts["composite"] = least_composite(families.composites);
+    const bool asked = lem.non_circular && lem.non_circular->vertices > 0;
+    const json along = parts.value("composite", json());
+    if (asked || (!along.is_null() && along.at("spencer").is_null())) {
+        const Searched& start = families.least();
+        scene::Scene bent = scene;
+        if (!asked) bent.lem->non_circular = scene::NonCircular{{}, usual_vertices};
+        parts["non_circular"] =
+            optimised_polyline(bent, start.model, start.found.critical->surface);
+    }
+    const auto all = candidates_of(parts, lem.m_alpha.least);
+    const Candidate& least = least_of(all);
+    json result = front_of(least, parts.at(name_of(least.surface)));
+    result.update(parts);
+    return result;
+}
+
+std::vector<fault::Flag> flags_of_answer(const json& answer, const scene::Lem& lem) {
+    const double reported = answer.at("factor_of_safety");
+    std::vector<fault::Flag> flags;
+    for (const Candidate& each : candidates_of(answer, lem.m_alpha.least)) {
+        if (each.invalid.empty() || each.factor >= reported * (1.0 - telling_difference)) continue;
+        char words[512];
+        std::snprintf(words, sizeof words,
+                      "factor_of_safety is %.3f, and %s has %.3f (%s), which does not count: %s",
+                      reported, in_words(each.surface).c_str(), each.factor,
+                      each.method == "spencer" ? "Spencer" : "Bishop", each.invalid.c_str());
+        if (each.kinked_without_friction)
+            flags.push_back({"kinked_without_friction", fault::Severity::warning,
+                             std::string(words) +
+                                 ", and Spencer's method does not see the strength that this "
+                                 "takes; believe the circle",
+                             "/lem/non_circular"});
+        else
+            flags.push_back({"surfaces_disagree", fault::Severity::questionable,
+                             std::string(words) +
+                                 ". Check that surface by another method, or let a polyline be "
+                                 "searched: \"non_circular\": {\"vertices\": 13}",
+                             "/lem"});
+    }
+    return flags;
+}
+
+}  // namespace breach::lem

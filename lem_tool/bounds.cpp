@@ -1,0 +1,232 @@
+#include "lem_tool/bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+
+namespace breach::lem {
+
+using nlohmann::json;
+
+namespace {
+
+/// By less, relative, a bound does not raise the factor.
+constexpr double telling_rise = 0.01;
+
+template <class... Values>
+std::string text(const char* format, Values... values) {
+    char words[512];
+    std::snprintf(words, sizeof words, format, values...);
+    return words;
+}
+
+std::string range_text(const std::array<double, 2>& range) {
+    return text("[%.5g, %.5g]", range[0], range[1]);
+}
+
+constexpr const char* raises_factor = "bound_raises_factor";
+
+/// A bound of the scene: what is left of the scene without it, and what to tell the reader.
+struct Bound {
+    std::string pointer;
+    std::string what;
+    std::string remedy;
+    fault::Severity where_it_hides_failure;
+    void (*lift)(const Strata&, scene::Lem&);
+};
+
+/// Ends anywhere on the slope's upper and lower half.
+void widen(const Strata& strata, scene::Lem& lem) {
+    scene::SlipSearch& search = *lem.search;
+    const bool to_right = search.entry[0] + search.entry[1] < search.exit[0] + search.exit[1];
+    auto& left = to_right ? search.entry : search.exit;
+    auto& right = to_right ? search.exit : search.entry;
+    const double middle = 0.5 * (left[1] + right[0]);
+    left = {std::min(left[0], strata.left()), std::max(left[1], middle)};
+    right = {std::min(right[0], middle), std::max(right[1], strata.right())};
+}
+
+std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
+    using fault::Severity;
+    std::vector<Bound> bounds;
+    const scene::SlipSearch& search = *lem.search;
+    if (!lem.floor.empty())
+        bounds.push_back({"/lem/floor", "below the floor",
+                          "If that soil is rock, give it the law linear_elastic; otherwise delete "
+                          "/lem/floor",
+                          Severity::questionable,
+                          [](const Strata&, scene::Lem& each) { each.floor.clear(); }});
+    if (search.lowest_level)
+        bounds.push_back({"/lem/search/lowest_level",
+                          text("below the lowest level, %.4g m", *search.lowest_level),
+                          "If that soil is rock, give it the law linear_elastic; otherwise delete "
+                          "lowest_level",
+                          Severity::questionable, [](const Strata&, scene::Lem& each) {
+                              each.search->lowest_level.reset();
+                          }});
+    if (search.minimum_depth > 0.0)
+        bounds.push_back(
+            {"/lem/search/minimum_depth",
+             text("shallower than minimum_depth, %.3g m", search.minimum_depth),
+             "If such slips do harm, write \"minimum_depth\": 0", Severity::warning,
+             [](const Strata&, scene::Lem& each) { each.search->minimum_depth = 0.0; }});
+    scene::Lem wide = lem;
+    widen(strata, wide);
+    if (search.entry[0] < search.entry[1] && search.exit[0] < search.exit[1])
+        bounds.push_back({"/lem/search/entry", "outside the ranges of entry and exit",
+                          "Write \"entry\": " + range_text(wide.search->entry) +
+                              ", \"exit\": " + range_text(wide.search->exit),
+                          Severity::questionable, widen});
+    return bounds;
+}
+
+/// The model of a scene with other bounds, its soils in the same state.
+Model model_of(const scene::Scene& scene, const State& state) {
+    Model model = state.model;
+    model.strata = make_strata(scene);
+    return model;
+}
+
+double coarse_factor(const scene::Scene& scene, const State& state, int threads) {
+    Model model = model_of(scene, state);
+    model.strata.crack.share = state.families.circles.model.strata.crack.share;
+    scene::SlipSearch ranges = *scene.lem->search;
+    for (int* points : {&ranges.entry_points, &ranges.exit_points, &ranges.depths})
+        *points = std::max(4, *points * 2 / 3);  // a third of the search's own grid
+    const SearchResult found = search(model, ranges, threads, Effort::coarse);
+    return found.critical ? found.critical->bishop.factor_of_safety
+                          : std::numeric_limits<double>::infinity();
+}
+
+/// The surface in front ends where the search was not allowed to go on.
+std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::SlipSearch& search,
+                                        const State& state) {
+    std::vector<fault::Flag> flags;
+    const double width = strata.right() - strata.left();
+    const auto look = [&](const std::array<double, 2>& range, const std::string& end) {
+        const double x = state.answer.at(end)[0];
+        for (const double edge : range) {
+            const bool ground_ends = edge <= strata.left() || edge >= strata.right();
+            if (ground_ends || range[0] == range[1] || std::abs(x - edge) > 1e-3 * width) continue;
+            flags.push_back(
+                {"range_edge", fault::Severity::warning,
+                 "the critical surface" + state.name + " ends at the edge of this range, x = " +
+                     text("%.4g m", edge) + ": a lower factor of safety may lie beyond" +
+                     (state.name.empty() ? "" : ", and another critical_depth") + "; widen it",
+                 "/lem/search/" + end});
+        }
+    };
+    look(search.entry, "entry");
+    look(search.exit, "exit");
+    return flags;
+}
+
+fault::Flag flag_of(const Bound& bound, const State& state, double without) {
+    const double own = state.families.least().factor();
+    const bool hides_failure = own >= 1.0 && without < 1.0;
+    return {raises_factor, hides_failure ? bound.where_it_hides_failure : fault::Severity::warning,
+            text("Bishop's factor of safety%s is %.3f; without this bound it is %.3f, on a surface "
+                 "%s. ",
+                 state.name.c_str(), own, without, bound.what.c_str()) +
+                bound.remedy,
+            bound.pointer};
+}
+
+/// Lifts the bounds that no earlier state was flagged for: together on a coarse grid, and each alone
+/// where that finds a lower factor.
+std::vector<fault::Flag> flags_of_bounds(const scene::Scene& scene, const State& state, int threads,
+                                         const std::vector<fault::Flag>& told) {
+    const Strata& strata = state.model.strata;
+    const double telling_factor = state.families.least().factor() * (1.0 - telling_rise);
+    std::vector<Bound> bounds = bounds_of(strata, *scene.lem);
+    std::erase_if(bounds, [&](const Bound& bound) {
+        return std::ranges::any_of(told, [&](const fault::Flag& each) {
+            return each.code == raises_factor && each.pointer == bound.pointer;
+        });
+    });
+    scene::Scene free = scene;
+    for (const Bound& each : bounds) each.lift(strata, *free.lem);
+    std::vector<fault::Flag> flags;
+    if (coarse_factor(free, state, threads) >= telling_factor) return flags;
+    for (const Bound& each : bounds) {
+        scene::Scene lifted = scene;
+        each.lift(strata, *lifted.lem);
+        if (coarse_factor(lifted, state, threads) >= telling_factor) continue;
+        const double without =
+            search_families(lifted, model_of(lifted, state), *lifted.lem->search, threads)
+                .least()
+                .factor();
+        if (without < telling_factor) flags.push_back(flag_of(each, state, without));
+    }
+    return flags;
+}
+
+std::vector<fault::Flag> flags_of_upstream_end(const Strata& strata, const State& state) {
+    const double entry = state.answer.at("entry")[0];
+    const json& exit = state.answer.at("exit");
+    const bool falls_right = entry < exit[0];
+    double crest = -std::numeric_limits<double>::infinity();
+    for (const Strip& strip : strata.strips)
+        for (const double x : {strip.from, strip.to})
+            crest = std::max(crest, strata.ground(strip).at(x));
+    const double height = crest - exit[1].get<double>();
+    const double end = falls_right ? strata.left() : strata.right();
+    const double distance = std::abs(entry - end);
+    if (distance >= height) return {};
+    return {
+        {"upstream_wall", fault::Severity::warning,
+         text("the critical surface%s begins %.3g m from the section's upstream end, x = %.4g m, "
+              "less than the slope's height, %.3g m: surfaces that begin farther back are left "
+              "out. Extend the section to x = %.4g m at least",
+              state.name.c_str(), distance, end, height,
+              end + (falls_right ? -1.0 : 1.0) * (2.0 * height - distance)),
+         "/section/regions"}};
+}
+
+std::vector<fault::Flag> flags_of_crack(const scene::Lem& lem, const State& state) {
+    const json facts = state.answer.at("bishop").value("tension_crack", json());
+    if (facts.is_null()) return {};
+    const Searched& circles = state.families.circles;
+    const Strata& strata = circles.model.strata;
+    const json& entry = state.answer.at("bishop").at("entry");
+    const double x = entry[0];
+    const double ground =
+        std::max(ground_level(strata, x, From::left), ground_level(strata, x, From::right));
+    const double given = lem.tension_crack->depth.value_or(
+        std::max(0.0, ground - lem.tension_crack->level.value_or(ground)));
+    const double zone = facts.at("tension_zone");
+    const double taken = facts.at("share").get<double>() * given;
+    const double whole = circles.factor_with_whole_crack;
+    if (given <= 1.05 * zone && whole <= circles.factor() * (1.0 + telling_rise)) return {};
+    const std::string at_whole =
+        std::isfinite(whole) ? text("it would be %.3f", whole) : std::string("there is no surface");
+    return {{"deep_crack", fault::Severity::warning,
+             text("the tension crack%s is %.3g m deep, and soil as at the surface's upper end "
+                  "stands open to %.3g m, 2 c / gamma tan(45 + phi / 2). Soil below that presses "
+                  "on the mass, which a deeper crack leaves out: the surface ends %.3g m deep in "
+                  "the crack, where Bishop's factor is least, %.3f; at the whole depth %s. Write "
+                  "\"depth\": %.3g, or give the soil its cohesion",
+                  state.name.c_str(), given, zone, taken, circles.factor(), at_whole.c_str(),
+                  std::max(zone, taken)),
+             "/lem/tension_crack"}};
+}
+
+}  // namespace
+
+void add_flags_of_state(const scene::Scene& scene, const State& state, int threads,
+                        std::vector<fault::Flag>& flags) {
+    const auto add = [&](std::vector<fault::Flag> more) {
+        std::ranges::move(more, std::back_inserter(flags));
+    };
+    add(flags_of_answer(state.answer, *scene.lem));
+    add(flags_of_crack(*scene.lem, state));
+    if (scene.lem->search) {
+        add(flags_of_edges(state.model.strata, *scene.lem->search, state));
+        add(flags_of_bounds(scene, state, threads, flags));
+    }
+    add(flags_of_upstream_end(state.model.strata, state));
+}
+
+}  // namespace breach::lem

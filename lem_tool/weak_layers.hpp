@@ -1,0 +1,22 @@
+// Thin weak layers, which a circle only crosses: the lines that composite surfaces follow instead.
+#pragma once
+
+#include <vector>
+
+#include "lem_tool/search.hpp"
+
+namespace breach::lem {
+
+using Path = std::vector<scene::Vec2>;
+
+/// The bottom line of every layer that is weaker than the soil above and below it and thinner than
+/// a tenth of the slide along it, within the search's ranges; from side to side of the section.
+std::vector<Path> weak_lines(const Model& model, const scene::SlipSearch& ranges);
+
+/// The higher of the two lines; the other where one is empty.
+Path higher(const Path& one, const Path& other);
+
+/// The model over another floor than the scene's.
+Model over_floor(const scene::Scene& scene, const Model& model, const Path& floor);
+
+}  // namespace breach::lem

@@ -1,0 +1,259 @@
+// One answer: the least valid factor of all surfaces, thin weak layers found without being asked,
+// and bounds that cannot make a slope safer in silence.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lem_tool/answer.hpp"
+#include "lem_tool/limit_scene.hpp"
+#include "lem_tool/stages.hpp"
+#include "lem_tool/weak_layers.hpp"
+#include "tests/unit/lem/small_scenes.hpp"
+
+namespace breach::lem {
+namespace {
+
+using small::json;
+
+struct Analysed {
+    json answer;
+    std::vector<fault::Flag> flags;
+
+    double factor() const { return answer.at("factor_of_safety"); }
+    double bishop() const { return answer.at("bishop").at("factor_of_safety"); }
+    const fault::Flag* flag(const std::string& code, const std::string& pointer) const {
+        for (const fault::Flag& each : flags)
+            if (each.code == code && each.pointer == pointer) return &each;
+        return nullptr;
+    }
+};
+
+Analysed analysed(const scene::Scene& scene) {
+    const Model model = make_model(scene);
+    const Families families = search_families(scene, model, *scene.lem->search, 1);
+    Analysed result{answer(scene, families), {}};
+    add_flags_of_state(scene, {"", model, families, result.answer}, 1, result.flags);
+    return result;
+}
+
+Analysed analysed(const json& text) { return analysed(small::parsed(text)); }
+
+// Giam & Donald (1989), EX4: published answers 0.69 to 0.78, the referee's 0.78.
+TEST(OneAnswer, OfAcads4IsTheLeastOfItsSurfaces) {
+    scene::Scene scene =
+        scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/acads4_scene.json");
+    for (const bool asked : {true, false}) {
+        if (!asked) scene.lem->non_circular.reset();
+        const Analysed found = analysed(scene);
+        std::printf("ACADS 4, polyline %s: %.4f by %s on %s, circle %.4f\n",
+                    asked ? "asked for" : "not asked for", found.factor(),
+                    found.answer.at("method").get<std::string>().c_str(),
+                    found.answer.at("surface").get<std::string>().c_str(), found.bishop());
+        EXPECT_GT(found.factor(), 0.67);
+        EXPECT_LT(found.factor(), 0.785);
+        EXPECT_NEAR(found.bishop(), 1.086, 0.002) << "Bishop's stays Bishop's";
+    }
+}
+
+/// 15 m of fill, 1 : 2, on a seam of `thickness` below the ground of its toe.
+json fill_on_seam(double thickness, const json& seam, const json& lem = json::object()) {
+    json all = {{"search", {{"entry", {5, 55}}, {"exit", {60, 120}}}}};
+    all.update(lem);
+    return small::scene(
+        {{"fill", small::soil(20, 5, 35)}, {"seam", seam}, {"base", small::soil(20, 20, 38)}},
+        json::array({small::region("fill", "fill", {{0, 0}, {80, 0}, {50, 15}, {0, 15}}),
+                     small::region("seam", "seam",
+                                   {{0, -thickness}, {130, -thickness}, {130, 0}, {80, 0}, {0, 0}}),
+                     small::region("base", "base",
+                                   {{0, -25}, {130, -25}, {130, -thickness}, {0, -thickness}})}),
+        all);
+}
+
+TEST(ThinWeakLayer, IsFollowedAsIfItsBottomWereGivenAsAFloor) {
+    double thinner = 10.0;
+    for (const double thickness : {0.1, 0.3, 0.5, 1.0}) {
+        const Analysed found = analysed(fill_on_seam(thickness, small::soil(20, 0, 8)));
+        const Analysed given = analysed(fill_on_seam(
+            thickness, small::soil(20, 0, 8), {{"floor", {{0, -thickness}, {130, -thickness}}}}));
+        const double along = found.answer.at("composite").at("factor_of_safety");
+        std::printf("seam of %.1f m: circle %.4f, along it %.4f, over a floor %.4f, answer %.4f\n",
+                    thickness, found.bishop(), along, given.bishop(), found.factor());
+        EXPECT_NEAR(along / given.bishop(), 1.0, 1e-6);
+        EXPECT_EQ(found.answer.at("surface"), "composite");
+        EXPECT_EQ(found.answer.at("method"), "spencer");
+        EXPECT_NEAR(found.factor() / along, 1.0, 0.03);
+        EXPECT_LT(found.factor(), 0.95 * found.bishop());
+        EXPECT_LT(found.factor(), thinner);
+        thinner = found.factor();
+    }
+}
+
+TEST(ThinWeakLayer, OfClayWithoutFrictionHasAPolylineThatCounts) {
+    const Analysed found =
+        analysed(fill_on_seam(0.3, small::soil(20, 15, 0), {{"non_circular", {{"vertices", 9}}}}));
+    const json& polyline = found.answer.at("non_circular");
+    EXPECT_GT(polyline.at("frictionless_share"), 0.5);
+    EXPECT_LT(polyline.at("frictionless_mass"), 0.1);
+    EXPECT_LE(found.factor(), polyline.at("factor_of_safety"));
+    EXPECT_EQ(found.flag("kinked_without_friction", "/lem/non_circular"), nullptr);
+}
+
+TEST(ThinWeakLayer, ThatLiquefiesDecidesTheCriticalDepth) {
+    const scene::Scene scene = limit_scene(small::parsed(
+        fill_on_seam(0.5, small::soil(20, 5, 35),
+                     {{"water", {{"line", {{0, 0}, {130, 0}}}}},
+                      {"liquefaction", {{{"region", "seam"}, {"residual_strength_kPa", 4}}}}})));
+    const Model model = make_model(scene);
+    const Families families = search_families(scene, model, *scene.lem->search, 1);
+    EXPECT_TRUE(families.composites.empty()) << "the sound seam is like its neighbours";
+    json result = answer(scene, families);
+    std::vector<fault::Flag> flags;
+    add_stages(scene, model, families, 1, result, flags);
+    const json& last = result.at("stages").back();
+    std::printf("liquefied seam: circle %.4f, answer %.4f\n",
+                last.at("bishop").at("factor_of_safety").get<double>(),
+                last.at("factor_of_safety").get<double>());
+    EXPECT_EQ(last.at("surface"), "composite");
+    EXPECT_LT(last.at("factor_of_safety"), 1.0);
+    EXPECT_GT(last.at("bishop").at("factor_of_safety"), 1.0) << "circles are blind to it";
+    EXPECT_NEAR(result.at("critical_depth"), 0.5, 1e-6);
+    EXPECT_FALSE(result.at("depth_at_fs_1").is_null());
+}
+
+/// What is searched for without being asked costs scenes without thin weak layers nothing.
+TEST(ThinWeakLayer, IsInNoneOfTheShippedScenes) {
+    for (const char* name : {"slope", "flow_slope", "mochikoshi", "merriespruit"}) {
+        const scene::Scene scene = limit_scene(
+            scene::read_scene(std::string(BREACH_ROOT "/workflows/scenes/") + name + ".json"));
+        Model model = make_model(scene);
+        const Model sound = model;
+        for (std::size_t n = 0; n <= scene.lem->liquefaction.size(); ++n) {
+            model.soils = liquefied(sound, scene.lem->liquefaction, n);
+            EXPECT_TRUE(weak_lines(model, *scene.lem->search).empty()) << name << " " << n;
+        }
+    }
+}
+
+/// 10 m high, 1 : 1.5, c 5 kPa, phi 30: 1.309 without a crack; tension zone 0.93 m.
+json cracked(const json& crack) {
+    json text = small::scene(
+        {{"s", small::soil(18.64, 5, 30)}},
+        json::array(
+            {small::region("s", "s", {{0, 0}, {60, 0}, {60, 5}, {35, 5}, {20, 15}, {0, 15}})}),
+        {{"search", {{"entry", {2, 19.5}}, {"exit", {30, 55}}}}});
+    if (!crack.is_null()) text["lem"]["tension_crack"] = crack;
+    return text;
+}
+
+TEST(TensionCrack, NeverMakesASlopeSafer) {
+    const Analysed none = analysed(cracked(nullptr));
+    EXPECT_NEAR(none.bishop(), 1.309, 0.001);
+    for (const double filled : {0.0, 1.0}) {
+        for (const double depth : {4.0, 9.0}) {
+            const Analysed found = analysed(cracked({{"depth", depth}, {"filled", filled}}));
+            const json& crack = found.answer.at("bishop").at("tension_crack");
+            std::printf("crack of %.0f m, filled %.0f: %.4f, %s at the whole depth\n", depth,
+                        filled, found.bishop(), crack.at("factor_of_safety_whole").dump().c_str());
+            EXPECT_LE(found.bishop(), none.bishop());
+            EXPECT_GE(crack.at("factor_of_safety_whole"), found.bishop());
+            EXPECT_NEAR(crack.at("tension_zone"), 10.0 / 18.64 * std::sqrt(3.0), 0.01);
+            const fault::Flag* flag = found.flag("deep_crack", "/lem/tension_crack");
+            ASSERT_NE(flag, nullptr);
+            EXPECT_NE(flag->message.find("open to 0.92"), std::string::npos) << flag->message;
+        }
+    }
+}
+
+/// A bank of 10 m, 1 : 2, on 15 m of weaker soil.
+json bank(const json& lem) {
+    return small::scene(
+        {{"upper", small::soil(20, 10, 30)}, {"lower", small::soil(18, 12, 10)}},
+        json::array(
+            {small::region("upper", "upper", {{0, 0}, {60, 0}, {40, 10}, {0, 10}}),
+             small::region("lower", "lower", {{0, -15}, {90, -15}, {90, 0}, {60, 0}, {0, 0}})}),
+        lem);
+}
+
+TEST(Bound, ThatRaisesTheFactorIsToldWithBothNumbers) {
+    const json ranges = {{"entry", {2, 39}}, {"exit", {45, 85}}};
+    const auto with = [&](const char* key, const json& value) {
+        json search = ranges;
+        search[key] = value;
+        return bank({{"search", search}});
+    };
+    const Analysed free = analysed(bank({{"search", ranges}}));
+    json floored = bank({{"search", ranges}, {"floor", {{0, 0}}}});
+    json narrow = bank({{"search", {{"entry", {30, 38}}, {"exit", {45, 60}}}}});
+    const std::vector<std::pair<json, std::string>> bounds{
+        {floored, "/lem/floor"},
+        {with("lowest_level", 0.0), "/lem/search/lowest_level"},
+        {narrow, "/lem/search/entry"}};
+    char number[16];
+    std::snprintf(number, sizeof number, "%.3f", free.bishop());
+    for (const auto& [text, pointer] : bounds) {
+        const Analysed found = analysed(text);
+        EXPECT_GT(found.bishop(), 1.01 * free.bishop()) << pointer;
+        const fault::Flag* flag = found.flag("bound_raises_factor", pointer);
+        ASSERT_NE(flag, nullptr) << pointer;
+        std::printf("%s: %s\n", pointer.c_str(), flag->message.c_str());
+        EXPECT_NE(flag->message.find(number), std::string::npos) << flag->message << number;
+        EXPECT_EQ(flag->severity, free.bishop() < 1.0 && found.bishop() >= 1.0
+                                      ? fault::Severity::questionable
+                                      : fault::Severity::warning);
+    }
+}
+
+TEST(Bound, OfLeastDepthInSandIsToldWithTheInfiniteSlopesFactor) {
+    const json text = small::scene(
+        {{"sand", small::soil(20, 0, 35)}},
+        json::array({small::region("sand", "sand",
+                                   {{0, -15}, {90, -15}, {90, 0}, {60, 0}, {40, 10}, {0, 10}})}),
+        {{"search", {{"entry", {2, 45}}, {"exit", {45, 85}}, {"minimum_depth", 3}}}});
+    const Analysed found = analysed(text);
+    const fault::Flag* flag = found.flag("bound_raises_factor", "/lem/search/minimum_depth");
+    ASSERT_NE(flag, nullptr);
+    EXPECT_NE(flag->message.find("1.40"), std::string::npos)  // tan 35 / 0.5
+        << flag->message;
+}
+
+TEST(UpstreamEnd, CloserThanTheSlopesHeightIsToldOnEitherSide) {
+    json near = bank({{"search", {{"entry", {2, 39}}, {"exit", {45, 85}}}}});
+    const Analysed far = analysed(near);
+    EXPECT_EQ(far.flag("upstream_wall", "/section/regions"), nullptr);
+    for (json& region : near["section"]["regions"])
+        for (json& point : region["polygon"])
+            if (point[0] == 0) point[0] = 30;
+    near["lem"]["search"]["entry"] = {30.5, 39};
+    const Analysed found = analysed(near);
+    const fault::Flag* flag = found.flag("upstream_wall", "/section/regions");
+    ASSERT_NE(flag, nullptr);
+    EXPECT_NE(flag->message.find("x = 30 m"), std::string::npos) << flag->message;
+}
+
+TEST(OneAnswer, LeavesOutWhatIsNotValidAndSaysSo) {
+    const scene::Scene scene =
+        small::parsed(small::two_layers({{"search", small::some_search().at("search")},
+                                         {"circle", small::some_circle().at("circle")}}));
+    const Model model = make_model(scene);
+    const Families families = search_families(scene, model, *scene.lem->search, 1);
+    json given = facts_of(given_family(scene, model).circles);
+    given["factor_of_safety"] = 0.5;
+    given["spencer"] = nullptr;
+    given["least_m_alpha"] = 0.19;
+    const json small_m_alpha = answer(scene, families, {{"given_circle", given}});
+    EXPECT_EQ(small_m_alpha.at("surface"), "circle");
+    const auto flags = flags_of_answer(small_m_alpha, *scene.lem);
+    ASSERT_EQ(flags.size(), 1u);
+    EXPECT_EQ(flags[0].code, "surfaces_disagree");
+    EXPECT_EQ(flags[0].severity, fault::Severity::questionable);
+    EXPECT_NE(flags[0].message.find("0.500"), std::string::npos);
+    given["least_m_alpha"] = 0.21;
+    const json valid = answer(scene, families, {{"given_circle", given}});
+    EXPECT_EQ(valid.at("surface"), "given_circle");
+    EXPECT_EQ(valid.at("factor_of_safety"), 0.5);
+    EXPECT_TRUE(flags_of_answer(valid, *scene.lem).empty());
+}
+
+}  // namespace
+}  // namespace breach::lem
