@@ -68,9 +68,11 @@ constexpr std::array columns{
                  "tells it"},
     ResultColumn{"runout_error_from", "", word, "", "",
                  "what tells the error, or why nothing does"},
-    ResultColumn{"factor_of_safety", "", number, "1", "FS",
-                 "of the variant's stability analysis, or of the one that serves all, before any "
-                 "layer liquefies; null: there is none, not yet, or variants share it in parts"},
+    ResultColumn{
+        "factor_of_safety", "", number, "1", "FS",
+        "the least valid factor of all surfaces, of the variant's stability analysis or of "
+        "the one that serves all, before any layer liquefies; null: there is none, not "
+        "yet, or variants share it in parts"},
     ResultColumn{"factor_of_safety_liquefied", "", number, "1", "FS liq.",
                  "the same with every layer of /lem/liquefaction at its residual strength; null: "
                  "the scene has none"},

@@ -299,10 +299,11 @@ void add_factors(const Run& run, Table& table) {
                               (*least)->fault});
         return;
     }
-    std::string worth = "simplified Bishop";
-    if (const std::string spencer = brief_fact(**least, "/spencer/factor_of_safety");
-        spencer != "-")
-        worth += "; Spencer " + spencer;
+    std::string worth = "least of all surfaces";
+    for (const auto& [name, fact] : {std::pair{"Bishop", "/bishop/factor_of_safety"},
+                                     std::pair{"Spencer", "/bishop/spencer/factor_of_safety"}})
+        if (const std::string factor = brief_fact(**least, fact); factor != "-")
+            worth += std::string("; ") + name + " " + factor;
     if (!(*least)->variant.empty()) worth += "; the least, " + (*least)->variant;
     if (const std::string end = how_it_ended(**least); end != "well") worth += "; " + end;
     auto liquefied = liquefied_row(all);

@@ -200,14 +200,16 @@ void add_numbers(const Material& from, Document& document) {
         }
     };
     add(phases::lem.program, "Limit equilibrium",
-        {{"FS Bishop", "/factor_of_safety"},
-         {"FS Spencer", "/spencer/factor_of_safety"},
-         {"FS Ordinary", "/ordinary/factor_of_safety"},
+        {{"FS", "/factor_of_safety"},
+         {"FS Bishop", "/bishop/factor_of_safety"},
+         {"FS Spencer", "/bishop/spencer/factor_of_safety"},
+         {"FS Ordinary", "/bishop/ordinary/factor_of_safety"},
          {"critical depth [m]", "/critical_depth"},
          {"depth at FS = 1 [m]", "/depth_at_fs_1"},
          {"slices", "/slices"}},
-        "Error: more slices say what they leave; what the method itself leaves open is the "
-        "difference between Bishop and Spencer.");
+        "FS is the least valid factor of all surfaces analysed; Bishop, Spencer and Ordinary are "
+        "on Bishop's critical circle. Error: more slices say what they leave; what the method "
+        "itself leaves open is the difference between Bishop and Spencer.");
     add(phases::fem.program, "Finite elements",
         {{"end [s]", "/end_time"},
          {"steps", "/steps"},

@@ -24,9 +24,7 @@ void add_stability(const Material& from, Document& document) {
                 "Factor of safety of the critical surface while layers liquefy from the "
                 "top down.";
         } else {
-            each.caption =
-                "The section as it was analysed and its critical surfaces (simplified "
-                "Bishop).";
+            each.caption = "The section as it was analysed and the critical surface of every kind.";
         }
     }
     if (!lem->result.contains("stages")) {

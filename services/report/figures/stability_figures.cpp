@@ -17,7 +17,7 @@ using nlohmann::json;
 namespace {
 
 Figure safety_against_depth(const json& result) {
-    Series F{"Bishop", {}, {}, Style::line_and_points};
+    Series F{"least", {}, {}, Style::line_and_points};
     for (const json& stage : result.at("stages")) {
         F.x.push_back(stage.at("liquefied_depth"));
         F.y.push_back(stage.at("factor_of_safety"));
@@ -96,20 +96,37 @@ Series arc(const json& facts, const json& floor, const std::string& name) {
     return held_by(floor, s);
 }
 
-/// The optimised surface of straight pieces, where there is one.
-void add_polyline(const json& facts, const std::string& name, Chart& chart) {
-    const json polyline = facts.value("non_circular", json());
-    if (polyline.is_null()) return;
-    Series s{
-        name + ", FS " +
-            short_number(std::round(1e3 * polyline.at("factor_of_safety").get<double>()) / 1e3),
-        {},
-        {}};
-    for (const json& point : polyline.at("points")) {
-        s.x.push_back(point.at(0));
-        s.y.push_back(point.at(1));
+std::string with_factor(const std::string& name, const json& facts) {
+    const double F = facts.at("factor_of_safety");
+    return name + ", FS " + short_number(std::round(1e3 * F) / 1e3);
+}
+
+/// The surface of the answer, and beside it the other kinds that were analysed. `before`: "5.88 m, "
+/// of a stage, or nothing.
+void add_surfaces(const json& facts, const json& floor, const std::string& name,
+                  const std::string& before, Chart& chart) {
+    const std::string answer = facts.value("surface", "circle");
+    if (facts.contains("circle"))
+        chart.series.push_back(arc(facts, facts.value("floor", floor), name));
+    const auto add_arc = [&](const char* key, const char* surface, const std::string& what) {
+        const json other = facts.value(key, json());
+        if (other.is_null() || answer == surface) return;
+        chart.series.push_back(
+            arc(other, other.value("floor", floor), with_factor(before + what, other)));
+    };
+    add_arc("bishop", "circle", "circle");
+    add_arc("composite", "composite", "along weak layer");
+    for (const auto& [key, kind] : {std::pair{"non_circular", "non-circular"},
+                                    std::pair{"given_polyline", "given polyline"}}) {
+        const json polyline = facts.value(key, json());
+        if (polyline.is_null()) continue;
+        Series s{with_factor(before + kind, polyline), {}, {}};
+        for (const json& point : polyline.at("points")) {
+            s.x.push_back(point.at(0));
+            s.y.push_back(point.at(1));
+        }
+        chart.series.push_back(s);
     }
-    chart.series.push_back(s);
 }
 
 Figure section_with_circles(const json& scene, const json& result) {
@@ -123,16 +140,11 @@ Figure section_with_circles(const json& scene, const json& result) {
         chart.series.push_back(s);
     }
     const json floor = scene.value(json::json_pointer("/lem/floor"), json::array());
-    if (!result.contains("stages")) {
-        chart.series.push_back(arc(result, floor, "critical"));
-        add_polyline(result, "non-circular", chart);
-    }
+    if (!result.contains("stages")) add_surfaces(result, floor, "critical", "", chart);
     for (const json& stage : result.value("stages", json::array())) {
-        chart.series.push_back(arc(
-            stage, floor,
-            short_number(stage.at("liquefied_depth")) + " m liquefied, FS " +
-                short_number(std::round(1e3 * stage.at("factor_of_safety").get<double>()) / 1e3)));
-        add_polyline(stage, short_number(stage.at("liquefied_depth")) + " m, non-circular", chart);
+        const std::string depth = short_number(stage.at("liquefied_depth"));
+        add_surfaces(stage, floor, with_factor(depth + " m liquefied", stage), depth + " m, ",
+                     chart);
     }
     return {"section_with_critical_surfaces", chart};
 }

@@ -115,6 +115,26 @@ TEST(Report, DrawsTheSurfaceOfStraightPiecesBesideTheCircle) {
     EXPECT_EQ(drawn.y, (std::vector<double>{0, 2, 10}));
 }
 
+TEST(Report, DrawsTheAnswerAlongAWeakLayerAndTheCircleBesideIt) {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("breach_along_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "scene.completed.json") << R"({"section": {"regions": []}})";
+    std::ofstream(folder / "result.json")
+        << R"({"surface": "composite", "factor_of_safety": 0.75, "floor": [[-20, 3], [20, 3]],
+               "circle": {"center": [0, 10], "radius": 10}, "entry": [10, 10], "exit": [-7, 3],
+               "bishop": {"circle": {"center": [0, 10], "radius": 10}, "entry": [10, 10],
+                          "exit": [0, 0], "factor_of_safety": 1.5}})";
+    const auto figures = stability_figures(folder);
+    std::filesystem::remove_all(folder);
+    const auto& series = figures.at(0).chart.series;
+    ASSERT_EQ(series.size(), 2u);
+    EXPECT_EQ(series[0].name, "critical");
+    EXPECT_GE(*std::ranges::min_element(series[0].y), 3.0 - 1e-12) << "it follows its own floor";
+    EXPECT_EQ(series[1].name, "circle, FS 1.5");
+    EXPECT_LT(*std::ranges::min_element(series[1].y), 0.1);
+}
+
 TEST(Report, DrawsACompositeSurfaceAlongItsFloor) {
     const auto folder =
         std::filesystem::temp_directory_path() / ("breach_floor_" + std::to_string(getpid()));
