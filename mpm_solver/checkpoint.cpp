@@ -142,6 +142,7 @@ NonlocalSoftening::Pace load_pace(const Archive& archive, const std::string& fil
 
 Points load_points(const Archive& archive, const std::string& file) {
     Points points;
+    if (archive.reals.contains("eta")) points.eta.resize(1);
     if (archive.reals.contains("excess")) points.excess.resize(1);
     if (archive.reals.contains("epsilon_q_shared")) points.epsilon_q_shared.resize(1);
     if (archive.reals.contains("c")) points.c.resize(1);
