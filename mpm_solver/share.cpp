@@ -54,6 +54,12 @@ GridArrays arrays_of(Grid& grid, const WallRows& walls_y) {
             .walls_y = walls_y};
 }
 
+/// Soil that flows does not yield in every step; what has not yielded for some 20 eta / G stands.
+double damping_return(const Zone& zone, double dt) {
+    if (zone.damping == 0.0) return 0.0;
+    return std::min(dt * zone.elasticity.shear_modulus() / (20.0 * zone.damping), 1.0);
+}
+
 ZoneWork work_of(Body& body, std::size_t z, double dt) {
     const Zone& zone = body.zones[z];
     return {.points = arrays_of(body),
@@ -63,6 +69,7 @@ ZoneWork work_of(Body& body, std::size_t z, double dt) {
             .moduli = materials::make_moduli(zone.elasticity),
             .eta = zone.viscosity,
             .damping = zone.damping,
+            .damping_return = damping_return(zone, dt),
             .gimp_half_size = body.gimp_half_size,
             .dt = dt,
             .blend = std::min(body.blending_rate * dt, 1.0),

@@ -61,8 +61,9 @@ struct ZoneWork {
     CellSum* cells;   ///< null when nothing is averaged
     const void* law;  ///< of the type in materials::LaneLaws that the loops were chosen for
     materials::Moduli moduli;
-    double eta;      ///< viscosity [Pa s]
-    double damping;  ///< viscosity of what does not yield, beside it [Pa s]
+    double eta;             ///< viscosity [Pa s]
+    double damping;         ///< viscosity of what does not yield, beside it [Pa s]
+    double damping_return;  ///< share of it that comes back in a step after yielding [-]
     double gimp_half_size;
     double dt;
     double blend;         ///< beta dt, at most 1 [-]

@@ -170,7 +170,8 @@ template <class Law, VolumeRule volume_rule, class Real>
     }
 }
 
-/// Damping is of soil that the law left elastic: what flows has the law's dissipation alone.
+/// Damping ends where the law returns a stress and comes back while it leaves the soil elastic: what
+/// flows has the law's dissipation alone.
 template <class Real>
 [[gnu::always_inline]] inline void damp(const Block& block, const ZoneWork& work,
                                         const materials::StressOf<Real>& trial,
@@ -178,9 +179,11 @@ template <class Real>
     using materials::lanes::magnitude;
     const Real returned = magnitude(sigma.xx - trial.xx) + magnitude(sigma.yy - trial.yy) +
                           magnitude(sigma.zz - trial.zz) + magnitude(sigma.xy - trial.xy);
-    const Real eta(work.eta);
-    store(block.arrays.eta + block.p,
-          materials::lanes::select(returned > Real(0.0), eta, eta + Real(work.damping)));
+    double* const eta = block.arrays.eta + block.p;
+    const Real least(work.eta);
+    const Real now = load<Real>(eta);
+    const Real next = now + Real(work.damping_return) * (least + Real(work.damping) - now);
+    store(eta, materials::lanes::select(returned > Real(0.0), least, next));
 }
 
 /// Anti-locking: the block's part in the mean stress of its cells.
