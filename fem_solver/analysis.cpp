@@ -305,8 +305,7 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
         if (session_.stop_requested()) return StageEnd::stopped;
         const double load = std::min(1.0, start + position_.load_step);
         drive(load - start);
-        const NewtonOutcome outcome =
-            static_step(*newton_, model_, laws_, load, stage_force_, motion_, prediction_, trial_);
+        const NewtonOutcome outcome = static_balance(load);
         ++position_.step;
         if (outcome.end != End::converged) {
             position_.load_step *= cut;
@@ -327,6 +326,8 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
         }
         std::swap(motion_, trial_);
         position_.load = start = load;
+        if (!model_.driven.empty())
+            position_.load_step = std::min(1.0 / stage.load_steps, growth * position_.load_step);
         note_reactions(stage);
         spdlog::info("  {:.4g} of gravity in {} iterations, out of balance {:.2e}", load,
                      outcome.iterations, outcome.residual);
@@ -334,6 +335,27 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
         if (checkpoint_is_due()) write_checkpoint();
     }
     return StageEnd::reached;
+}
+
+/// Soil that an edge pushes yields everywhere at once when its limit state is reached exactly. Its
+/// tangent is singular there: balance is sought once more with a part of the elastic stiffness, and its
+/// last digits are let go. What is out of balance enters the next step, it does not add up. A load has no
+/// such grace: beyond its limit nothing holds.
+NewtonOutcome Analysis::static_balance(double load) {
+    constexpr double elastic_share = 0.05;
+    constexpr double grace = 100.0;  // times the tolerance
+    const auto step = [&] {
+        return static_step(*newton_, model_, laws_, load, stage_force_, motion_, prediction_,
+                           trial_);
+    };
+    NewtonOutcome outcome = step();
+    if (outcome.end == End::converged || model_.driven.empty()) return outcome;
+    newton_->stiffen(elastic_share);
+    outcome = step();
+    newton_->stiffen(0.0);
+    if (outcome.end == End::not_converged && outcome.residual <= grace * fem_.force_tolerance)
+        outcome.end = End::converged;
+    return outcome;
 }
 
 /// Moves what the stage moves, and lets creep what creeps, by this share of its way.

@@ -32,6 +32,7 @@ class Analysis {
     enum class StageEnd { reached, stopped, entangled };
 
     StageEnd static_stage(const scene::Stage& stage);
+    NewtonOutcome static_balance(double load);
     StageEnd dynamic_stage(const scene::Stage& stage);
     void place_stage();
     void make_newton(const scene::Stage& stage, const NewtonCounts& counts);

@@ -171,6 +171,7 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
     }
     {
         const Stopwatch watch(seconds_, &Seconds::assembly);
+        if (stiffened_ > 0.0) internal_force_.add_elastic_stiffness(stiffened_, matrix_);
         add_inertia_and_water(problem.rule);
     }
     unsolvable_ = !factorise(problem.rule);

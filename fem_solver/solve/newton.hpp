@@ -66,6 +66,12 @@ class Newton {
 
     /// Finds trial.u and trial.p (starting from the values they have), fills the rest of trial.
     NewtonOutcome solve(const StepProblem& problem, Motion& trial);
+    /// Adds this share of the elastic stiffness to tangents from now on: at a limit state, where theirs
+    /// is singular, the iterations stay bounded. The equilibrium that they find is the same.
+    void stiffen(double share) {
+        stiffened_ = share;
+        forget_matrix();
+    }
     /// The next solve starts with a new factorisation.
     void forget_matrix() { memory_.has_matrix = false; }
 
@@ -107,6 +113,7 @@ class Newton {
     LinearSystem matrix_;
     std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping
     NewtonMemory memory_;                  ///< values stay in matrix_
+    double stiffened_ = 0.0;               ///< share of the elastic stiffness in tangents [-]
     NewtonCounts counts_;
     Eigen::VectorXd viscous_;    ///< only with a viscosity: its force, per dof [N]
     Eigen::VectorXd R_u_;        ///< out-of-balance force, per dof [N]

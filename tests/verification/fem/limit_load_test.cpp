@@ -9,6 +9,7 @@ namespace breach::fem::limit_load_test {
 namespace {
 
 using bench::expect_error;
+using nlohmann::json;
 
 struct Specimen {
     const char* law;
@@ -121,6 +122,51 @@ INSTANTIATE_TEST_SUITE_P(Laws, Biaxial,
                                          Specimen{"drucker_prager", 0},
                                          Specimen{"drucker_prager", 15},
                                          Specimen{"drucker_prager", 30}));
+
+/// A smooth wall, 4 m high, that gives way by 2 cm: in Rankine's active state all soil yields at once,
+/// and goes on yielding.
+json active_wall(double phi_deg, double c_kPa, double psi_deg) {
+    bench::Block block{.width = 6.0, .height = 4.0, .columns = 12, .rows = 8};
+    block.density = 1800.0;
+    block.law = {{"type", "mohr_coulomb"}, {"E_MPa", 50},        {"nu", 0.3},
+                 {"c_kPa", c_kPa},         {"phi_deg", phi_deg}, {"psi_deg", psi_deg}};
+    block.stages = json::array(
+        {bench::static_stage("gravity", {{"laws", "elastic"}}),
+         bench::static_stage(
+             "push", {{"laws", "scene"},
+                      {"release", {"left"}},
+                      {"load_steps", 20},
+                      {"displace",
+                       {{{"name", "wall"}, {"from", {0, 0}}, {"to", {0, 4}}, {"x", -0.02}}}}})});
+    json scene = bench::scene_of(block);
+    scene["fem"]["supports"][2]["fixes"] = "y";
+    return scene;
+}
+
+TEST(ActiveWall, GoesOnAtItsLimitState) {
+    struct Soil {
+        double phi, c, psi;
+    };
+    for (const Soil& soil : {Soil{31, 0, 0}, {45, 0, 0}, {85, 0, 0}, {31, 1, 0}, {31, 0, 10}}) {
+        bench::Run run(active_wall(soil.phi, soil.c, soil.psi));
+        run.go();
+        const double K = std::pow(std::tan((45.0 - 0.5 * soil.phi) * std::numbers::pi / 180.0), 2);
+        constexpr double weight = 0.5 * 17.658 * 16.0, at_rest = weight * 0.3 / 0.7;
+        const double rankine = weight * K - 8.0 * soil.c * std::sqrt(K);
+        double largest = 0.0, reached = 0.0;
+        for (const json& at : run.session().result()["geostatic"]["push"]["displaced"]["wall"]) {
+            reached = at["load"].get<double>();
+            if (reached < 0.199) continue;
+            // The support that the stage releases holds its share of the thrust at rest until then.
+            const double thrust = at["force_x"].get<double>() / 1e3 + (1.0 - reached) * at_rest;
+            largest = std::max(largest, std::abs(thrust / rankine - 1.0));
+        }
+        EXPECT_NEAR(reached, 1.0, 1e-12);
+        expect_error("phi " + std::to_string(soil.phi) + ", c " + std::to_string(soil.c) +
+                         ": thrust over Rankine's from 4 mm to 2 cm",
+                     largest, 1e-3);
+    }
+}
 
 }  // namespace
 }  // namespace breach::fem::limit_load_test
