@@ -300,7 +300,8 @@ TEST_F(BesideAPit, TheExcessPressureIsThatOfASnapshotsReader) {
         motion.p[i] += 1e3 * static_cast<double>(i % 7);
     const auto snapshot =
         snapshot_of(run_.session().scene(), model_, motion, beginning, {}, 0.0, 0);
-    EXPECT_EQ(watch_.excess_pressure(model_, motion, beginning), exchange::nodal_excess_pressure(snapshot));
+    EXPECT_EQ(watch_.excess_pressure(model_, motion, beginning),
+              exchange::nodal_excess_pressure(snapshot));
 }
 
 TEST_F(BesideAPit, TheSlideComesOutAtItsWallAndThePitDoesNotHoldIt) {
