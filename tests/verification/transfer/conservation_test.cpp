@@ -59,7 +59,8 @@ TEST(Conservation, IsTheSameFarFromTheOrigin) {
     const auto how = meshes::settings(2);
     const auto scene = meshes::scene_for(near, meshes::frictional, how);
     const auto reference = meshes::transferred(near, scene);
-    for (const mechanics::Vec2 away : {mechanics::Vec2{5e5, 1500.0}, mechanics::Vec2{5.5e6, 4e5}}) {
+    for (const mechanics::Vec2& away :
+         {mechanics::Vec2{5e5, 1500.0}, mechanics::Vec2{5.5e6, 4e5}}) {
         auto far = near;
         for (auto& x : far.position_0) x += away;
         const auto t = meshes::transferred(far, scene);
