@@ -57,7 +57,7 @@ def scene_of(folder):
                 "crest": [0, 5], "snapshot_times": [transfer_time], "telemetry_interval": 0.05},
         "transfer": {"points_per_direction": 4},
         "mpm": {"cell_size": 0.5, "domain_x": [-20.5, 20.5], "domain_y": [0, 8], "right": "roller", "floor": {"level": 0},
-                "duration": end - transfer_time, "runout": {"toe": [10, 2], "regions": ["block"]}, "shaking": "on",
+                "duration": end - transfer_time, "damping_ratio": 0, "tension_share": 0, "runout": {"toe": [10, 2], "regions": ["block"]}, "shaking": "on",
                 "telemetry_interval": 0.05, "snapshot_interval": 10}}
     file = folder / "scene.json"
     file.write_text(json.dumps(scene))

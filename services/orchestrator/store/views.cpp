@@ -43,6 +43,21 @@ FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
         AS spent_cpu_seconds
       FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
+/// When each trigger fired, and how long its snapshot and its transfer took to come.
+const char* const trigger_firings = R"sql(
+SELECT triggers.run AS run, triggers.id AS trigger, triggers.name AS name, triggers.kind AS kind,
+    firings.transfer_time AS transfer_time, firings.wanted_time AS wanted_time,
+    firings.transfer_time - firings.wanted_time AS lag_s,
+    firings.snapshot AS snapshot, firings.sha256 AS sha256, firings.crossed AS crossed,
+    firings.fem_step AS fem_step, firings.noticed_at AS noticed_at,
+    firings.written_at - firings.noticed_at AS snapshot_ms,
+    firings.fired_at - firings.noticed_at AS fired_ms,
+    (SELECT cast(round((julianday(min(attempts.started)) - 2440587.5) * 86400000.0) AS INTEGER)
+        - firings.noticed_at
+     FROM tasks JOIN attempts ON attempts.task = tasks.id
+     WHERE tasks.parent = triggers.fem_task AND tasks.input = firings.snapshot) AS start_ms
+FROM firings JOIN triggers ON triggers.id = firings.trigger)sql";
+
 struct Expression {
     std::string name;
     std::string sql;
@@ -178,7 +193,8 @@ const std::vector<Expression> columns_of_means{
 
 /// By name, with the statement that makes it.
 std::vector<Expression> views() {
-    return {{"run_summaries", std::string("CREATE VIEW run_summaries AS") + run_summaries},
+    return {{"trigger_firings", std::string("CREATE VIEW trigger_firings AS") + trigger_firings},
+            {"run_summaries", std::string("CREATE VIEW run_summaries AS") + run_summaries},
             {"sweep_results", "CREATE VIEW sweep_results AS" + sweep_results()},
             {"sweep_means", "CREATE VIEW sweep_means AS" + selected_means("")}};
 }
