@@ -20,7 +20,7 @@ from ctest_cases import rows_of_ctest
 from rows import Outcome, cases, judged, root
 
 # Rows that show a defect nobody has mended yet, with the page that explains it.
-KNOWN = {"the same with friction 5 and without gap_room": "docs/mpm_convergence.md"}
+KNOWN = {}
 
 HEAD = """# Stiff and extreme cases
 

@@ -32,7 +32,7 @@ def empty_chapters(html):
 def with_points(service, folder):
     run = service.submit(root / "workflows/studies/flow_slope.json")
     ended = service.finish(run)
-    check("the study succeeds", ended["state"] == "succeeded", ended["message"])
+    check("the study ends well; the short section is flagged", "4 of 5 runouts flagged upstream_wall" in ended["message"], ended)
     rows = service.rows(run)
     check("every variant has its runout and its factor of safety", len(rows) == 5 and all(
         row["transfer_time"] is None and row["transfer_task"] is None and row["runout"] is not None and row["factor_of_safety"] > 0
