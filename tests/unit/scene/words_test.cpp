@@ -24,6 +24,7 @@ const std::set<std::string> without_enum{
     "/$defs/norsand/properties/psi_0_profile/properties/by",   // materials::Along without sigma_v0
     "/$defs/static_stage/properties/at_limit",                 // a flag
     "/properties/mpm/properties/duration/oneOf/1",             // a number, or this word
+    "/properties/mpm/properties/blending_rate/oneOf/1",
     "/properties/mpm/properties/longest_duration/oneOf/1",
     "/properties/mpm/properties/rest_change/oneOf/1",
     "/properties/mpm/properties/rest_window/oneOf/1",
