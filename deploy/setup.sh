@@ -67,20 +67,24 @@ check_machine() {
 
 # Ninja's lines "[done/total seconds] step" as a bar with the time left; other lines (warnings, errors) as they are.
 show_progress() {
-    local bar=no
-    [ -t 1 ] && bar=yes
-    awk -v bar=$bar '
-        match($0, /^\[[0-9]+\/[0-9]+ [0-9.]+\] /) {
-            split(substr($0, 2, RLENGTH - 3), part, /[\/ ]/)
-            left = part[1] > 0 ? part[3] * (part[2] - part[1]) / part[1] : 0
-            percent = int(100 * part[1] / part[2])
-            line = sprintf("%3d %%  step %d of %d, about %d:%02d min left", percent, part[1], part[2], left / 60, left % 60)
-            if (bar == "yes") printf "\r[%-25s] %s\033[K", substr("#########################", 1, percent / 4), line
-            else if (percent >= told + 10 || part[1] == part[2]) { print line; told = percent }
-            fflush(); ended = bar == "yes"; next
-        }
-        { if (ended) print ""; ended = 0; print; fflush() }
-        END { if (ended) print "" }'
+    local line text done_steps steps seconds left percent told=0 open=no
+    local full="#########################"
+    while IFS= read -r line; do
+        if [[ $line =~ ^\[([0-9]+)/([0-9]+)\ ([0-9]+)\.?[0-9]*\]\  ]]; then
+            done_steps=${BASH_REMATCH[1]} steps=${BASH_REMATCH[2]} seconds=${BASH_REMATCH[3]}
+            percent=$((100 * done_steps / steps)) left=$((done_steps > 0 ? seconds * (steps - done_steps) / done_steps : 0))
+            printf -v text '%3d %%  step %d of %d, about %d:%02d min left' $percent "$done_steps" "$steps" $((left / 60)) $((left % 60))
+            if [ -t 1 ]; then
+                printf '\r[%-25s] %s\033[K' "${full:0:$((percent / 4))}" "$text" && open=yes
+            elif [ $percent -ge $((told + 10)) ]; then
+                printf '%s\n' "$text" && told=$percent
+            fi
+        else
+            [ $open = no ] || printf '\n'
+            open=no && printf '%s\n' "$line"
+        fi
+    done
+    [ $open = no ] || printf '\n'
 }
 
 # build first_result|programs|all [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
