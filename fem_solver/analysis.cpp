@@ -338,9 +338,9 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
 }
 
 /// Soil that an edge pushes yields everywhere at once when its limit state is reached exactly. Its
-/// tangent is singular there: balance is sought once more with a part of the elastic stiffness, and its
-/// last digits are let go. What is out of balance enters the next step, it does not add up. A load has no
-/// such grace: beyond its limit nothing holds.
+/// tangent is singular there: the step is tried again with a part of the elastic stiffness and a wider
+/// tolerance. The residual enters the next step, so it does not add up. Load steps keep their tolerance:
+/// beyond its limit a load has no equilibrium.
 NewtonOutcome Analysis::static_balance(double load) {
     constexpr double elastic_share = 0.05;
     constexpr double grace = 100.0;  // times the tolerance

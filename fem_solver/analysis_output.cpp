@@ -297,10 +297,8 @@ void Analysis::report_end() {
     }
     Reading last = read_monitors(model_, motion_, distortion_, crest_node_, fem_.strain_threshold);
     watch_.read(model_, motion_, beginning_, last);
-    const FailureSurfaces surfaces =
-        watch_.failure_surfaces(epsilon_q_of_elements(model_, motion_));
-    if (auto near =
-            upstream_wall(fem_, model_, motion_, beginning_, surfaces, excess_pressure_max_))
+    if (auto near = upstream_wall(fem_, model_, motion_, beginning_, last.failure_surfaces > 0.0,
+                                  excess_pressure_max_))
         session_.flag(std::move(*near));
     const nlohmann::json surface = first_time(history_, &Reading::failure_surfaces, 1.0);
     double depth = last.liquefaction_depth;

@@ -228,7 +228,7 @@ Families first_families(const scene::Scene& scene, const Model& model, int threa
     return found;
 }
 
-/// A stage repeats what was said of the one before.
+/// Flags each code and place once: stages repeat those of earlier stages.
 void flag_each_once(process::Session& session, std::vector<fault::Flag>& flags) {
     std::set<std::pair<std::string, std::string>> said;
     for (fault::Flag& each : flags)

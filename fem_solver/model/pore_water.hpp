@@ -27,8 +27,8 @@ void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater
 /// f += Q p, the force of the pore pressure on the nodes [N].
 void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f);
 
-/// The pressure as people are told it: what stands above the line to let it fall linearly to 0 there
-/// is no suction [Pa].
+/// The pressure for output [Pa]: 0 at nodes above the line, where the negative values only make the
+/// pressure fall linearly to 0 on the line.
 Eigen::VectorXd without_suction(const PoreWater& water, const Eigen::VectorXd& p);
 
 /// Pressure of steady seepage, H p = flux, with the mobilities in force: hydrostatic where nothing

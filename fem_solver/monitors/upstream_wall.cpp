@@ -99,12 +99,12 @@ Nearest nearest_failing(const scene::Fem& fem, const Model& model, const Motion&
 
 std::optional<fault::Flag> upstream_wall(const scene::Fem& fem, const Model& model,
                                          const Motion& motion, const Beginning& beginning,
-                                         const FailureSurfaces& surfaces,
+                                         bool surface_cuts_through,
                                          std::span<const double> excess_max) {
     const std::vector<bool> lonely = lonely_nodes(model);
     const UpstreamEnd end = upstream_end(model, lonely);
     const std::vector<double> moved = displacements(model, motion, lonely);
-    if (end.side == 0.0 || (surfaces.count == 0 && std::ranges::max(moved) < fails * end.height))
+    if (end.side == 0.0 || (!surface_cuts_through && std::ranges::max(moved) < fails * end.height))
         return std::nullopt;
     const Nearest nearest = nearest_failing(fem, model, motion, beginning, excess_max, end, moved);
     const double allowed = near * end.height;

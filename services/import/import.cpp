@@ -450,7 +450,7 @@ class Import {
     }
 
     /// Cells that the scene's own check takes: halved for thin layers, at most to an eighth of an
-    /// element. Layers that are thinner still are computed with too coarse cells, and that is told.
+    /// element. Thinner layers keep too coarse cells, and the report names them.
     std::pair<Document, check::Checked> with_sound_cells(const std::vector<Soil>& soils) const {
         const auto is_coarse = [](const Fault& each) { return each.pointer == "/mpm/cell_size"; };
         constexpr double finest = 0.125;

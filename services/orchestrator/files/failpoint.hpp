@@ -23,7 +23,7 @@ enum class Failpoint {
     exit_before,     ///< its exit record was read, nothing is stored
     exit_after,      ///< its end is stored, its outputs are not registered
     outputs_before,  ///< its outputs are hashed, nothing is stored
-    outputs_after,   ///< they are stored, nobody was told
+    outputs_after,   ///< they are stored, no reader is notified
     firing_before,   ///< a trigger was met, nothing is stored
     firing_after,    ///< the firing is stored
     supervisor_before_phase,

@@ -51,7 +51,7 @@ def test_walls(scratch):
     runout = free.result["runout"]
     assert abs(runout / 30.8 - 1) < 0.05, runout
     assert free.flag("reached_wall") is None and not free.result["questionable"], free.result["flags"]
-    assert free.flag("upstream_wall")["severity"] == "warning", "a column at a wall is told, and may be meant"
+    assert free.flag("upstream_wall")["severity"] == "warning", "a column at a wall may be meant: a warning"
     walled = Run(scratch, column(domain_x=[0, 25], right="roller"))
     flag = walled.flag("reached_wall")
     assert walled.result["runout"] < 0.6 * runout and flag["severity"] == "questionable" and "x = 25 m" in flag["message"], flag
