@@ -1,9 +1,12 @@
 #include "services/cli/draw.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "core/exchange/publish.hpp"
 #include "core/phases/phases.hpp"
+#include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
 #include "services/estimate/cost.hpp"
 #include "services/report/section/mesh_question.hpp"
@@ -46,15 +49,35 @@ std::optional<estimate::MeshCounts> counts_of(const std::optional<report::DrawnM
                                 static_cast<double>(mesh->nodes.size())};
 }
 
-/// A server knows what earlier runs took; where none answers, or not to this, the scene alone counts.
-json cost_of(Server& server, const json& study, const scene::Scene& scene,
-             const std::optional<estimate::MeshCounts>& mesh) {
+json warnings_of(const report::Draft& draft) {
+    json list = json::array();
+    for (const fault::Flag& each : draft.scene.warnings)
+        list.push_back({{"code", each.code},
+                        {"message", each.message},
+                        {"pointer", draft.base.pointer + each.pointer}});
+    return list;
+}
+
+/// What is known of a document with a sound scene before it runs.
+struct Preview {
+    json cost;                         ///< as POST /v1/cost answers it
+    std::vector<fault::Fault> faults;  ///< for which the server would refuse the study
+};
+
+/// The server knows what earlier runs took. Where none answers, or it lacks the files, the scene alone counts.
+Preview preview_of(Server& server, const json& document, const report::Draft& draft,
+                   const std::optional<estimate::MeshCounts>& mesh) {
+    std::vector<fault::Fault> faults;
     try {
-        return server.post("/v1/cost", study);
+        return {server.post("/v1/cost", document), {}};
     } catch (const Unreachable&) {
-    } catch (const Refused&) {
+    } catch (const Refused& refused) {
+        if (std::ranges::none_of(refused.faults(), is_about_a_file)) faults = refused.faults();
     }
-    return estimate::as_json(estimate::cost_of(scene, mesh), estimate::repeats_of(study));
+    json cost =
+        estimate::as_json(estimate::cost_of(draft.scene, mesh), estimate::repeats_of(document));
+    cost["warnings"] = warnings_of(draft);
+    return {std::move(cost), std::move(faults)};
 }
 
 }  // namespace
@@ -71,8 +94,12 @@ ExitCode draw(Server& server, const DrawWish& wish, const Console& console) {
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
     if (!report::can_be_drawn(draft)) throw fault::BadInput(wish.document.string(), faults);
     report::Additions additions{.mesh = wanted_mesh(draft, wish)};
+    json cost{{"warnings", warnings_of(draft)}};
     if (faults.empty()) {
-        const json cost = cost_of(server, study, draft.scene, counts_of(additions.mesh));
+        Preview preview = preview_of(server, is_study ? study : draft.base.scene, draft,
+                                     counts_of(additions.mesh));
+        cost = std::move(preview.cost);
+        faults = additions.faults = std::move(preview.faults);
         additions.foot = cost.at("lines");
         if (console.style == Style::json) {
             console.out << cost.dump(2) << "\n";
@@ -80,6 +107,10 @@ ExitCode draw(Server& server, const DrawWish& wish, const Console& console) {
             for (const std::string& each : additions.foot) console.out << each << "\n";
         }
     }
+    show_warnings(cost, console);
+    for (const json& each : cost.at("warnings"))
+        additions.warnings.push_back(
+            {each.at("code"), fault::Severity::warning, each.at("message"), each.at("pointer")});
     if (!wish.picture.empty())
         exchange::publish_text(wish.picture, report::as_svg(draft, additions));
     if (faults.empty()) return ExitCode::done;

@@ -29,12 +29,6 @@ void change_files(json& study, const scene::ChangeOfPath& changed) {
     scene::change_override_files(study, changed);
 }
 
-bool is_about_a_file(const fault::Fault& fault) {
-    return std::ranges::any_of(scene::file_entries, [&](const std::string& entry) {
-        return fault.pointer.ends_with(entry) || fault.cause.find(entry) != std::string::npos;
-    });
-}
-
 bool is_this_machine(const std::string& origin) {
     const std::string host = origin.substr(origin.find("//") + 2);
     return host.starts_with("localhost") || host.starts_with("127.") || host.starts_with("[::1]");
@@ -114,16 +108,35 @@ json post_with_files(Server& server, json study, Sending sending, const Console&
 
 }  // namespace
 
+bool is_about_a_file(const fault::Fault& fault) {
+    return std::ranges::any_of(scene::file_entries, [&](const std::string& entry) {
+        return fault.pointer.ends_with(entry) || fault.cause.find(entry) != std::string::npos;
+    });
+}
+
+void show_warnings(const json& answer, const Console& console) {
+    for (const json& each : answer.value("warnings", json::array()))
+        console.notes << "warning: "
+                      << (each.at("pointer") == "" ? "" : cell(each, "pointer") + ": ")
+                      << cell(each, "message") << "\n";
+}
+
 json post_study(Server& server, const std::string& door, json study, const Headers& headers,
                 Sending sending, const Console& console) {
-    return post_with_files(server, std::move(study), sending, console,
-                           [&](const json& sent) { return server.post(door, sent, headers); });
+    json answer =
+        post_with_files(server, std::move(study), sending, console,
+                        [&](const json& sent) { return server.post(door, sent, headers); });
+    show_warnings(answer, console);
+    return answer;
 }
 
 json post_scene(Server& server, const std::string& door, const json& scene, Sending sending,
                 const Console& console) {
-    return post_with_files(server, {{"scene", scene}}, sending, console,
-                           [&](const json& sent) { return server.post(door, sent.at("scene")); });
+    json answer =
+        post_with_files(server, {{"scene", scene}}, sending, console,
+                        [&](const json& sent) { return server.post(door, sent.at("scene")); });
+    show_warnings(answer, console);
+    return answer;
 }
 
 }  // namespace breach::cli

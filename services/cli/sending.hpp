@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "core/fault/fault.hpp"
 #include "services/cli/console.hpp"
 #include "services/cli/http/server.hpp"
 
@@ -16,7 +17,13 @@ std::string send_file(Server& server, const std::filesystem::path& file, const C
 
 enum class Sending { where_needed, always };
 
-/// Posts the study. The files that it names, in its scene or in overrides, are sent first where the
+/// The "warnings" of an answer, one line each.
+void show_warnings(const nlohmann::json& answer, const Console& console);
+
+/// A fault that another machine finds and this one may not: the file is not there.
+bool is_about_a_file(const fault::Fault& fault);
+
+/// Posts the study, and shows the warnings of the answer. The files that it names, in its scene or in overrides, are sent first where the
 /// server cannot have them: it is another machine, or says that it does not find them.
 nlohmann::json post_study(Server& server, const std::string& door, nlohmann::json study,
                           const Headers& headers, Sending sending, const Console& console);

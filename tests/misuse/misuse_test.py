@@ -1,5 +1,6 @@
 """Every wrong scene, study and motion of the table is caught, with its words, where it should be: nothing that is wrong ends as
-plain "succeeded", and nothing that the files tell is found after a task has started.
+plain "succeeded", and nothing that the files tell is found after a task has started. All doors agree: what a plan refuses or warns
+of is in the cost (`submit --dry-run`) and in the drawing, and the cost refuses what a submission refuses.
 
     misuse_test.py [--table FILE]     prints the table; writes it as Markdown"""
 import json
@@ -24,6 +25,7 @@ class Row:
         self.stage = self.outcome = "nowhere"
         self.message = ""
         self.milliseconds = 0.0
+        self.complaints = []
 
 
 def asked(phase, scene, *arguments):
@@ -43,7 +45,34 @@ def is_refused_by_schema(validator, document):
     return validator is not None and next(validator.iter_errors(document), None) is not None
 
 
-def judge_scene(case, bases, folder, validator):
+def pairs(faults):
+    return sorted((fault["pointer"], fault["cause"]) for fault in faults)
+
+
+def said_of_scene(case, document, service):
+    """What the service's doors say of a study around the scene: complaints."""
+    study = {"format": "breachline-study/1", "name": "wrong", "title": "A wrong scene", "scene": document}
+    if "fem" in document:
+        study["transfer_times"] = [0.1]
+    status, cost = service.post("/v1/cost", study)
+    told = "\n".join(f'{f["pointer"]}: {f["cause"]} {f["remedy"]}' for f in cost.get("faults", [])) + \
+        "\n".join(f'{w["pointer"]}: {w["message"]}' for w in cost.get("warnings", []))
+    complaints = []
+    if not re.search(f"{case.text}|the path is relative", told, re.I | re.S):
+        complaints.append(f"POST /v1/cost (HTTP {status}) does not say {case.text}: {told[:300]}")
+    drawn, picture = service.post("/v1/draw", study)
+    if drawn == 200:
+        marks = len(re.findall(r'data-(?:cause|warning)="', picture))
+        if marks != min(20, len(cost.get("faults", []))) + min(20, len(cost.get("warnings", []))) and status == 200:
+            complaints.append(f"POST /v1/draw marks {marks} of {len(cost.get('warnings', []))} warnings")
+    if status == 422:
+        again, refusal = service.post("/v1/runs", study)
+        if again != 422 or pairs(refusal["faults"]) != pairs(cost["faults"]):
+            complaints.append(f"POST /v1/runs (HTTP {again}) and POST /v1/cost refuse for different reasons")
+    return complaints
+
+
+def judge_scene(case, bases, folder, validator, service):
     row = Row(case.name, "motion" if case.motion is not None else "scene", case.outcome)
     scene = folder / "scene.json"
     document = case.scene(bases)
@@ -51,6 +80,8 @@ def judge_scene(case, bases, folder, validator):
         (folder / "record.csv").write_text(case.motion)
         document["fem"]["motion"]["file"] = str(folder / "record.csv")
     scene.write_text(json.dumps(document))
+    if not case.run:
+        row.complaints = said_of_scene(case, document, service)
     done, row.milliseconds = asked("fem_solver", scene, "--check")
     if done.returncode == 65:
         row.stage, row.outcome = ("schema" if is_refused_by_schema(validator, document) else "check"), "refused"
@@ -84,6 +115,10 @@ def judge_study(name, study, text, service):
     if status == 422 or status == 400:
         row.stage, row.outcome = "submit", "refused"
         row.message = "\n".join(f'{f["pointer"]}: {f["cause"]} {f["remedy"]}' for f in answer.get("faults", [])) or json.dumps(answer)
+        again, cost = service.post("/v1/cost", study)
+        is_scene = study["format"].startswith("breachline-scene")  # whose cost may be asked for
+        if not is_scene and (again != status or pairs(cost["faults"]) != pairs(answer["faults"])):
+            row.complaints = [f"POST /v1/cost answers {again} where POST /v1/runs answers {status}: {json.dumps(cost)[:300]}"]
     else:
         row.outcome, row.message = f"HTTP {status}", json.dumps(answer)
     return row
@@ -116,11 +151,11 @@ def main(folder):
         assert done.returncode == 0, f"the shipped scene {name} itself is refused: {done.stderr}"
 
     rows = []
-    for case in cases:
-        with tempfile.TemporaryDirectory(dir=folder) as place:
-            rows.append((judge_scene(case, bases, pathlib.Path(place), validator), case.text))
     service = Service(folder / "data")
     try:
+        for case in cases:
+            with tempfile.TemporaryDirectory(dir=folder) as place:
+                rows.append((judge_scene(case, bases, pathlib.Path(place), validator, service), case.text))
         for name, study, text in studies(bases):
             rows.append((judge_study(name, study, text, service), text))
         runs = service.call("/v1/runs")["runs"]
@@ -136,6 +171,7 @@ def main(folder):
     faults += [f"{row.name}: the message does not say {pattern}: {row.message[:400]}"
                for row, pattern in rows if row.outcome in row.wanted.split("|") and not re.search(pattern, row.message, re.I | re.S)]
     faults += [f"{row.name}: known from the files, found when it ran" for row, _ in rows if row.stage == "run"]
+    faults += [f"{row.name}: {complaint}" for row, _ in rows for complaint in row.complaints]
     if runs:
         faults.append(f"{len(runs)} wrong studies were accepted")
     print(f"{len(rows)} cases, {len(faults)} not as they should be")

@@ -32,11 +32,12 @@ class Service:
             return json.loads(answer.read())
 
     def post(self, path, body):
-        """(status, answer), whatever the status."""
+        """(status, answer), whatever the status; of a picture its text."""
         request = urllib.request.Request(self.url + path, data=json.dumps(body).encode(), headers={"Content-Type": "application/json"})
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:
-                return answer.status, json.loads(answer.read())
+                text = answer.read()
+                return answer.status, json.loads(text) if "json" in answer.headers["Content-Type"] else text.decode()
         except urllib.error.HTTPError as refusal:
             return refusal.code, json.loads(refusal.read())
 

@@ -189,6 +189,16 @@ json as_json(const std::vector<fault::Fault>& faults) {
     return list;
 }
 
+json warnings_json(const std::vector<fault::Flag>& flags) {
+    json list = json::array();
+    for (const fault::Flag& each : flags)
+        list.push_back({{"code", each.code},
+                        {"severity", fault::name_of(each.severity)},
+                        {"message", each.message},
+                        {"pointer", each.pointer}});
+    return list;
+}
+
 std::string as_csv(const std::vector<ResultRow>& rows, Columns columns) {
     std::string text;
     for (const ResultColumn& each : columns) text.append(text.empty() ? "" : ",").append(each.name);

@@ -128,9 +128,10 @@ void add_page_routes(Router& router, Service& service) {
     });
     router.post("/v1/scenes/plan", [&](Call& call) {
         call.allow_parameters({});
-        json scene = sent_scene(call.json_body(), service);
+        auto [scene, warnings] = sent_scene(call.json_body(), service);
         scene::resolve_references(scene, service.data.root());
-        reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())}});
+        reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())},
+                              {"warnings", warnings_json(warnings)}});
     });
 }
 

@@ -51,7 +51,9 @@ void submit(Service& service, Call& call) {
     call.allow_parameters({});
     const Accepted accepted = accept_study(service, call, Ask::run);
     call.response.set_header("Location", "/v1/runs/" + accepted.run);
-    reply(call.response, run_json(service, accepted.run), 202);
+    json answer = run_json(service, accepted.run);
+    answer["warnings"] = warnings_json(accepted.warnings);
+    reply(call.response, answer, 202);
 }
 
 void list_runs(const Service& service, Call& call) {
@@ -303,7 +305,9 @@ void submit_sweep(Service& service, Call& call) {
     call.allow_parameters({});
     const Accepted accepted = accept_study(service, call, Ask::sweep);
     call.response.set_header("Location", "/v1/sweeps/" + accepted.run);
-    reply(call.response, sweep_json(service, wanted_sweep(service, accepted.run)), 202);
+    json answer = sweep_json(service, wanted_sweep(service, accepted.run));
+    answer["warnings"] = warnings_json(accepted.warnings);
+    reply(call.response, answer, 202);
 }
 
 /// Another budget, or none: null. What is spent already would stop it at once.

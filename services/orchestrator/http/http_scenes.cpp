@@ -46,7 +46,7 @@ void keep_scene(Service& service, Call& call) {
             "name must be 1 to 64 of a-z, 0-9, _ and -, beginning with a letter or a digit, and "
             "not "
             "the digits of a hash");
-    const json scene = sent_scene(call.json_body(), service);
+    const auto [scene, warnings] = sent_scene(call.json_body(), service);
     NewScene kept{.sha256 = {}, .document = scene.dump(), .files = {}};
     kept.sha256 = exchange::sha256_of_text(kept.document);
     for (const auto& each : scene::references_in(scene)) kept.files.push_back(each.sha256);
@@ -55,7 +55,9 @@ void keep_scene(Service& service, Call& call) {
         [&](Transaction& transaction) { is_new = transaction.keep_scene(kept, name); },
         call.caller.name);
     call.response.set_header("Location", "/v1/scenes/" + kept.sha256);
-    reply(call.response, as_json(wanted_scene(service, kept.sha256).scene), is_new ? 201 : 200);
+    json answer = as_json(wanted_scene(service, kept.sha256).scene);
+    answer["warnings"] = warnings_json(warnings);
+    reply(call.response, answer, is_new ? 201 : 200);
 }
 
 void list_scenes(const Service& service, Call& call) {

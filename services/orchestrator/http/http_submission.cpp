@@ -90,10 +90,11 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .files = std::move(files)};
 }
 
-std::string stored(Service& service, const Call& call, const std::string& body, Ask ask,
-                   const std::function<void(Transaction&, const std::string&)>& besides) {
+Accepted stored(Service& service, const Call& call, const std::string& body, Ask ask,
+                const std::function<void(Transaction&, const std::string&)>& besides) {
     ResolvedStudy sent = resolved_study(service.store, body);
-    NewRun run = run_from(sent_study(sent.text, service), service.numerics);
+    Study study = sent_study(sent.text, service);
+    NewRun run = run_from(study, service.numerics);
     run.made_of = std::move(sent.made_of);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write(
@@ -103,7 +104,7 @@ std::string stored(Service& service, const Call& call, const std::string& body, 
         },
         call.caller.name);
     service.dispatcher.wake();
-    return run.id;
+    return {run.id, std::move(study.warnings)};
 }
 
 }  // namespace
@@ -118,7 +119,7 @@ std::pair<std::string, std::string> place_of(const std::string& cursor) {
 Accepted accept_study(Service& service, Call& call, Ask ask) {
     const std::string& body = call.json_body();
     const auto key = idempotency_key(call.request);
-    if (!key) return {stored(service, call, body, ask, [](Transaction&, const std::string&) {})};
+    if (!key) return stored(service, call, body, ask, [](Transaction&, const std::string&) {});
     const KeyInProgress seat(*key, call.response);
     const std::string hash = exchange::sha256_of_text(body);
     if (const auto known = service.store.run_of_key(*key)) {
@@ -126,15 +127,16 @@ Accepted accept_study(Service& service, Call& call, Ask ask) {
             throw Problem{422, "/problems/idempotency-key-reused", "Idempotency-Key reused",
                           "this key was sent before with another body; use a new key"};
         call.response.set_header("Idempotent-Replayed", "true");
-        return {known->run};
+        return {known->run, {}};
     }
-    return {stored(service, call, body, ask, [&](Transaction& transaction, const std::string& run) {
+    return stored(service, call, body, ask, [&](Transaction& transaction, const std::string& run) {
         transaction.keep_idempotency_key(*key, hash, run);
-    })};
+    });
 }
 
 std::string accept_made_study(Service& service, const Call& call, const json& study) {
-    return stored(service, call, study.dump(), Ask::run, [](Transaction&, const std::string&) {});
+    return stored(service, call, study.dump(), Ask::run, [](Transaction&, const std::string&) {})
+        .run;
 }
 
 RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) {

@@ -13,6 +13,8 @@ enum class Ask { run, sweep };
 
 struct Accepted {
     std::string run;
+    std::vector<fault::Flag>
+        warnings;  ///< of the study; empty where the request was a repeated one
 };
 
 /// Stores the study of the body as a run; the answer may be sent when this returns.

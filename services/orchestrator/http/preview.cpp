@@ -1,5 +1,6 @@
 #include "services/orchestrator/http/preview.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/phases/phases.hpp"
@@ -7,6 +8,7 @@
 #include "core/words/number.hpp"
 #include "services/estimate/cost.hpp"
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
+#include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/http/stored_scene.hpp"
 #include "services/orchestrator/study/budget.hpp"
@@ -27,16 +29,43 @@ struct Sent {
 
 Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(resolved_study(service.store, body).text, "document");
+    if (is_study_document(document) && !document.contains("scene"))
+        sent_study(document, service);  // says what is missing
     report::BaseScene base = report::base_scene_of(document);
     check::Checked checked = check_sent_scene(base.scene, base.overrides, files_of(service));
     checked.faults = seen_from_here(std::move(checked.faults));
     return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
 }
 
-fault::BadInput refusal_of(const report::Draft& draft) {
+bool is_study(const report::Draft& draft) { return !draft.base.pointer.empty(); }
+
+fault::BadInput refusal_of(const report::Draft& draft, const std::vector<fault::Fault>& of_study) {
     std::vector<fault::Fault> faults = draft.faults;
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
-    return {draft.base.pointer.empty() ? "scene" : "study", std::move(faults)};
+    faults.insert(faults.end(), of_study.begin(), of_study.end());
+    return {is_study(draft) ? "study" : "scene", std::move(faults)};
+}
+
+/// What a submission of the document would be told beyond the faults of its scene.
+struct Judged {
+    std::vector<fault::Fault> faults;
+    std::vector<fault::Flag> warnings;
+};
+
+Judged judged(const Service& service, const json& document, const report::Draft& draft) {
+    if (!is_study(draft)) return {{}, draft.scene.warnings};
+    try {
+        return {{}, sent_study(document, service).warnings};
+    } catch (const fault::BadInput& refused) {
+        Judged found{refused.faults(), draft.scene.warnings};
+        std::erase_if(found.faults, [&](const fault::Fault& each) {
+            return std::ranges::any_of(draft.faults, [&](const fault::Fault& known) {
+                return each.pointer == draft.base.pointer + known.pointer;
+            });
+        });
+        for (fault::Flag& each : found.warnings) each.pointer = draft.base.pointer + each.pointer;
+        return found;
+    }
 }
 
 std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::Scene& scene,
@@ -94,8 +123,9 @@ report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) 
 
 std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh) {
     const auto [document, draft] = sent(service, body);
-    if (!report::can_be_drawn(draft)) throw refusal_of(draft);
-    report::Additions additions;
+    auto [faults, warnings] = judged(service, document, draft);
+    if (!report::can_be_drawn(draft)) throw refusal_of(draft, faults);
+    report::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
     if (draft.faults.empty()) {
         std::optional<estimate::MeshCounts> counts;
         if (mesh == MeshDrawn::yes && draft.scene.fem) {
@@ -111,10 +141,12 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
-    if (!draft.faults.empty()) throw refusal_of(draft);
+    const auto [faults, warnings] = judged(service, document, draft);
+    if (!draft.faults.empty() || !faults.empty()) throw refusal_of(draft, faults);
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
     if (document.is_object() && document.contains("budget"))
         hold_against(checked_budget(document["budget"]), cost);
+    cost["warnings"] = warnings_json(warnings);
     return cost;
 }
 

@@ -16,7 +16,7 @@ enum class MeshDrawn { no, yes };
 /// cannot be made.
 std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh);
 
-/// What POST /v1/cost answers. Throws BadInput with every fault of the scene.
+/// What POST /v1/cost answers. Throws BadInput with all that the submission of a study would be refused for.
 nlohmann::json cost_of(const Service& service, const std::string& body);
 
 }  // namespace breach::orchestrator

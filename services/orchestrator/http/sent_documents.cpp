@@ -63,6 +63,8 @@ SentFiles files_of(const Service& service) {
     return {service.data.root(), service.allowed_folders};
 }
 
+bool is_study_document(const json& document) { return is_a("study", document, "scene"); }
+
 Study sent_study(const std::string& body, const Service& service) {
     return sent_study(scene::parse_json(body, "study"), service);
 }
@@ -78,8 +80,8 @@ Study sent_study(json document, const Service& service) {
     return read_here([&] { return read_study_document(std::move(document), files_of(service)); });
 }
 
-json sent_scene(const std::string& body, const Service& service) {
-    if (is_a("study", json::parse(body, nullptr, false), "scene")) {
+WholeScene sent_scene(const std::string& body, const Service& service) {
+    if (is_study_document(json::parse(body, nullptr, false))) {
         throw BadInput("scene", {{"", "this is a study, not a scene",
                                   "give the scene that it holds or names in \"scene\""}});
     }

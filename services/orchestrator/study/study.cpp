@@ -21,6 +21,7 @@ namespace breach::orchestrator {
 
 using fault::BadInput;
 using fault::Fault;
+using fault::Flag;
 using nlohmann::json;
 
 namespace {
@@ -178,6 +179,7 @@ struct Base {
     json scene;
     std::vector<std::string> overrides;
     std::vector<Fault> faults;      ///< of the scene itself: a variant does not repeat them
+    std::vector<Flag> warnings;     ///< likewise
     check::Recordings* recordings;  ///< read for one scene, known to the others
 };
 
@@ -278,14 +280,24 @@ void keep_variants(const std::vector<VariantEntry>& entries, json& document) {
 struct CheckedVariant {
     json scene;  ///< completed; null where it has faults
     std::vector<Fault> faults;
+    std::vector<Flag> warnings;  ///< that the scene itself does not have
 };
+
+bool is_same(const Flag& one, const Flag& other) {
+    return one.code == other.code && one.pointer == other.pointer && one.message == other.message;
+}
 
 CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
                                const std::vector<double>& times) {
     std::vector<std::string> overrides = base.overrides;
     overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
     check::Checked changed = check_sent_scene(base.scene, overrides, base.files, *base.recordings);
-    CheckedVariant variant{.scene = nullptr, .faults = faults_of_variant(changed, base, times)};
+    CheckedVariant variant{
+        .scene = nullptr, .faults = faults_of_variant(changed, base, times), .warnings = {}};
+    for (const Flag& each : changed.scene.warnings)
+        if (std::ranges::none_of(base.warnings,
+                                 [&](const Flag& known) { return is_same(known, each); }))
+            variant.warnings.push_back(each);
     if (changed.faults.empty()) variant.scene = std::move(changed.completed);
     return variant;
 }
@@ -310,14 +322,43 @@ std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entrie
     return checked;
 }
 
+/// The warnings of all variants, each once, with the first variant that has it and how many do.
+void add_warnings(const std::vector<VariantEntry>& entries,
+                  const std::vector<CheckedVariant>& checked, std::vector<Flag>& warnings) {
+    struct Found {
+        Flag flag;
+        std::string first;
+        std::size_t variants;
+    };
+    std::vector<Found> found;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        for (const Flag& flag : checked[i].warnings) {
+            const auto known = std::ranges::find_if(found, [&](const Found& each) {
+                return each.flag.code == flag.code && each.flag.pointer == flag.pointer;
+            });
+            if (known == found.end())
+                found.push_back({flag, entries[i].name, 1});
+            else
+                ++known->variants;
+        }
+    for (Found& each : found) {
+        std::string of = "variant \"" + each.first + "\"";
+        if (each.variants > 1) of += " and " + std::to_string(each.variants - 1) + " more";
+        each.flag.message = of + ": " + each.flag.message;
+        each.flag.pointer = "/scene" + each.flag.pointer;
+        warnings.push_back(std::move(each.flag));
+    }
+}
+
 /// Each variant's scene, checked and completed; faults are those of its overrides.
 std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, const Base& base,
-                                      const std::vector<double>& times,
-                                      std::vector<Fault>& faults) {
+                                      const std::vector<double>& times, std::vector<Fault>& faults,
+                                      std::vector<Flag>& warnings) {
     if (entries.empty()) return {{.name = "", .overrides = {}, .scene = base.scene}};
     std::vector<Variant> variants;
     std::set<std::string> names;
     std::vector<CheckedVariant> checked = each_checked(entries, base, times);
+    add_warnings(entries, checked, warnings);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const VariantEntry& entry = entries[i];
         if (!names.insert(entry.name).second) {
@@ -513,7 +554,7 @@ void take_samples(Study& study, json& document, const Base& base, std::vector<Fa
         study.target ? variants_of(*study.target, plan, base.scene, study.reach)
                      : variants_of(plan, base.scene, study.reach);
     std::vector<Fault> found;
-    study.variants = checked_variants(entries, base, study.transfer_times, found);
+    study.variants = checked_variants(entries, base, study.transfer_times, found, study.warnings);
     for (Fault& each : told_by_parameter(found, plan)) faults.push_back(std::move(each));
     document["variants"] = as_json(entries);
     if (study.target) {
@@ -569,7 +610,7 @@ Study read_study_document(json document, const SentFiles& files) {
     std::optional<AccuracyPlan> accuracy;
     std::optional<check::Checked> scene;
     check::Recordings recordings;
-    Base base{files, {}, {}, {}, &recordings};
+    Base base{files, {}, {}, {}, {}, &recordings};
     if (document.is_object() && document.contains("scene") && document["scene"].is_object()) {
         base.scene = std::move(document["scene"]);
         if (sound("overrides")) base.overrides = document["overrides"];
@@ -590,10 +631,14 @@ Study read_study_document(json document, const SentFiles& files) {
             if (!phase.has_default_part) need_part(base.scene, phase.part, faults);
         scene = check_sent_scene(base.scene, base.overrides, files, recordings);
         base.faults = scene->faults;
+        for (Flag each : scene->scene.warnings) {
+            each.pointer = "/scene" + each.pointer;
+            study.warnings.push_back(std::move(each));
+        }
         add_below("/scene", scene->faults, faults);
         if (scene->faults.empty())
-            base = {
-                files, std::move(scene->completed), {}, {}, &recordings};  // what variants change
+            base = {files, std::move(scene->completed), {},
+                    {},    scene->scene.warnings,       &recordings};  // what variants change
     }
     const bool times_are_sound =
         document.is_object() && is_sound(of_study, "/transfer_times") && sound("triggers");
@@ -633,8 +678,9 @@ Study read_study_document(json document, const SentFiles& files) {
                      : wanted_variants(document, study.reach, base.scene, faults);
         const bool late = fem && !study.transfer_times.empty() &&
                           study.transfer_times.back() > dynamic_duration(*fem) + microsecond;
-        study.variants = checked_variants(
-            entries, base, late ? std::vector<double>{} : study.transfer_times, faults);
+        study.variants =
+            checked_variants(entries, base, late ? std::vector<double>{} : study.transfer_times,
+                             faults, study.warnings);
         if (study.variants.size() * study.transfer_times.size() > most_transfers) {
             faults.push_back(
                 {"/variants",
@@ -659,10 +705,10 @@ Study read_study_document(json document, const SentFiles& files) {
     return study;
 }
 
-json read_whole_scene(std::string_view text, const SentFiles& files) {
+WholeScene read_whole_scene(std::string_view text, const SentFiles& files) {
     check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, files);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
-    return std::move(checked.completed);
+    return {std::move(checked.completed), std::move(checked.scene.warnings)};
 }
 
 }  // namespace breach::orchestrator

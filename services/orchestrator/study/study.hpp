@@ -42,13 +42,19 @@ struct Study {
     /// Its variants are samples, and more of them may follow.
     std::optional<UncertaintyPlan> uncertainty;
     std::optional<Target> target;  ///< its variants are values of one parameter instead
+    std::vector<fault::Flag>
+        warnings;  ///< of its scenes, each once; pointers are those of the study
 };
 
 /// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
 Study read_study(std::string_view text, const SentFiles& files = {});
 Study read_study_document(nlohmann::json document, const SentFiles& files = {});
 
-/// A scene on its own, as /v1/scenes/plan takes it: completed. Throws BadInput.
-nlohmann::json read_whole_scene(std::string_view text, const SentFiles& files = {});
+struct WholeScene {
+    nlohmann::json completed;
+    std::vector<fault::Flag> warnings;
+};
+/// A scene on its own, as /v1/scenes/plan takes it. Throws BadInput.
+WholeScene read_whole_scene(std::string_view text, const SentFiles& files = {});
 
 }  // namespace breach::orchestrator

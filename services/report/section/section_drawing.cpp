@@ -19,7 +19,8 @@ namespace {
 
 constexpr double page_width = 1040, left = 60, text_width = 960, row = 20;
 constexpr const char* red = "#c62828";
-constexpr std::size_t most_faults = 20;
+constexpr const char* amber = "#8a5a00";
+constexpr std::size_t most_remarks = 20;
 
 struct MarkedFault {
     const Fault& fault;
@@ -326,29 +327,57 @@ double draw_foot(std::ostream& svg, const std::vector<std::string>& foot, double
     return y;
 }
 
-double list_faults(std::ostream& svg, const std::vector<MarkedFault>& marks,
-                   const std::string& prefix, double y) {
-    if (marks.empty()) return y;
-    svg << line_at(left, y += 26,
-                   marks.size() == 1 ? "1 fault" : std::to_string(marks.size()) + " faults",
-                   std::string("font-weight=\"bold\" fill=\"") + red + "\"");
-    for (std::size_t i = 0; i < std::min(marks.size(), most_faults); ++i) {
-        const Fault& fault = marks[i].fault;
-        const std::string pointer = prefix + fault.pointer;
-        svg << "<g class=\"fault\" data-pointer=\"" << escaped(pointer) << "\" data-cause=\""
-            << escaped(fault.cause) << "\" data-remedy=\"" << escaped(fault.remedy) << "\" fill=\""
-            << red << "\">\n";
-        const std::string text = std::to_string(i + 1) + "  " + (pointer.empty() ? "/" : pointer) +
-                                 " " + fault.cause +
-                                 (fault.remedy.empty() ? "" : ": " + fault.remedy);
-        for (const std::string& each : broken(text, text_width))
+/// What a person reads about the document, below the picture; `data` are the attributes of its group.
+struct Remark {
+    std::string data;
+    std::string text;
+};
+
+double list_remarks(std::ostream& svg, const std::vector<Remark>& remarks, const std::string& kind,
+                    const std::string& colour, double y) {
+    if (remarks.empty()) return y;
+    svg << line_at(
+        left, y += 26,
+        remarks.size() == 1 ? "1 " + kind : std::to_string(remarks.size()) + " " + kind + "s",
+        "font-weight=\"bold\" fill=\"" + colour + "\"");
+    for (std::size_t i = 0; i < std::min(remarks.size(), most_remarks); ++i) {
+        svg << "<g class=\"" << kind << "\" " << remarks[i].data << " fill=\"" << colour << "\">\n";
+        for (const std::string& each :
+             broken(std::to_string(i + 1) + "  " + remarks[i].text, text_width))
             svg << line_at(left, y += 17, each);
         svg << "</g>\n";
     }
-    if (marks.size() > most_faults)
+    if (remarks.size() > most_remarks)
         svg << line_at(left, y += 17,
-                       "and " + std::to_string(marks.size() - most_faults) + " more");
+                       "and " + std::to_string(remarks.size() - most_remarks) + " more");
     return y;
+}
+
+std::string attribute(const char* name, const std::string& value) {
+    return std::string(" data-") + name + "=\"" + escaped(value) + "\"";
+}
+
+double list_faults(std::ostream& svg, const Draft& draft, const std::vector<Fault>& of_study,
+                   double y) {
+    std::vector<Remark> remarks;
+    const auto add = [&](const std::string& pointer, const Fault& fault) {
+        remarks.push_back({attribute("pointer", pointer) + attribute("cause", fault.cause) +
+                               attribute("remedy", fault.remedy),
+                           (pointer.empty() ? "/" : pointer) + " " + fault.cause +
+                               (fault.remedy.empty() ? "" : ": " + fault.remedy)});
+    };
+    for (const Fault& each : draft.faults) add(draft.base.pointer + each.pointer, each);
+    for (const Fault& each : of_study) add(each.pointer, each);
+    return list_remarks(svg, remarks, "fault", red, y);
+}
+
+double list_warnings(std::ostream& svg, const std::vector<fault::Flag>& warnings, double y) {
+    std::vector<Remark> remarks;
+    for (const fault::Flag& each : warnings)
+        remarks.push_back({attribute("pointer", each.pointer) + attribute("code", each.code) +
+                               attribute("warning", each.message),
+                           (each.pointer.empty() ? "" : each.pointer + " ") + each.message});
+    return list_remarks(svg, remarks, "warning", amber, y);
 }
 
 /// Writes a finished panel: its picture cut off at its border, marks and writing above.
@@ -450,7 +479,8 @@ std::string as_svg(const Draft& draft, const Additions& additions) {
     if (!additions.foot.empty()) foot.push_back("One run of each phase will take about:");
     foot.insert(foot.end(), additions.foot.begin(), additions.foot.end());
     y = draw_foot(svg, foot, y);
-    y = list_faults(svg, marks, draft.base.pointer, y);
+    y = list_faults(svg, draft, additions.faults, y);
+    y = list_warnings(svg, additions.warnings, y);
     const std::string size = px(page_width) + "\" height=\"" + px(y + 20);
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(page_width) + " " +
            px(y + 20) + "\" width=\"" + size +

@@ -42,6 +42,9 @@ struct DrawnMesh {
 struct Additions {
     std::optional<DrawnMesh> mesh = {};
     std::vector<std::string> foot = {};  ///< lines below the picture: what it will cost
+    std::vector<fault::Fault> faults =
+        {};  ///< of the study around the scene; pointers of the document
+    std::vector<fault::Flag> warnings = {};  ///< likewise
 };
 
 /// A region with a polygon, or a fault with a place.

@@ -32,6 +32,7 @@ export class LiveDrawing {
 
     forget() {
         by_id("drawing-picture").replaceChildren();
+        by_id("drawing-warnings").replaceChildren();
         this.tell("", []);
         by_id("drawing").hidden = true;
     }
@@ -78,6 +79,8 @@ export class LiveDrawing {
         const faults = [...drawn.querySelectorAll("[data-cause]")].map(({ dataset }) => (
             { pointer: dataset.pointer, cause: dataset.cause, remedy: dataset.remedy }));
         by_id("drawing-picture").classList.remove("stale");
+        by_id("drawing-warnings").replaceChildren(...[...drawn.querySelectorAll("[data-warning]")].map(({ dataset }) => (
+            this.fault_item({ pointer: dataset.pointer, cause: dataset.warning, remedy: "" }, true))));
         return faults;
     }
 
