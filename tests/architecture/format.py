@@ -10,7 +10,7 @@ root = pathlib.Path(os.environ["BREACH_ROOT"])
 if not shutil.which("clang-format"):
     print("skipped: clang-format is not installed")
     sys.exit(77)
-files = [str(f) for folder in ("core", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "services", "tests")
+files = [str(f) for folder in ("core", "lem_tool", "fem_solver", "element_bench", "transfer_tool", "mpm_solver", "services", "tests")
          for f in sorted((root / folder).rglob("*.?pp"))]
 done = subprocess.run(["clang-format", "--dry-run", "--Werror", *files], capture_output=True, text=True)
 print(done.stderr or f"{len(files)} files are formatted")

@@ -18,7 +18,7 @@ build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 source = pathlib.Path(os.environ["BREACH_ROOT"])
 # Programs under sanitizers are not asked for their help while they are built.
 instrumented = re.search(r"^BREACH_SANITIZE:\w+=(address|thread)", (build / "CMakeCache.txt").read_text(), re.MULTILINE)
-programs = {"breachline", "breach", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "report",
+programs = {"breachline", "breach", "lem_tool", "fem_solver", "element_bench", "transfer_tool", "mpm_solver", "report",
             "breachline-backup", "breachline-restore"}
 
 

@@ -4,8 +4,8 @@
 
 #include "core/materials/norsand/instability.hpp"
 #include "core/materials/norsand/undrained.hpp"
+#include "element_bench/specimen.hpp"
 #include "fem_solver/checkpoint.hpp"
-#include "fem_solver/element_bench/specimen.hpp"
 #include "fem_solver/solve/memory.hpp"
 #include "tests/verification/fem/begun_element.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "core/check/check.hpp"
 #include "core/materials/pm4sand/fields.hpp"
+#include "element_bench/specimen.hpp"
 #include "fem_solver/checkpoint.hpp"
-#include "fem_solver/element_bench/specimen.hpp"
 #include "fem_solver/solve/memory.hpp"
 #include "tests/verification/fem/begun_element.hpp"
 

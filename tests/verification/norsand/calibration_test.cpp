@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "fem_solver/element_bench/norsand_calibration.hpp"
+#include "element_bench/norsand_calibration.hpp"
 #include "tests/verification/norsand/soils.hpp"
 #include "tests/verification/norsand/tables.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fem_solver/element_bench/programme.hpp"
+#include "element_bench/programme.hpp"
 
 namespace breach::testing {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "fem_solver/element_bench/programme.hpp"
+#include "element_bench/programme.hpp"
 #include "soils.hpp"
 
 namespace breach::testing::bench_test {

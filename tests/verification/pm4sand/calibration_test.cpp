@@ -1,7 +1,7 @@
 // The paper's calibration made automatic: from the default parameters to undrained strengths
 // of 4.3, 6.5 and 11.1 kPa at 50, 100 and 250 kPa (Sordo et al., Table 3) with the cyclic strength
 // of the default soil.
-#include "fem_solver/element_bench/calibration.hpp"
+#include "element_bench/calibration.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fem_solver/element_bench/document.hpp"
+#include "element_bench/document.hpp"
 #include "soils.hpp"
 
 namespace breach::testing::calibration_test {

@@ -1,5 +1,5 @@
 // Cyclic strength of the tailings against OpenSees, and what the default scheme makes of it. N
-// counts as in the reference (fem_solver/element_bench/programme.hpp).
+// counts as in the reference (element_bench/programme.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "fem_solver/element_bench/programme.hpp"
+#include "element_bench/programme.hpp"
 #include "soils.hpp"
 
 namespace breach::testing::cyclic_strength_test {

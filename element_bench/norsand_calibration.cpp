@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/norsand_calibration.hpp"
+#include "element_bench/norsand_calibration.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

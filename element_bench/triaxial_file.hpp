@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
-#include "fem_solver/element_bench/specimen.hpp"
+#include "element_bench/specimen.hpp"
 
 namespace breach::element_bench {
 

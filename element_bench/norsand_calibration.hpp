@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/fault/flag.hpp"
-#include "fem_solver/element_bench/triaxial.hpp"
+#include "element_bench/triaxial.hpp"
 
 namespace breach::element_bench {
 

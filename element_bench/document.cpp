@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/document.hpp"
+#include "element_bench/document.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
-#include "fem_solver/element_bench/norsand_document.hpp"
+#include "element_bench/norsand_document.hpp"
 
 namespace breach::element_bench {
 

@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/run.hpp"
+#include "element_bench/run.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -7,8 +7,8 @@
 #include "core/exchange/archive.hpp"
 #include "core/phases/files.hpp"
 #include "core/scene/sand.hpp"
-#include "fem_solver/element_bench/document.hpp"
-#include "fem_solver/element_bench/norsand_run.hpp"
+#include "element_bench/document.hpp"
+#include "element_bench/norsand_run.hpp"
 
 namespace breach::element_bench {
 

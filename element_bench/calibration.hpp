@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fem_solver/element_bench/programme.hpp"
+#include "element_bench/programme.hpp"
 
 namespace breach::element_bench {
 

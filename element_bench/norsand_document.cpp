@@ -1,10 +1,10 @@
-#include "fem_solver/element_bench/norsand_document.hpp"
+#include "element_bench/norsand_document.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "fem_solver/element_bench/triaxial_file.hpp"
+#include "element_bench/triaxial_file.hpp"
 
 namespace breach::element_bench {
 

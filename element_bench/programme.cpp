@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/programme.hpp"
+#include "element_bench/programme.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include "core/fault/flag.hpp"
 #include "core/scene/norsand.hpp"
 #include "core/scene/scene.hpp"
-#include "fem_solver/element_bench/calibration.hpp"
+#include "element_bench/calibration.hpp"
 
 namespace breach::element_bench {
 

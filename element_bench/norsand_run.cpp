@@ -1,9 +1,9 @@
-#include "fem_solver/element_bench/norsand_run.hpp"
+#include "element_bench/norsand_run.hpp"
 
 #include <spdlog/spdlog.h>
 
 #include "core/phases/files.hpp"
-#include "fem_solver/element_bench/norsand_document.hpp"
+#include "element_bench/norsand_document.hpp"
 
 namespace breach::element_bench {
 

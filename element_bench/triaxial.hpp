@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fem_solver/element_bench/specimen.hpp"
+#include "element_bench/specimen.hpp"
 
 namespace breach::element_bench {
 

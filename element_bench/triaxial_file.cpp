@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/triaxial_file.hpp"
+#include "element_bench/triaxial_file.hpp"
 
 #include <algorithm>
 #include <array>

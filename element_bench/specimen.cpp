@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/specimen.hpp"
+#include "element_bench/specimen.hpp"
 
 #include <algorithm>
 #include <cmath>

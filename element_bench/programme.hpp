@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fem_solver/element_bench/specimen.hpp"
+#include "element_bench/specimen.hpp"
 
 namespace breach::element_bench {
 

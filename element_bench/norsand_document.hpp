@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
-#include "fem_solver/element_bench/norsand_calibration.hpp"
+#include "element_bench/norsand_calibration.hpp"
 
 namespace breach::element_bench {
 

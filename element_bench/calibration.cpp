@@ -1,4 +1,4 @@
-#include "fem_solver/element_bench/calibration.hpp"
+#include "element_bench/calibration.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "fem_solver/element_bench/triaxial.hpp"
+#include "element_bench/triaxial.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "fem_solver/element_bench/programme.hpp"
+#include "element_bench/programme.hpp"
 
 namespace breach::element_bench {
 
