@@ -263,6 +263,25 @@ nlohmann::json first_time(const std::vector<Reading>& history, double Reading::*
     return first->time;
 }
 
+/// Of the largest depth, from which on liquefaction counts as complete. Mochikoshi's runouts reach their plateau 0.4 s later.
+constexpr double most_of_depth = 0.8;
+
+/// Excess pore pressure that grew by a fifth or more in the last tenth of a shaken FEM.
+std::optional<fault::Flag> still_liquefying(const std::vector<Reading>& history) {
+    if (history.size() < 2 || history.back().liquefaction_depth <= 0.0) return std::nullopt;
+    const double end = history.back().time;
+    const auto then =
+        std::ranges::find_if(history, [&](const Reading& each) { return each.time >= 0.9 * end; });
+    const double before = then->excess_pressure_avg, at_end = history.back().excess_pressure_avg;
+    if (at_end < 1.2 * before) return std::nullopt;
+    return fault::Flag{
+        "still_liquefying", fault::Severity::questionable,
+        "the mean excess pore pressure still grew when the FEM ended, from " + shown(before / 1e3) +
+            " kPa at " + shown(then->time) + " s to " + shown(at_end / 1e3) + " kPa at " +
+            shown(end) + " s: runouts from its last states are too short; lengthen the last stage",
+        "/fem/stages"};
+}
+
 /// The course as events that need no mesh.
 nlohmann::json milestones_in(const std::vector<Reading>& history) {
     const auto crest = [&](double value) {
@@ -272,6 +291,11 @@ nlohmann::json milestones_in(const std::vector<Reading>& history) {
                          {"crest_2_5_m", crest(2.5)},
                          {"crest_5_m", crest(5.0)},
                          {"slip_1_m", first_time(history, &Reading::slip_across_band, 1.0)}};
+    const auto deepest = std::ranges::max_element(history, {}, &Reading::liquefaction_depth);
+    if (deepest != history.end() && deepest->liquefaction_depth > 0.0)
+        facts["liquefied"] = {{"depth", deepest->liquefaction_depth},
+                              {"time", first_time(history, &Reading::liquefaction_depth,
+                                                  most_of_depth * deepest->liquefaction_depth)}};
     const auto peak = std::ranges::max_element(history, {}, &Reading::kinetic_energy);
     if (peak != history.end()) {
         facts["kinetic_energy_peak"] = {{"time", peak->time}, {"energy", peak->kinetic_energy}};
@@ -309,6 +333,8 @@ void Analysis::report_end() {
     facts["first_failure_surface_time"] = surface;
     facts["milestones"] = milestones_in(history_);
     if (decided_.liquefaction.value) facts["largest_liquefaction_depth"] = depth;
+    if (auto growing = still_liquefying(history_); growing && fem_.motion)
+        session_.flag(std::move(*growing));
     spdlog::info("{}", stopped ? "ended before its duration, at " + shown(position_.time) + " of " +
                                      shown(span_) + " s: " + in_words(*entanglement_)
                                : "ended as planned, at " + shown(position_.time) + " s");

@@ -35,9 +35,4 @@ constexpr const Phase* named(std::string_view program) {
     return found == all.end() ? nullptr : &*found;
 }
 
-/// Soil that moves on only adds to this result of a runout: where it was cut off, a lower bound.
-constexpr bool grows(std::string_view result) {
-    return result.starts_with("runout") || result.starts_with("area");
-}
-
 }  // namespace breach::phases

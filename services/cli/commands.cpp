@@ -179,9 +179,9 @@ ExitCode code_of_end(const json& run, Doubt doubt, const Console& console) {
         console.notes << cell(run, "message") << "\n";
         return ExitCode::try_again;
     }
-    if (!is_questionable(run)) return ExitCode::done;
-    console.notes << "questionable: " << cell(run, "message") << " (`breach results "
-                  << cell(run, "id") << "` says what to do)\n";
+    if (!is_doubtful(run)) return ExitCode::done;
+    console.notes << doubt_of(run) << " (`breach results " << cell(run, "id")
+                  << "` says what to do)\n";
     return doubt == Doubt::fails ? ExitCode::breakdown : ExitCode::done;
 }
 
@@ -200,10 +200,9 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
     } else {
         const json answer = server.get(path);
         const std::string means = as_mean_table(answer);
-        console.out << means;
+        console.out << as_verdict(answer) << means;
         if (!wish.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
         if (wish.means && means.empty()) console.notes << "the study has no draws\n";
-        console.notes << as_list_without_transfer(answer) << as_list_of_same_results(answer);
     }
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";

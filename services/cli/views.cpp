@@ -164,7 +164,13 @@ RunEnd end_of(const json& run) {
     return RunEnd::not_yet;
 }
 
-bool is_questionable(const json& run) { return run.value("questionable", 0) > 0; }
+bool is_doubtful(const json& run) {
+    return is_one_of(cell(run.value("verdict", json::object()), "usable"), {"questionable", "no"});
+}
+
+std::string doubt_of(const json& run) {
+    return is_doubtful(run) ? cell(run.at("verdict"), "words") + ": " + cell(run, "message") : "";
+}
 
 bool is_final_task(const json& task) {
     return is_one_of(state_of(task), {"cached", "succeeded", "failed", "cancelled", "skipped"});
@@ -173,10 +179,9 @@ bool is_final_task(const json& task) {
 std::string as_run_table(const json& runs) {
     std::vector<Cells> rows;
     for (const json& run : runs) {
-        const bool doubtful = state_of(run) == "questionable";
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), percent(run),
                         moment(run, "created"),
-                        tasks_of(run) + (doubtful ? "  " + cell(run, "message") : "")});
+                        tasks_of(run) + (is_doubtful(run) ? "  " + doubt_of(run) : "")});
     }
     return as_table({{"run", Align::left},
                      {"name", Align::left},
@@ -282,14 +287,10 @@ std::string result_cell(const json& row, const json& column) {
     const std::string name = column.at("name");
     if (name == "transfer_time") return whole_cell(row, "transfer_time");
     const json value = row.value(name, json());
-    if (!value.is_boolean()) return cell(value);
+    const bool bound = column.value("grows", false) && row.value("lower_bound", json()) == true;
+    if (!value.is_boolean()) return (bound && !value.is_null() ? "\u2265 " : "") + cell(value);
     if (name == "at_rest") return value.get<bool>() ? "yes" : "MOVING";
     return value.get<bool>() ? "yes" : "no";
-}
-
-/// There is a number, but not a word on whether to believe it.
-bool is_unjudged(const json& row) {
-    return !row.value("runout", json()).is_null() && row.value("questionable", json()).is_null();
 }
 
 std::string place_of(const json& row) {
@@ -315,14 +316,11 @@ std::string as_result_table(const json& answer) {
             for (const json& flag : flags_of(row))
                 if (cell(flag, "severity") == severity) legend.add(flag, place_of(row));
     std::vector<Cells> lines;
-    bool unjudged = false;
     for (const json& row : rows) {
         Cells line;
         for (const json& each : shown) line.push_back(result_cell(row, each));
         std::set<std::string> marks;
         for (const json& flag : flags_of(row)) marks.insert(legend.mark_of(flag));
-        if (is_unjudged(row)) marks.insert("?");
-        unjudged |= is_unjudged(row);
         std::string last;
         for (const std::string& each : marks) last += (last.empty() ? "" : " ") + each;
         if (!row.value("reason", "").empty())
@@ -330,34 +328,20 @@ std::string as_result_table(const json& answer) {
         line.push_back(last);
         lines.push_back(std::move(line));
     }
-    std::string notes = legend.as_text(" of " + std::to_string(rows.size()) + " rows");
-    if (unjudged)
-        notes +=
-            "?  not known: made by an earlier version, which does not say whether it can be "
-            "relied on\n";
+    const std::string notes = legend.as_text(" of " + std::to_string(rows.size()) + " rows");
     return as_table(columns, lines) + (notes.empty() ? "" : "\n" + notes);
 }
 
-std::string as_list_without_transfer(const json& answer) {
+std::string as_verdict(const json& answer) {
+    std::set<std::string> explained;
+    for (const json& row : answer.at("rows"))
+        for (const json& flag : flags_of(row)) explained.insert(cell(flag, "code"));
+    const json& verdict = answer.at("verdict");
     std::string text;
-    for (const json& each : answer.value("without_transfer", json::array())) {
-        const std::string variant = each.at("variant");
-        text += "no transfer" + (variant.empty() ? "" : " of " + variant) + ": " +
-                cell(each, "state") + ", " + cell(each, "reason") + "\n";
-    }
-    return text;
-}
-
-std::string as_list_of_same_results(const json& answer) {
-    std::string text;
-    for (const json& group : answer.value("same_results", json::array())) {
-        std::string names;
-        for (const json& each : group)
-            names += (names.empty() ? "" : ", ") + each.get<std::string>();
-        text += "the same to the last digit: " + names +
-                "; what tells them apart has no part in the numbers of this table\n";
-    }
-    return text;
+    if (is_doubtful(answer)) text += "Verdict: " + cell(verdict, "words") + "\n";
+    for (const json& each : verdict.at("reasons"))
+        if (!explained.contains(cell(each, "code"))) text += "  " + cell(each, "text") + "\n";
+    return text.empty() ? "" : text + "\n";
 }
 
 std::string as_mean_table(const json& answer) {

@@ -14,8 +14,10 @@ enum class RunEnd {
 };
 
 RunEnd end_of(const nlohmann::json& run);
-/// A result of it is not one to rely on.
-bool is_questionable(const nlohmann::json& run);
+/// Its verdict: its results cannot be relied on.
+bool is_doubtful(const nlohmann::json& run);
+/// "not usable: does not stand as built, ..." of a run; empty where nothing is against it.
+std::string doubt_of(const nlohmann::json& run);
 /// No attempt of it will run any more.
 bool is_final_task(const nlohmann::json& task);
 
@@ -28,10 +30,8 @@ std::string as_run_page(const nlohmann::json& run);
 std::string as_task_page(const nlohmann::json& task);
 /// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
 std::string as_result_table(const nlohmann::json& answer);
-/// What has no row in it: variants that nothing was transferred of, and why; empty: there are none.
-std::string as_list_without_transfer(const nlohmann::json& answer);
-/// A line for each group of variants with the same results.
-std::string as_list_of_same_results(const nlohmann::json& answer);
+/// The verdict of the same answer with its reasons, but for flags, which the table's legend explains; empty: usable.
+std::string as_verdict(const nlohmann::json& answer);
 /// The means of the same answer, with their standard deviations and what is missing in them; empty:
 /// the study has no draws.
 std::string as_mean_table(const nlohmann::json& answer);

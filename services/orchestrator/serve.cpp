@@ -53,6 +53,8 @@ int serve(const ServeSettings& settings) {
     ProgressBoard board;
     const std::unique_ptr<Executor> executor = executor_of(settings);
     FrameReader frames;
+    EarlierCosts earlier_costs;
+    KeysInProgress keys;
     DispatchSettings dispatch = settings.dispatch;
     dispatch.numerics = numerics;
     Dispatcher dispatcher(store, data, *executor, board, dispatch);
@@ -63,6 +65,8 @@ int serve(const ServeSettings& settings) {
                     retention,
                     board,
                     frames,
+                    earlier_costs,
+                    keys,
                     settings.dispatch.bin,
                     numerics,
                     settings.web,

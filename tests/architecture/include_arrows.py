@@ -34,20 +34,22 @@ arrows = {
     **core,
     "lem_tool": every_core_room,
     "fem_solver": every_core_room,
+    "element_bench": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
     "services/templates": {"core/fault", "core/geometry", "core/motion", "core/scene", "core/words"},
     "services/estimate": {"core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
-    "services/orchestrator": {"services/estimate", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
-    "services/cli": {"services/estimate", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
+    "services/findings": {"core/fault", "core/phases", "core/words"},
+    "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
+    "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
-    "services/report": {"services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
+    "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.
 floors = {
-    "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
+    "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
     "services/orchestrator": [{"access", "records", "sampling"}, {"uncertainty"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"ensemble"}, {"triggers"},
                               {"dispatch", "accuracy", "audit"},
@@ -129,7 +131,7 @@ def main():
     faults = []
     units = {}
     files = 0
-    for folder in ("core", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "services"):
+    for folder in ("core", "lem_tool", "fem_solver", "element_bench", "transfer_tool", "mpm_solver", "services"):
         for file in sorted((root / folder).rglob("*.?pp")):
             name = str(file.relative_to(root))
             room = room_of(name)

@@ -40,8 +40,8 @@ export const still_moving = flag("still_moving", "questionable", "12 % of the re
 export const numerical_share = flag("numerical_share", "questionable", "the scheme took 31 % of the released energy, 20 % is the limit");
 export const implausible = flag("implausible", "warning", "19 looks like kN/m3: 1,937 kg/m3", "/materials/sand/density");
 const entangled_at = (time) => flag("entangled", "warning", `the mesh entangled at ${time} s in element 212, in the failure's band`);
-/// What the runouts of a run with flags carry, by transfer time; all others are sound. null: an earlier version's.
-export const some_flagged = { 0.5: [still_moving], 0.75: [numerical_share], 1: [still_moving, numerical_share], 1.5: [implausible], 1.75: null };
+/// What the runouts of a run with flags carry, by transfer time; all others are sound.
+export const some_flagged = { 0.5: [still_moving], 0.75: [numerical_share], 1: [still_moving, numerical_share], 1.5: [implausible] };
 
 /// Twelve strengths at one transfer time.
 const strengths = Array.from({ length: 12 }, (_, i) => `strength_x_${(0.7 + 0.05 * i).toFixed(2)}`);
@@ -201,8 +201,19 @@ class FakeRun {
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
                  tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused), pinned: Boolean(this.pinned),
-                 message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
+                 verdict: this.run_verdict(questionable, flag_counts), message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
                  seconds_left: over || this.paused ? null : this.pace - this.age() };
+    }
+
+    /// As services/findings judges it, with what the fake knows.
+    run_verdict(questionable, flag_counts) {
+        const reasons = [...(this.study.without ?? []).map(({ variant, reason }) => ({ usable: "with_remarks", code: "no_transfer", brief: "",
+                             text: `No transfer${variant ? ` from ${variant}` : ""}, so there is no runout: ${reason}. The dam may stand; then nothing runs out.`, pointer: "" })),
+                         ...(this.study.same ?? []).map((names) => ({ usable: "with_remarks", code: "same_results", brief: "",
+                             text: `The variants ${names.join(", ")} have identical results: the entries that differ had no effect.`, pointer: "" })),
+                         ...Object.keys(flag_counts).map((code) => ({ usable: "with_remarks", code, brief: "", text: code, pointer: "" }))];
+        const usable = flag_counts.implausible ? "no" : questionable ? "questionable" : reasons.length ? "with_remarks" : "yes";
+        return { usable, words: { no: "not usable", with_remarks: "usable, with remarks", yes: "usable" }[usable] ?? usable, reasons };
     }
 
     rows() {
@@ -220,7 +231,7 @@ class FakeRun {
                      ended, end_time, questionable, flags: flags?.map((each) => ({ ...each, phase: "mpm_solver" })) ?? null,
                      runout_error: this.study.draws && own === "succeeded" ? 0.1 * this.study.draws : null,
                      runout_error_from: this.study.draws ? `scatter of ${this.study.draws} draws` : "",
-                     at_rest: ended && !moving, kinetic_share: ended && (moving ? 0.12 : 0.001),
+                     at_rest: ended && !moving, lower_bound: ended && moving, kinetic_share: ended && (moving ? 0.12 : 0.001),
                      trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed"
                          : mpm.not_reached ? `its FEM ended regularly at ${this.entangles} s, before this time` : "",
                      ...Object.fromEntries(Object.keys(this.runout(mpm)).map((key) => [key, numbers[key] ?? null])) };
@@ -390,7 +401,7 @@ export class FakeApi {
         if (rest[0] === "transfers") return json(response, { transfers: run.transfers(), next: null });
         if (rest[0] === "uncertainty" && run.study.uncertainty) return json(response, run.answer ??= run.uncertainty());
         if (rest[0] === "envelopes" && run.study.uncertainty) return json(response, run.envelopes ??= envelopes_of(run));
-        if (rest[0] === "results") return json(response, { run: run.id, rows: run.rows(), means: run.means(), without_transfer: run.study.without ?? [], same_results: run.study.same ?? [] });
+        if (rest[0] === "results") return json(response, { run: run.id, verdict: run.summary().verdict, rows: run.rows(), means: run.means(), without_transfer: run.study.without ?? [], same_results: run.study.same ?? [] });
         if (rest[0] === "telemetry") {
             const from = Number(url.searchParams.get("from") ?? 0);
             if (url.searchParams.has("variant")) return problem(response, 400, 'unknown query parameter "variant"');

@@ -488,14 +488,14 @@ test("a runout that still moves, is questionable or carries no flags does not lo
     await until("eight markers", async () => (await markers()) === 8);
     const classes = await page.locator("#runout-plot svg.plot > .marker").evaluateAll((all) => all.map((one) => one.getAttribute("class")));
     assert.deepEqual(classes.map((each) => each.replace("marker series-0", "").trim()),
-                     ["", "bound", "doubtful", "bound doubtful", "", "", "unknown", ""]);
+                     ["", "bound", "doubtful", "bound doubtful", "", "", "", ""]);
     // In one go: the plot is drawn anew when the page looks again.
     const paint = await page.evaluate(() => [...document.querySelectorAll("#runout-plot svg.plot > .marker")].map((one) => {
         const { fill, strokeDasharray, fillOpacity } = getComputedStyle(one);
         return { hollow: fill === getComputedStyle(one.closest(".card")).backgroundColor, dashed: strokeDasharray !== "none", pale: Number(fillOpacity) < 0.5 };
     }));
     assert.deepEqual(paint.map(({ hollow, dashed, pale }) => `${hollow ? "hollow" : "filled"}${dashed ? " dashed" : ""}${pale ? " pale" : ""}`),
-                     ["filled", "hollow", "hollow dashed", "hollow dashed", "filled", "filled", "filled pale", "filled"]);
+                     ["filled", "hollow", "hollow dashed", "hollow dashed", "filled", "filled", "filled", "filled"]);
     // Arrows point upwards, from their own markers.
     const transforms = (selector) => page.locator(`#runout-plot svg.plot > ${selector}`).evaluateAll((all) => all.map((one) => one.getAttribute("transform")));
     assert.deepEqual(await transforms(".arrow"), await transforms(".marker.bound"));
@@ -506,14 +506,13 @@ test("a runout that still moves, is questionable or carries no flags does not lo
     assert.match(titles[1], /moving, 12 % in motion\nstill moving: .*the runout is a lower bound/);
     assert.match(titles[2], /at rest\nnumerical share: the scheme took 31 %/);
     assert.match(titles[5], /implausible: 19 looks like kN\/m3/);
-    assert.match(titles[6], /not known/);
     assert.deepEqual((await page.locator("#runout-plot .legend li").allTextContents()).map((name) => name.trim()),
-                     ["99 % of the mobile soil", "still moving: the runout is a lower bound", "questionable", "without flags: not known"]);
+                     ["99 % of the mobile soil", "still moving: the runout is a lower bound", "questionable"]);
     await page.focus("#runout-plot svg.plot");
     await page.keyboard.press("Home");
     await page.keyboard.press("ArrowRight");
     assert.match(await text_of("#runout-plot .readout"), /m \(still moving: the runout is a lower bound\)$/);
-    assert.match(await text_of("#runout-note"), /^Of 8 runouts 2 still moving: lower bounds, 1 questionable for other reasons, 1 without flags: not known\.$/);
+    assert.match(await text_of("#runout-note"), /^Of 8 runouts 2 still moving: lower bounds, 1 questionable for other reasons\.$/);
 
     const cells = async (time) => (await page.locator(`#runout-rows tr[data-key="${time}/"] td`).allTextContents()).slice(1, 5);
     assert.deepEqual(await cells(0.25), ["✓ succeeded", "14.04", "at rest", "none"]);
@@ -521,20 +520,20 @@ test("a runout that still moves, is questionable or carries no flags does not lo
     assert.deepEqual((await cells(0.75)).slice(0, 1), ["⚠ questionable"]);
     assert.deepEqual((await cells(1)).slice(3), ["still moving; numerical share"]);
     assert.deepEqual(await cells(1.5), ["✓ succeeded", "13.42", "at rest", "implausible (warning)"]);
-    assert.deepEqual((await cells(1.75)).slice(2), ["not known", "not known"]);
     const badges = await page.locator("#runout-rows .state").evaluateAll((all) => all.map((one) => one.className.replace("state ", "")));
-    assert.deepEqual(badges, ["good", "warn", "warn", "warn", "good", "good", "off", "good"], "what is not known is not green");
+    assert.deepEqual(badges, ["good", "warn", "warn", "warn", "good", "good", "good", "good"]);
 
     await page.selectOption("#runout-trust", "sound");
-    await until("the sound ones", async () => (await markers()) === 4);
-    assert.equal(await page.locator("#runout-rows tr").count(), 4);
-    assert.match(await text_of("#runout-note"), / 4 not shown\.$/);
+    await until("the sound ones", async () => (await markers()) === 5);
+    assert.equal(await page.locator("#runout-rows tr").count(), 5);
+    assert.match(await text_of("#runout-note"), / 3 not shown\.$/);
     await page.selectOption("#runout-trust", "all");
     await screenshot(page, "page_flags");
 
     // The run says it where it is listed and at its head; its entangled FEM is a regular end.
     assert.match(await text_of("#run-state"), /questionable/);
-    assert.equal(await text_of("#run-message"), "2 of 8 runouts still moving: lower bounds");
+    assert.equal(await text_of("#run-message"), "not usable: 2 of 8 runouts still moving: lower bounds");
+    assert.match(await page.getAttribute("#run-message", "class"), /unusable/);
     assert.match(await text_of("#run-flags"), /2 × still moving · 2 × numerical share · 1 × entangled · 1 × implausible/);
     assert.match(await text_of("#run-list a[aria-current]"), /⚠ questionable.*2 of 8 runouts still moving: lower bounds/s);
     assert.ok(await page.isHidden("#retry"), "nothing of it has failed");

@@ -104,7 +104,8 @@ function quantity(rows, name, next, parameters) {
     const at = (change) => model({ ...middle, ...change })[name];
     const bars = [["residual strength", 0.69, 1.45], ["viscosity", 140, 2130], ["motion", "option 1", "option 2"]]
         .map(([parameter, low, high]) => ({ parameter, p10: at({ [parameter]: low }), p90: at({ [parameter]: high }) }));
-    return { label, unit, count: values.length, of: rows.length, mean, bound_from: null, sd: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1)),
+    const bounds = rows.filter((row) => row.moves && Number.isFinite(row.results[name])).map((row) => row.results[name]);
+    return { label, unit, grows: true, count: values.length, of: rows.length, mean, bound_from: bounds.length ? Math.min(...bounds) : null, sd: Math.sqrt(values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (values.length - 1)),
              percentiles: values.length < needed[50] ? { refused: `${values.length} samples are not enough for the 50th percentile: ${needed[50]} are needed` }
                  : told.map((p) => ({ p, value: quantile(sorted, p / 100), ...resampled(values, next, (list) => quantile(ascending(list), p / 100)) })),
              percentiles_lacking: percentiles.filter((p) => !told.includes(p)).map((p) => ({ p, needs: needed[p] })),
@@ -125,7 +126,7 @@ export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of
     const rows = study.variants.map(({ name: sample, sample: { values } }) => {
         const { moves, ...results } = model(values);
         const own = odd[sample] ?? (moves ? "questionable" : "succeeded");
-        return { sample, task: task_of(sample), state: own, values, results: odd[sample] ? { runout_beyond_toe: null, runout: null } : results };
+        return { sample, task: task_of(sample), state: own, values, moves: moves && !odd[sample], results: odd[sample] ? { runout_beyond_toe: null, runout: null } : results };
     });
     const done = rows.filter((row) => row.results.runout !== null).length;
     const failed = rows.filter((row) => row.state === "failed");
@@ -139,11 +140,13 @@ export function uncertainty_of({ id, name, study, state = "succeeded" }, task_of
     ];
     return { run: id, name, state, quantity: "runout_beyond_toe", sampling: "latin_hypercube", seed: 7, confidence: 0.9,
              samples: { planned: rows.length, done, failed: failed.length, questionable: rows.filter((row) => row.state === "questionable").length, open: rows.length - done - failed.length - stood.length,
-                        no_transfer: stood.length,
+                        no_transfer: stood.length, moving: rows.filter((row) => row.moves).length, doubtful: 0,
                         left_out: [...failed.map(({ sample }) => ({ sample, state: "failed", reason: "exit 70: a point left the grid at 3.2 s" })),
                                    ...stood.map(({ sample }) => ({ sample, state: "not_reached", reason: "window: the FEM ended at 25 s" }))] },
              parameters, rows,
              quantities: Object.fromEntries(Object.keys(quantity_names).map((each) => [each, quantity(rows, each, next, parameters.map((one) => one.name))])),
+             cautions: [failed.length && `${failed.length} samples of ${rows.length} left no result and are in no number here.`,
+                        stood.length && `No transfer from ${stood.length} samples of ${rows.length}: the FEM ended and no trigger fired.`].filter(Boolean),
              until: { quantity: "runout_beyond_toe", percentile: 90, half_width: 0.1, reached: false, now: 0.13 }, inverse: null,
              sentences: [`${done} of ${rows.length} samples ended; ${failed.length} failed and are in no percentile.`] };
 }

@@ -288,18 +288,18 @@ test("a variant that nothing was transferred of stands above the figure, with th
     const run = api.add_run({ ...twelve_variants, name: "without", without }, { began: Date.now() - 60000, breaks: [] });
     await open_run(run.id);
     await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);
-    assert.equal(await text_of("#runout-without"), "Nothing was transferred of strength_x_1.25 (not reached): window: the FEM ended at 25 s");
+    assert.equal(await text_of("#runout-without"), "No transfer from strength_x_1.25, so there is no runout: window: the FEM ended at 25 s. The dam may stand; then nothing runs out.");
     const other = api.add_run({ ...twelve_variants, name: "with" }, { began: Date.now() - 60000, breaks: [] });
     await open_run(other.id);
     await until("no list", async () => page.locator("#runout-without").isHidden());
     assert.ok(await page.isVisible("#runout-plot"));
     const same = api.add_run({ ...twelve_variants, name: "same", same: [["a", "b"]] }, { began: Date.now() - 60000, breaks: [] });
     await open_run(same.id);
-    await until("the list", async () => (await text_of("#runout-without")) === "The same to the last digit: a, b. What tells them apart has no part in the numbers of this table.");
+    await until("the list", async () => (await text_of("#runout-without")) === "The variants a, b have identical results: the entries that differ had no effect.");
     const none = api.add_run({ ...twelve_variants, name: "none", variants: [], transfer_times: [], without: [{ ...without[0], variant: "" }] }, { began: Date.now() - 60000, breaks: [] });
     await open_run(none.id);
     await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);
-    assert.match(await text_of("#runout-without"), /^Nothing was transferred \(not reached\): /);
+    assert.match(await text_of("#runout-without"), /^No transfer, so there is no runout: /);
     assert.ok(await page.isHidden("#runout-plot") && await page.isHidden("#runout-table"), "empty axes say nothing");
 });
 

@@ -13,7 +13,6 @@
 //     moving_from=T          the MPM of transfers at T and after still moves at its end
 //     fails_above=S          the MPM of a lattice shifted by more than S ends with 70
 //     moving_above=S         the MPM of such a lattice still moves at its end
-//     as_before=1            the MPM's result is one of a version without flags
 //     by_cell=1              the runout grows with the square of the MPM's cells, the cost with
 //                            their number, and a moved lattice changes the runout
 //     linear=1, ishigami=1   the runout beyond the toe is that function of /mpm/cfl,
@@ -315,7 +314,7 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
                 {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
                 {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
                 {"cpu_seconds", 0.5},        {"at_rest", !moves}};
-    if (wish(wanted, "as_before", 0) == 0) add_judgement(result, moves);
+    add_judgement(result, moves);
     if (wish(wanted, "by_cell", 0) > 0) add_cell_error(own, shift, result);
     const bool linear = wish(wanted, "linear", 0) > 0;
     if (linear || wish(wanted, "ishigami", 0) > 0)

@@ -356,7 +356,7 @@ std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder
                                             std::optional<double> asked_error) {
     const auto study = store.study_of(run);
     if (!study || !study->contains("accuracy")) return std::nullopt;
-    const json scene = json::parse(store.scene_of(run).value());
+    const json scene = json::parse(still(store.scene_of(run)));
     std::vector<Fault> none;  // the study was checked when it was accepted
     AccuracyTable table;
     table.plan = read_accuracy(study->at("accuracy"), scene, none);

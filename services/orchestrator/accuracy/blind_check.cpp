@@ -89,12 +89,12 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
                "wait for the study's end, or check a rung of another ladder");
     const std::size_t mean_of = draws_of_a_mean(row, wish);
 
-    const json of = store.study_of(run).value();
+    const json of = still(store.study_of(run));
     json study{{"format", of.at("format")},
                {"name", of.at("name")},
                {"title", "Blind check of " + run + ": " + plan.ladders[row.setting.ladder].name +
                              " " + std::to_string(row.setting.step + 1)},
-               {"scene", json::parse(store.scene_of(run).value())},
+               {"scene", json::parse(still(store.scene_of(run)))},
                {"overrides", overrides_of(plan, row.setting.ladder, row.setting.step)},
                {"draws", wish.repeats * mean_of},
                {"first_draw", plan.draws},
@@ -116,7 +116,7 @@ std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data
                                       const std::string& run) {
     const auto study = store.study_of(run);
     if (!study || !study->contains("check")) return std::nullopt;
-    const json scene = json::parse(store.scene_of(run).value());
+    const json scene = json::parse(still(store.scene_of(run)));
     std::vector<fault::Fault> none;  // the study was checked when it was accepted
     BlindCheck check;
     check.plan = read_blind_check(study->at("check"), scene, draws_of(*study), none);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
-#include <mutex>
 #include <optional>
 
 #include "core/scene/reading.hpp"
@@ -37,54 +35,38 @@ Found earlier_of(const Store& store, const Task& task, const std::string& run_sc
     return std::nullopt;
 }
 
-/// What runs said when they had as many tasks done as now; what has succeeded does not change.
-class Memory {
-  public:
-    std::vector<Earlier> of(const Store& store, const Run& run) {
-        {
-            const std::lock_guard lock(mutex_);
-            const auto known = runs_.find(run.id);
-            if (known != runs_.end() && known->second.tasks_done == run.tasks_done)
-                return known->second.earlier;
+std::vector<Earlier> read(const Store& store, const std::string& run) {
+    std::vector<Earlier> earlier;
+    const auto run_scene = store.scene_of(run);
+    if (!run_scene) return earlier;
+    for (const Task& task : store.computed_tasks_of(run, tasks_of_a_phase)) {
+        try {
+            if (const Found found = earlier_of(store, task, *run_scene)) earlier.push_back(*found);
+        } catch (const fault::BadInput&) {  // a scene of an earlier version
         }
-        std::vector<Earlier> earlier = read(store, run.id);
-        const std::lock_guard lock(mutex_);
-        runs_[run.id] = {run.tasks_done, earlier};
-        return earlier;
     }
-
-  private:
-    static std::vector<Earlier> read(const Store& store, const std::string& run) {
-        std::vector<Earlier> earlier;
-        const auto run_scene = store.scene_of(run);
-        if (!run_scene) return earlier;
-        for (const Task& task : store.computed_tasks_of(run, tasks_of_a_phase)) {
-            try {
-                if (const Found found = earlier_of(store, task, *run_scene))
-                    earlier.push_back(*found);
-            } catch (const fault::BadInput&) {  // a scene of an earlier version
-            }
-        }
-        return earlier;
-    }
-
-    struct Known {
-        std::int64_t tasks_done = 0;
-        std::vector<Earlier> earlier;
-    };
-    std::mutex mutex_;
-    std::map<std::string, Known> runs_;
-};
-
-Memory memory;
+    return earlier;
+}
 
 }  // namespace
 
-std::vector<Earlier> earlier_costs(const Store& store) {
+std::vector<Earlier> EarlierCosts::of_run(const Store& store, const Run& run) {
+    {
+        const std::lock_guard lock(mutex_);
+        const auto known = runs_.find(run.id);
+        if (known != runs_.end() && known->second.tasks_done == run.tasks_done)
+            return known->second.earlier;
+    }
+    std::vector<Earlier> earlier = read(store, run.id);
+    const std::lock_guard lock(mutex_);
+    runs_[run.id] = {run.tasks_done, earlier};
+    return earlier;
+}
+
+std::vector<Earlier> EarlierCosts::of(const Store& store) {
     std::vector<Earlier> earlier;
     for (const Run& run : store.runs(newest_runs))
-        if (run.tasks_done > 0)
-            std::ranges::copy(memory.of(store, run), std::back_inserter(earlier));
+        if (run.tasks_done > 0) std::ranges::copy(of_run(store, run), std::back_inserter(earlier));
     return earlier;
 }
 

@@ -311,7 +311,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             std::optional<Estimate> found;
             if (!studies.none())
                 found = studies.estimate(
-                    store.task(value_of(row, "mpm_task").get<std::string>()).value());
+                    still(store.task(value_of(row, "mpm_task").get<std::string>())));
             known = by_variant.emplace(variant, std::move(found)).first;
         }
         std::optional<Estimate> estimate = known->second;
@@ -347,7 +347,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             known = by_repeated
                         .emplace(place.first, studies.none()
                                                   ? std::nullopt
-                                                  : studies.estimate(store.task(*task).value()))
+                                                  : studies.estimate(still(store.task(*task))))
                         .first;
         const Estimate estimate = of_mean(known == by_repeated.end() ? std::nullopt : known->second,
                                           scatter.of_mean(place));

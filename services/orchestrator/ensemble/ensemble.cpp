@@ -5,7 +5,7 @@
 #include <cassert>
 #include <map>
 
-#include "core/phases/phases.hpp"
+#include "services/findings/flags.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 
 namespace breach::orchestrator {
@@ -82,7 +82,7 @@ std::optional<double> result_of(const SampleRow& sample, std::string_view quanti
 }
 
 bool is_lower_bound(const SampleRow& sample, std::string_view quantity) {
-    return phases::grows(quantity) && sample.row && value_of(*sample.row, "at_rest") == false;
+    return findings::grows(quantity) && sample.row && value_of(*sample.row, "lower_bound") == true;
 }
 
 std::string first_quantity(const Ensemble& ensemble) {

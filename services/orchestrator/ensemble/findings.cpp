@@ -5,8 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "services/findings/flags.hpp"
+#include "services/findings/uncertainty.hpp"
 #include "services/orchestrator/ensemble/inverse_search.hpp"
-#include "services/orchestrator/ensemble/sentences.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/records/repeats.hpp"
 #include "services/orchestrator/uncertainty/percentiles.hpp"
@@ -161,6 +162,7 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
     const Repeats repeats = repeats_of(found.results);
     json made{{"label", quantity.meaning},
               {"unit", quantity.unit},
+              {"grows", findings::grows(quantity.name)},
               {"count", found.results.size()},
               {"of", ensemble.samples.size()},
               {"mean", repeats.mean},
@@ -187,16 +189,22 @@ json counts_of(const Ensemble& ensemble) {
         return std::ranges::count(ensemble.samples, fate, &SampleRow::fate);
     };
     json left_out = json::array();
-    std::int64_t questionable = 0;
+    std::int64_t questionable = 0, moving = 0;
     for (const SampleRow& each : ensemble.samples) {
         if (each.state == "questionable") ++questionable;
+        if (is_lower_bound(each, "runout")) ++moving;
         if (each.fate == Fate::failed || each.fate == Fate::no_transfer)
             left_out.push_back(
                 {{"sample", each.name}, {"state", each.state}, {"reason", each.reason}});
     }
-    return {{"planned", ensemble.samples.size()},      {"done", count(Fate::done)},
-            {"failed", count(Fate::failed)},           {"open", count(Fate::open)},
-            {"no_transfer", count(Fate::no_transfer)}, {"questionable", questionable},
+    return {{"planned", ensemble.samples.size()},
+            {"done", count(Fate::done)},
+            {"failed", count(Fate::failed)},
+            {"open", count(Fate::open)},
+            {"no_transfer", count(Fate::no_transfer)},
+            {"questionable", questionable},
+            {"moving", moving},
+            {"doubtful", questionable - moving},
             {"left_out", std::move(left_out)}};
 }
 
@@ -257,7 +265,8 @@ json findings_of(const Ensemble& ensemble, const json& scene, const std::string&
         {"quantities", std::move(quantities)},
         {"until", until_of(ensemble)},
         {"inverse", search ? as_json(*search, ensemble.entry.at("target").at("vary")) : json()}};
-    answer["sentences"] = sentences_of(answer);
+    answer["sentences"] = findings::sentences_of(answer);
+    answer["cautions"] = findings::cautions_of(answer);
     if (const json::json_pointer own("/lem/probability");
         scene.contains(own) && answer["quantities"].contains("factor_of_safety"))
         answer["sentences"].push_back(

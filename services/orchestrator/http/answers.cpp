@@ -1,6 +1,7 @@
 #include "services/orchestrator/http/answers.hpp"
 
 #include "core/exchange/csv.hpp"
+#include "services/findings/flags.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/records/time_left.hpp"
 
@@ -24,6 +25,14 @@ json as_json(const Attempt& attempt) {
 /// What the task's result says of it; null when there is no result, or an earlier version made it.
 json of_result(const Task& task, const char* key) {
     return task.result && task.result->is_object() ? task.result->value(key, json()) : json();
+}
+
+/// By code: the results that carry it, of the phase with the most.
+std::map<std::string, std::int64_t> flag_counts(const findings::Facts& facts) {
+    std::map<std::string, std::int64_t> counts;
+    for (const findings::Raised& each : facts.raised)
+        counts[each.flag.code] = std::max(counts[each.flag.code], each.results);
+    return counts;
 }
 
 json schema_of(ColumnKind kind) {
@@ -72,7 +81,8 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"submitted_by", or_null(run.submitted_by)},
             {"seconds_left", or_null(left)},
             {"questionable", run.questionable},
-            {"flag_counts", counts_of(run.flags)},
+            {"flag_counts", flag_counts(run.facts)},
+            {"verdict", findings::as_json(findings::verdict_of(run.facts))},
             {"message", run.message}};
 }
 
@@ -161,7 +171,8 @@ json described(Columns columns) {
                         {"kind", name_of(each.kind)},
                         {"unit", each.unit},
                         {"title", each.title},
-                        {"meaning", each.meaning}});
+                        {"meaning", each.meaning},
+                        {"grows", findings::grows(each.name)}});
     }
     return list;
 }

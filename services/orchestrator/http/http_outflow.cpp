@@ -59,7 +59,7 @@ std::string doubt_of(const Store& store, const Task& task) {
             codes += (codes.empty() ? "" : ", ") + flag.at("code").get<std::string>();
         }
         std::string doubt = codes.empty() ? "" : "Questionable: " + codes + ".";
-        if (value_of(row, "at_rest") == false)
+        if (value_of(row, "lower_bound") == true)
             doubt += (doubt.empty() ? "" : " ") +
                      std::string("The runout was cut off in motion: volumes are lower bounds.");
         return doubt;

@@ -197,8 +197,8 @@ void Router::answer_uncounted(Call& call) const {
         response.set_header("Retry-After", "5");
         refuse(response,
                {503, "/problems/storage", "The database refused", "nothing was stored; try again"});
-    } catch (const std::bad_optional_access&) {
-        // Found a moment ago. A 404 would be wrong where another run was looked into beside this.
+    } catch (const RemovedMeanwhile&) {
+        // A 404 would be wrong where another run was looked into beside this.
         response.set_header("Retry-After", "1");
         refuse(response, {503, "/problems/removed-meanwhile", "Removed meanwhile",
                           "a run was removed while this was read; ask again"});

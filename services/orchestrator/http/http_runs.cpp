@@ -110,8 +110,8 @@ void show_run(const Service& service, Call& call) {
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
     json body = as_json(run, service.store, service.board);
-    body["study"] = service.store.study_of(id).value();
-    body["study"]["scene"] = json::parse(service.store.scene_of(id).value());
+    body["study"] = still(service.store.study_of(id));
+    body["study"]["scene"] = json::parse(still(service.store.scene_of(id)));
     body["files"] = files_json(service, id);
     body["scene_from"] = scene_source_json(service, id);
     if (run.tasks_total > static_cast<std::int64_t>(tasks_at_once))
@@ -224,7 +224,7 @@ void add_without_transfer(const Store& store, const std::string& run,
 /// Of the study's own variants, not of their draws.
 json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
     std::vector<std::string> variants;
-    for (const json& each : store.study_of(run).value().value("variants", json::array()))
+    for (const json& each : still(store.study_of(run)).value("variants", json::array()))
         variants.push_back(each.at("name"));
     if (variants.size() < 2) return json::array();
     return same_results(all_rows(), variants);
@@ -232,7 +232,7 @@ json same_results_of(const Store& store, const std::string& run, const AllRows& 
 
 void results(const Service& service, Call& call) {
     call.allow_parameters({"format", "from", "limit", "state", "flag", "table"});
-    wanted_run(service, call.parts[0]);
+    Run run = wanted_run(service, call.parts[0]);
     const std::string wanted = call.parameter("table").value_or("runs");
     if (wanted != "runs" && wanted != "means") throw bad_request("table must be runs or means");
     const ResultFilter filter = wanted_results(call);
@@ -259,7 +259,7 @@ void results(const Service& service, Call& call) {
                                  "attachment; filename=\"" +
                                      std::string(wanted == "runs" ? "results" : "means") + ".h5\"");
         call.response.set_content(
-            as_hdf5(table, call.parts[0], service.store.scene_of(call.parts[0]).value(),
+            as_hdf5(table, call.parts[0], still(service.store.scene_of(call.parts[0])),
                     service.frames, service.data.scratch()),
             "application/x-hdf5");
         return;
@@ -272,11 +272,14 @@ void results(const Service& service, Call& call) {
                            {"state", each.state},
                            {"stood", each.stood},
                            {"reason", each.reason}});
+    const json same = same_results_of(service.store, call.parts[0], all_rows);
+    run.facts.same_results = same;
     const json head{{"run", call.parts[0]},
+                    {"verdict", findings::as_json(findings::verdict_of(run.facts))},
                     {"columns", described(runs.columns)},
                     {"mean_columns", described(means.columns)},
                     {"without_transfer", std::move(without)},
-                    {"same_results", same_results_of(service.store, call.parts[0], all_rows)}};
+                    {"same_results", same}};
     reply_with_text(call.response,
                     opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
                         ",\"means\":" + as_json_text(means.rows, means.columns) + "}");
@@ -350,8 +353,8 @@ void extend_sweep(Service& service, Call& call) {
     }
     if (samples && (!body["samples"].is_number_unsigned() || body["samples"] < 1))
         throw bad_request("samples must be a whole number above 0: so many in all");
-    const RunSoFar so_far{.study = service.store.study_of(id).value(),
-                          .scene = service.store.scene_of(id).value(),
+    const RunSoFar so_far{.study = still(service.store.study_of(id)),
+                          .scene = still(service.store.scene_of(id)),
                           .tasks = service.store.tasks_of(id)};
     const Extension extension =
         samples ? plan_more_samples(so_far, service.data, service.numerics,
@@ -384,7 +387,7 @@ void show_sweep(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_sweep(service, call.parts[0]);
     json body = sweep_json(service, run);
-    const json study = service.store.study_of(run.id).value();
+    const json study = still(service.store.study_of(run.id));
     body["transfer_times"] = study.value("transfer_times", json::array());
     body["variants"] = study.value("variants", json::array());
     reply(call.response, body);

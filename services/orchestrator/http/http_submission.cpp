@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 
 #include "core/exchange/provenance.hpp"
 #include "core/phases/phases.hpp"
@@ -23,38 +22,21 @@ constexpr std::array run_states{"queued",       "running", "budget_exhausted", "
                                 "questionable", "partial", "failed",           "cancelled"};
 constexpr std::array sweep_states{"planning", "refining"};  // besides those
 
-/// The keys of requests that are being stored now. What is stored already is in the database.
-class KeysInProgress {
-  public:
-    bool enter(const std::string& key) {
-        const std::lock_guard lock(mutex_);
-        return keys_.insert(key).second;
-    }
-    void leave(const std::string& key) {
-        const std::lock_guard lock(mutex_);
-        keys_.erase(key);
-    }
-
-  private:
-    std::mutex mutex_;
-    std::set<std::string> keys_;
-};
-
-KeysInProgress keys_in_progress;
-
 class KeyInProgress {
   public:
-    KeyInProgress(std::string key, httplib::Response& response) : key_(std::move(key)) {
-        if (keys_in_progress.enter(key_)) return;
+    KeyInProgress(KeysInProgress& keys, std::string key, httplib::Response& response)
+        : keys_(keys), key_(std::move(key)) {
+        if (keys_.enter(key_)) return;
         response.set_header("Retry-After", "1");
         throw Problem{409, "/problems/idempotency-in-progress", "In progress",
                       "a request with this Idempotency-Key is being stored; ask again"};
     }
-    ~KeyInProgress() { keys_in_progress.leave(key_); }
+    ~KeyInProgress() { keys_.leave(key_); }
     KeyInProgress(const KeyInProgress&) = delete;
     KeyInProgress& operator=(const KeyInProgress&) = delete;
 
   private:
+    KeysInProgress& keys_;
     std::string key_;
 };
 
@@ -120,7 +102,7 @@ Accepted accept_study(Service& service, Call& call, Ask ask) {
     const std::string& body = call.json_body();
     const auto key = idempotency_key(call.request);
     if (!key) return stored(service, call, body, ask, [](Transaction&, const std::string&) {});
-    const KeyInProgress seat(*key, call.response);
+    const KeyInProgress seat(service.keys, *key, call.response);
     const std::string hash = exchange::sha256_of_text(body);
     if (const auto known = service.store.run_of_key(*key)) {
         if (known->body_sha256 != hash)

@@ -70,7 +70,7 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     std::vector<fault::Fault> faults =
         scene::complete_and_check(entries, scene::study_schema().at("properties").at("triggers"));
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
-    const json scene = json::parse(service.store.scene_of(run).value());
+    const json scene = json::parse(still(service.store.scene_of(run)));
     if (!scene.contains(phases::fem.part))
         throw Problem{409, "/problems/no-fem", "No FEM to watch", "the run's scene has no FEM"};
     const double span = span_of(scene);
@@ -85,8 +85,8 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
 
 /// One FEM has one critical depth: that of another variant would tell of another dam.
 void check_fems(const Service& service, const std::string& run, const TriggerPlan& plan) {
-    const RunSoFar so_far{.study = service.store.study_of(run).value(),
-                          .scene = service.store.scene_of(run).value(),
+    const RunSoFar so_far{.study = still(service.store.study_of(run)),
+                          .scene = still(service.store.scene_of(run)),
                           .tasks = service.store.tasks_of(run)};
     if (!shares_fems_too_widely(so_far, service.data, service.numerics, plan)) return;
     throw fault::BadInput(
@@ -102,7 +102,7 @@ void add(Service& service, Call& call) {
     const std::string& run = call.parts[0];
     wanted_run(service, run);
     const TriggerPlan plan = checked(service, run, call.json_body());
-    const Draws draws = draws_of(service.store.study_of(run).value());
+    const Draws draws = draws_of(still(service.store.study_of(run)));
     if (const std::string refusal(refusal_of_triggers(draws)); !refusal.empty())
         throw bad_request(refusal);
     for (const Trigger& each : service.store.triggers_of(run)) {

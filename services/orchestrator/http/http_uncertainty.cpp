@@ -28,7 +28,7 @@ void uncertainty(const Service& service, Call& call) {
     if (format == "json")
         return reply(
             call.response,
-            findings_of(*ensemble, json::parse(service.store.scene_of(run.id).value()), quantity));
+            findings_of(*ensemble, json::parse(still(service.store.scene_of(run.id))), quantity));
     const SampleTable samples = sample_table(*ensemble);
     if (format == "csv")
         return call.response.set_content(as_csv(samples.rows, samples.columns),
@@ -37,7 +37,7 @@ void uncertainty(const Service& service, Call& call) {
     call.response.set_header("Content-Disposition", "attachment; filename=\"samples.h5\"");
     call.response.set_content(
         as_hdf5({"uncertainty_samples", samples.columns, samples.rows}, run.id,
-                service.store.scene_of(run.id).value(), service.frames, service.data.scratch()),
+                still(service.store.scene_of(run.id)), service.frames, service.data.scratch()),
         "application/x-hdf5");
 }
 

@@ -7,7 +7,6 @@
 #include "core/scene/schema.hpp"
 #include "core/words/number.hpp"
 #include "services/estimate/cost.hpp"
-#include "services/orchestrator/accuracy/earlier_costs.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/http/stored_scene.hpp"
@@ -71,7 +70,7 @@ Judged judged(const Service& service, const json& document, const report::Draft&
 std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::Scene& scene,
                                            const std::optional<estimate::MeshCounts>& mesh = {}) {
     std::vector<estimate::PhaseCost> costs = estimate::cost_of(scene, mesh);
-    estimate::learn(costs, scene.name, earlier_costs(service.store));
+    estimate::learn(costs, scene.name, service.earlier_costs.of(service.store));
     return costs;
 }
 

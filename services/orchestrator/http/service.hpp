@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <string>
 
+#include "services/orchestrator/accuracy/earlier_costs.hpp"
 #include "services/orchestrator/dispatch/dispatcher.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/dispatch/retention.hpp"
@@ -13,6 +16,23 @@
 
 namespace breach::orchestrator {
 
+/// The Idempotency-Keys of requests that are being stored now. What is stored already is in the database.
+class KeysInProgress {
+  public:
+    bool enter(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        return keys_.insert(key).second;
+    }
+    void leave(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        keys_.erase(key);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::set<std::string> keys_;
+};
+
 struct Service {
     Store& store;
     const DataFolder& data;
@@ -20,6 +40,8 @@ struct Service {
     Retention& retention;
     const ProgressBoard& board;
     FrameReader& frames;
+    EarlierCosts& earlier_costs;
+    KeysInProgress& keys;
     std::filesystem::path bin;        ///< the phase executables
     Numerics numerics;                ///< what they say of themselves
     std::filesystem::path web;        ///< the dashboard's files

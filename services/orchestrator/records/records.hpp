@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "services/orchestrator/records/flag_tally.hpp"
+#include "services/findings/verdict.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
 #include "services/orchestrator/records/trigger.hpp"
 
@@ -152,7 +152,7 @@ struct Run {
     double spent = 0.0;                 ///< by all attempts that have ended [CPU s]
     /// The token's name; nothing: the service asked for none.
     std::optional<std::string> submitted_by = {};
-    std::vector<FlagTally> flags = {};
+    findings::Facts facts = {};  ///< what its verdict follows from
 };
 
 /// The MPM of a rung of an accuracy study.

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "core/words/words.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
@@ -53,13 +54,14 @@ constexpr std::array columns{
         "what made the transfer; at_time: the study's list; empty: nothing is transferred"},
     ResultColumn{"at_rest", "/at_rest", yes_no, "", "rest",
                  "the soil came to rest; if not, the runout is a lower bound"},
+    ResultColumn{"lower_bound", "", yes_no, "", "",
+                 "the soil still moved at the end: distances and areas are lower bounds"},
     ResultColumn{"ended", "/ended", word, "", "", "what ended the MPM: at_rest or duration"},
     ResultColumn{"kinetic_share", "/kinetic_share", number, "1", "kinetic share",
                  "kinetic energy at the end, of the energy released"},
     ResultColumn{"end_time", "/end_time", number, "s", "", "end of the MPM, by its own clock"},
     ResultColumn{"questionable", "", yes_no, "", "",
-                 "the result is not one to rely on; null: it does not say (not yet, or made by an "
-                 "earlier version)"},
+                 "the result is not one to rely on; null: there is none yet"},
     ResultColumn{"flags", "", ColumnKind::flags, "", "",
                  "what to know before believing it: of the MPM, the transfer and the FEM"},
     ResultColumn{"runout_error", "", number, "m", "+-",
@@ -83,6 +85,10 @@ constexpr std::array columns{
 std::span<const ResultColumn> result_columns() { return columns; }
 
 const char* name_of(ColumnKind kind) { return words::name_of(kind).data(); }
+
+json& value_of(ResultRow& row, std::string_view name) {
+    return const_cast<json&>(value_of(std::as_const(row), name));
+}
 
 const json& value_of(const ResultRow& row, std::string_view name) {
     const auto found = std::ranges::find(columns, name, &ResultColumn::name);

@@ -45,6 +45,7 @@ struct ResultTable {
 
 /// The value of the column with this name.
 const nlohmann::json& value_of(const ResultRow& row, std::string_view name);
+nlohmann::json& value_of(ResultRow& row, std::string_view name);
 
 /// "still_moving;implausible": the codes of a list of flags, each once.
 std::string codes_of(const nlohmann::json& flags);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
+#include "services/findings/flags.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/store/store.hpp"
@@ -138,8 +139,7 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
     std::vector<Run> found;
     read([&](Connection& database) {
         database.query(sql, values, [&](const Row& row) { found.push_back(run_from(row)); });
-        add_flags(database, found);
-        tell_without_transfer(database, found);
+        gather_facts(database, found);
         tell_what_is_missing(database, found);
     });
     return found;
@@ -177,39 +177,11 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
     read([&](Connection& database) {
         database.query(run_columns(state) + "WHERE r.id=?", {id},
                        [&](const Row& row) { found.push_back(run_from(row)); });
-        add_flags(database, found);
-        tell_without_transfer(database, found);
+        gather_facts(database, found);
         tell_what_is_missing(database, found);
     });
     if (found.empty()) return std::nullopt;
     return std::move(found.front());
-}
-
-/// Counts the flags of these runs, and says on their page what is doubtful in them.
-void Store::add_flags(Connection& database, std::vector<Run>& runs) {
-    json ids = json::array();
-    for (const Run& each : runs)
-        if (each.tasks_ended > 0) ids.push_back(each.id);  // flags come with results
-    if (ids.empty()) return;
-    database.query(
-        "SELECT run, code, phase, severity='questionable', count(DISTINCT task), CASE WHEN "
-        "severity<>'questionable' THEN 0 WHEN phase=?2 THEN (SELECT runouts FROM "
-        "run_counts WHERE run_counts.run=flags.run) ELSE (SELECT count(*) FROM tasks WHERE "
-        "tasks.run=flags.run AND tasks.phase=flags.phase AND tasks.state IN ('succeeded', "
-        "'cached')) END FROM flags WHERE run IN (SELECT value FROM json_each(?1)) GROUP BY run, "
-        "severity, code, phase",
-        {ids.dump(), phases::mpm.program}, [&](const Row& row) {
-            std::ranges::find(runs, row.text(0), &Run::id)
-                ->flags.push_back({.code = row.text(1),
-                                   .phase = row.text(2),
-                                   .questionable = row.integer(3) != 0,
-                                   .results = row.integer(4),
-                                   .of_results = row.integer(5)});
-        });
-    for (Run& each : runs) {
-        const std::string doubt = doubt_of(each.flags);
-        if (!doubt.empty()) each.message += (each.message.empty() ? "" : "; ") + doubt;
-    }
 }
 
 std::optional<json> Store::study_of(const std::string& run) const {
@@ -553,6 +525,10 @@ std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter
             found.push_back(result_from(row, result_columns()));
         });
     });
+    for (ResultRow& each : found)
+        if (!value_of(each, "runout").is_null())
+            value_of(each, "lower_bound") =
+                findings::still_moves(value_of(each, "at_rest"), value_of(each, "flags"));
     return found;
 }
 

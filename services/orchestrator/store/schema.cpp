@@ -6,7 +6,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr std::int64_t this_version = 12;
+constexpr std::int64_t this_version = 13;
 
 const char* const tables = R"sql(
 -- What a phase computes: equal recipes and inputs have equal results.
@@ -78,6 +78,7 @@ CREATE INDEX tasks_by_run ON tasks(run, state, started, finished);
 CREATE INDEX tasks_by_phase ON tasks(phase, id) WHERE recipe IS NOT NULL;
 CREATE INDEX tasks_to_start ON tasks(priority DESC, id) WHERE state = 'ready';
 CREATE INDEX tasks_with_faults ON tasks(run, id) WHERE fault_summary IS NOT NULL;
+CREATE INDEX tasks_unstable ON tasks(run) WHERE phase = 'lem_tool' AND json_extract(result, '$.factor_of_safety') < 1;
 CREATE INDEX tasks_unfinished ON tasks(run) WHERE finished IS NULL;
 CREATE INDEX tasks_by_parent ON tasks(parent, state, id);
 CREATE INDEX tasks_of_sweep ON tasks(run, phase, variant, transfer_time, id);

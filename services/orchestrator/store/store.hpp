@@ -27,6 +27,18 @@ struct IdempotentRun {
     std::string run;
 };
 
+/// A run or task that was found a moment ago is gone: somebody removed it.
+struct RemovedMeanwhile : std::runtime_error {
+    RemovedMeanwhile() : std::runtime_error("a run was removed while this was read") {}
+};
+
+/// What must be there unless its run was removed meanwhile.
+template <class T>
+T still(std::optional<T> found) {
+    if (!found) throw RemovedMeanwhile();
+    return std::move(*found);
+}
+
 class Store {
   public:
     explicit Store(const std::filesystem::path& file);
@@ -165,9 +177,8 @@ class Store {
     /// A reading connection for the duration of `read`.
     void read(const std::function<void(Connection&)>& read) const;
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
-    static void add_flags(Connection& database, std::vector<Run>& runs);
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
-    static void tell_without_transfer(Connection& database, std::vector<Run>& runs);
+    static void gather_facts(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};
     std::filesystem::path file_;

@@ -68,11 +68,6 @@ struct Expression {
 const std::string tasks_of_row = "(mpm.id, transfer.id, transfer.parent)";
 const std::string is_questionable = "EXISTS (SELECT 1 FROM flags WHERE flags.task IN " +
                                     tasks_of_row + " AND flags.severity = 'questionable')";
-/// A result of an earlier version has no list of flags, not even an empty one.
-const std::string is_judged =
-    "(json_type(mpm.result, '$.flags') = 'array'"
-    " OR EXISTS (SELECT 1 FROM flags WHERE flags.task = mpm.id))";
-
 /// Of its variant's own stability analysis, or the one that serves all.
 std::string of_stability(const std::string& what) {
     return "(SELECT " + what +
@@ -105,15 +100,15 @@ const std::vector<Expression> own_columns{
      " 'at_time') END"},
     {"factor_of_safety", of_stability("json_extract(lem.result, '$.factor_of_safety')")},
     {"factor_of_safety_liquefied", of_stability(factor_liquefied("lem.result"))},
-    {"questionable", "CASE WHEN mpm.result IS NULL THEN NULL WHEN " + is_questionable +
-                         " THEN 1 WHEN " + is_judged + " THEN 0 END"},
-    {"flags", "CASE WHEN " + is_judged +
-                  " THEN coalesce((SELECT group_concat(code, ';') FROM"
-                  "\n        (SELECT code FROM flags WHERE task IN " +
-                  tasks_of_row + " GROUP BY code ORDER BY min(severity), code)), '') END"},
+    {"questionable", "CASE WHEN mpm.result IS NOT NULL THEN " + is_questionable + " END"},
+    {"flags",
+     "CASE WHEN mpm.result IS NOT NULL"
+     " THEN coalesce((SELECT group_concat(code, ';') FROM"
+     "\n        (SELECT code FROM flags WHERE task IN " +
+         tasks_of_row + " GROUP BY code ORDER BY min(severity), code)), '') END"},
 };
-/// What the service works out beside the database (accuracy/runout_error.hpp): not in the view.
-const std::vector<std::string> worked_out{"runout_error", "runout_error_from"};
+/// What the service works out beside the database (services/findings, accuracy/runout_error.hpp): not in the view.
+const std::vector<std::string> worked_out{"lower_bound", "runout_error", "runout_error_from"};
 
 bool is_in_view(const ResultColumn& column) {
     return std::ranges::find(worked_out, column.name) == worked_out.end();
@@ -125,11 +120,11 @@ const std::vector<Expression> other_columns{
     {"variant_place", "coalesce(variants.place, 0)"},
     {"draw_of", "variants.draw_of"},
     {"flag_list",
-     "CASE WHEN " + is_judged +
-         " THEN (SELECT json_group_array(json_object('code', code, 'severity', severity,"
-         "\n        'message', message, 'pointer', pointer, 'phase', phase)) FROM"
-         "\n        (SELECT code, severity, message, pointer, phase, min(task) FROM flags"
-         " WHERE task IN " +
+     "CASE WHEN mpm.result IS NOT NULL"
+     " THEN (SELECT json_group_array(json_object('code', code, 'severity', severity,"
+     "\n        'message', message, 'pointer', pointer, 'phase', phase)) FROM"
+     "\n        (SELECT code, severity, message, pointer, phase, min(task) FROM flags"
+     " WHERE task IN " +
          tasks_of_row +
          "\n        GROUP BY code, severity, pointer ORDER BY severity, code, pointer)) END"},
 };

@@ -2,6 +2,7 @@
 // so they belong to the program and not to a version of the database: made anew when they differ.
 #pragma once
 
+#include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/store/connection.hpp"
 
 namespace breach::orchestrator {
@@ -15,6 +16,9 @@ std::string makes_a_row(const std::string& task);
 /// The SQL condition on a trigger's spec by which it draws more samples (triggers/batch_watch.hpp) and
 /// watches no FEM.
 std::string draws_samples(const std::string& spec);
+/// In the order of the run's plan.
+std::vector<WithoutTransfer> variants_without_transfer(Connection& database,
+                                                       const std::string& run);
 /// SQL: of the result of a stability analysis the factor of safety with every layer liquefied that may;
 /// NULL: none may.
 std::string factor_liquefied(const std::string& result);

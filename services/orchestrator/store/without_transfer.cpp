@@ -80,7 +80,10 @@ std::set<std::string> variants_with_rows(Connection& database, const std::string
     return found;
 }
 
-std::vector<WithoutTransfer> found_in(Connection& database, const std::string& run) {
+}  // namespace
+
+std::vector<WithoutTransfer> variants_without_transfer(Connection& database,
+                                                       const std::string& run) {
     std::vector<WithoutTransfer> found;
     bool has_triggers = false;
     database.query("SELECT 1 FROM triggers WHERE run=? LIMIT 1", {run},
@@ -101,35 +104,10 @@ std::vector<WithoutTransfer> found_in(Connection& database, const std::string& r
     return found;
 }
 
-}  // namespace
-
 std::vector<WithoutTransfer> Store::without_transfer(const std::string& run) const {
     std::vector<WithoutTransfer> found;
-    read([&](Connection& database) { found = found_in(database, run); });
+    read([&](Connection& database) { found = variants_without_transfer(database, run); });
     return found;
-}
-
-/// Of what is over. By counts: a list of runs is asked for often, and plans of many samples are long.
-void Store::tell_without_transfer(Connection& database, std::vector<Run>& runs) {
-    for (Run& each : runs) {
-        if (!each.finished) continue;
-        database.query(
-            "SELECT count(DISTINCT fem_task), (SELECT count(*) FROM tasks WHERE run=?1 AND "
-            "phase=?2), name, reason, min(rowid) FROM triggers WHERE run=?1 AND state='expired' "
-            "AND NOT (" +
-                draws_samples("spec") +
-                ") AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE "
-                "child.parent=triggers.fem_task)",
-            {each.id, phases::fem.program}, [&](const Row& row) {
-                const std::int64_t without = row.integer(0), fems = row.integer(1);
-                if (without == 0) return;
-                each.message += (each.message.empty() ? "" : "; ") + std::string("no transfer") +
-                                (fems == 1 ? ""
-                                           : " from " + std::to_string(without) + " of " +
-                                                 std::to_string(fems) + " FEMs") +
-                                ": " + row.text(2) + ": " + row.text(3);
-            });
-    }
 }
 
 }  // namespace breach::orchestrator

@@ -109,7 +109,7 @@ bool BatchWatch::has_ended(const std::string& run) const {
 bool BatchWatch::settle(const Trigger& trigger) {
     if (!has_ended(trigger.run)) return false;
     if (trigger.spec.contains("target")) return search_on(trigger);
-    const json study = store_.study_of(trigger.run).value();
+    const json study = still(store_.study_of(trigger.run));
     const json& entry = study.at("uncertainty");
     const std::string quantity = trigger.spec.at("quantity");
     const auto results = results_of(store_, trigger.run, quantity);
@@ -142,7 +142,7 @@ bool BatchWatch::draw_on(const Trigger& trigger, const json& study) {
 /// The next value that the inverse search asks for.
 bool BatchWatch::search_on(const Trigger& trigger) {
     const auto ensemble = ensemble_of(store_, trigger.run);
-    const json scene = json::parse(store_.scene_of(trigger.run).value());
+    const json scene = json::parse(still(store_.scene_of(trigger.run)));
     const InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
     if (advice.run_next.empty()) {
         const TriggerEvent event = advice.found ? TriggerEvent::fire : TriggerEvent::expire;
@@ -152,14 +152,14 @@ bool BatchWatch::search_on(const Trigger& trigger) {
     }
     json wanted = ensemble->entry;
     for (const double each : advice.run_next) wanted["target"]["values"].push_back(each);
-    return extend(trigger, store_.study_of(trigger.run).value(), wanted);
+    return extend(trigger, still(store_.study_of(trigger.run)), wanted);
 }
 
 bool BatchWatch::extend(const Trigger& trigger, const json& study, const json& entry) {
     bool added = false;
     try {
         const RunSoFar so_far{.study = study,
-                              .scene = store_.scene_of(trigger.run).value(),
+                              .scene = still(store_.scene_of(trigger.run)),
                               .tasks = store_.tasks_of(trigger.run)};
         const Extension extension = plan_more_variants(so_far, data_, numerics_, entry);
         store_.write([&](Transaction& transaction) {

@@ -36,10 +36,11 @@ class Run:
         self.id: str = about["id"]
         self.name: str = about["name"]
         self.state: str = about["state"]  #: as it was when this object was made
+        self.verdict: str = about["verdict"]["words"]  #: "not usable"; the reasons are in `about["verdict"]`
         self.about: Document = about  #: everything the service says of the run
 
     def __repr__(self) -> str:
-        return f"Run({self.id}, {self.name}, {self.state})"
+        return f"Run({self.id}, {self.name}, {self.state}: {self.verdict})"
 
     @cached_property
     def study(self) -> Document:

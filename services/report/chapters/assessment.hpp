@@ -22,8 +22,6 @@ std::string or_dash(const nlohmann::json& value, int digits = 3);
 /// "0.1 to 0.3", of two entries; "-" where they are no numbers.
 std::string ends_of(const nlohmann::json& each, const char* low, const char* high);
 
-/// What the numbers of this quantity do not say by themselves, in sentences.
-std::vector<std::string> cautions_of(const Run& run, const nlohmann::json& quantity);
 /// The page that a regulator reads. name: the quantity that was asked first.
 Chapter assessment_page(const Run& run, const std::string& name);
 /// Distributions, envelopes, hydrographs and samples behind that page; what is missing is noted.

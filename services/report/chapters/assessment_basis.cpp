@@ -6,6 +6,7 @@
 #include "core/exchange/archive.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
+#include "services/findings/flags.hpp"
 #include "services/report/chapters/assessment.hpp"
 #include "services/report/figures/uncertainty_figures.hpp"
 #include "services/report/read/samples.hpp"
@@ -37,7 +38,7 @@ void add_published(const Material& from, const std::string& quantity, Figure& fi
 
 std::optional<double> least_moving(const Run& run, const std::string& quantity) {
     std::optional<double> least;
-    if (!phases::grows(quantity)) return least;
+    if (!findings::grows(quantity)) return least;
     for (const PhaseFolder* each : moving_samples(run))
         if (const json value = each->result.value(quantity, json()); value.is_number())
             least = std::min(least.value_or(no_bound_yet), value.get<double>());
@@ -94,7 +95,7 @@ Table percentile_table(const Run& run) {
         "deviation of distances that are lower bounds in part are too small."};
     for (const std::string& name : quantities_of(run.uncertainty)) {
         const json& quantity = run.uncertainty.at("quantities").at(name);
-        const bool bound = phases::grows(name) && !moving_samples(run).empty();
+        const bool bound = findings::grows(name) && !moving_samples(run).empty();
         std::vector<std::string> row{
             words_of(name) + unit_in_brackets(quantity),
             quantity.at("count").dump() + " of " + quantity.at("of").dump(),
@@ -156,7 +157,7 @@ Table sample_table(const Run& run, const std::string& name) {
         const json results = row.value("results", json());
         const std::string value =
             results.is_object() ? or_dash(results.value(name, json()), 4) : "-";
-        const bool bound = phases::grows(name) && value != "-" &&
+        const bool bound = findings::grows(name) && value != "-" &&
                            std::ranges::any_of(moving, [&](const PhaseFolder* each) {
                                return json(each->variant) == row.at("sample");
                            });

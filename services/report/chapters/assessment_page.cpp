@@ -305,7 +305,10 @@ Chapter assessment_page(const Run& run, const std::string& name) {
                         count_of(samples.at("planned"), "sample") + " of " +
                         count_of(answer.at("parameters").size(), "uncertain parameter") + "."};
     chapter.opens_page = true;
-    chapter.cautions = cautions_of(run, answer.at("quantities").at(name));
+    for (const json& each : answer.at("cautions")) chapter.cautions.push_back(each);
+    chapter.cautions.emplace_back(
+        "Percentiles are over the parameters named below, as they are distributed there, and over "
+        "nothing else. They leave out what the model leaves out (table of CDA's cases below).");
     chapter.tables = {{"assessment_what",
                        "What fails, and when",
                        {"question", "answer"},

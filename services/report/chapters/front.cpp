@@ -312,10 +312,15 @@ void add_factors(const Run& run, Table& table) {
          brief_fact(**least, "/factor_of_safety"), range_of(all, "/factor_of_safety", false),
          worth});
     if (liquefied) table.rows.push_back(std::move(*liquefied));
-    if ((*least)->result.contains("critical_depth"))
-        table.rows.push_back({"Critical liquefied depth [m]",
-                              brief_fact(**least, "/critical_depth"),
-                              range_of(all, "/critical_depth", false), ""});
+    if (!(*least)->result.contains("critical_depth")) return;
+    table.rows.push_back(
+        {"Liquefied depth at which the factor of safety falls to 1 [m]",
+         brief_fact(**least, "/depth_at_fs_1"), range_of(all, "/depth_at_fs_1", false),
+         brief_fact(**least, "/depth_at_fs_1") == "-" ? "stands with every layer liquefied" : ""});
+    table.rows.push_back({"Depth of the critical surface (critical_depth of triggers) [m]",
+                          brief_fact(**least, "/critical_depth"),
+                          range_of(all, "/critical_depth", false),
+                          "lowest point of the stage with the least factor of safety"});
 }
 
 /// Of many, as of samples that change the FEM, together.

@@ -12,8 +12,6 @@ const char* name_of(Certainty certainty) {
             return "lower bound";
         case Certainty::doubtful:
             return "questionable";
-        case Certainty::unknown:
-            return "not known";
     }
     return "";
 }

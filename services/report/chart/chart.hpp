@@ -21,7 +21,7 @@ struct Axis {
 };
 
 /// What a point's value is worth. at_least: a lower bound, drawn with an arrow upwards.
-enum class Certainty { certain, at_least, doubtful, unknown };
+enum class Certainty { certain, at_least, doubtful };
 /// "lower bound": for legends and data.
 const char* name_of(Certainty certainty);
 

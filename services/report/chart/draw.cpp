@@ -142,10 +142,6 @@ void draw_point(std::ostream& svg, double x, double y, const std::string& colour
             svg << "fill=\"#fff\" stroke=\"" << colour
                 << "\" stroke-width=\"2\" stroke-dasharray=\"2.4 1.6\"/>\n";
             return;
-        case Certainty::unknown:
-            svg << "fill=\"" << colour << "\" fill-opacity=\"0.25\" stroke=\"" << colour
-                << "\"/>\n";
-            return;
     }
 }
 
@@ -258,7 +254,7 @@ std::vector<Entry> entries_of(const Chart& chart, const std::vector<std::string>
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         if (!chart.series[i].like) entries.push_back({chart.series[i].name, colour[i]});
     }
-    for (const Certainty each : {Certainty::at_least, Certainty::doubtful, Certainty::unknown}) {
+    for (const Certainty each : {Certainty::at_least, Certainty::doubtful}) {
         const bool there = std::ranges::any_of(chart.series, [&](const Series& s) {
             return std::ranges::find(s.certainty, each) != s.certainty.end();
         });

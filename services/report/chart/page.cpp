@@ -28,6 +28,7 @@ constexpr const char* style =
     "font-size:14px}"
     ".verdict{border-left:4px solid #3b7a8c;background:#eaf4f6;padding:.4em 1em}.verdict.doubt{"
     "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
+    ".verdict.unusable h2{background:#b3132b;color:#fff;padding:.2em .5em}"
     ".cautions{padding-left:2.2em}td.b{white-space:nowrap;font-weight:bold}"
     // A page cannot be scrolled: tables take its width, wide ones lie on their side with their
     // chapter when it has nothing else, rows stay whole, and only long texts are broken anywhere.
@@ -96,7 +97,7 @@ void write_verdict(std::ostream& html, const Verdict& verdict) {
     if (verdict.doubts.empty() && verdict.notes.empty()) return;
     const bool doubt = !verdict.doubts.empty();
     html << "<section id=\"verdict\" class=\"verdict" << (doubt ? " doubt" : "")
-         << "\"><h2>Verdict of the checks";
+         << (verdict.usable ? "" : " unusable") << "\"><h2>Verdict of the checks";
     if (!verdict.word.empty()) html << ": " << escaped(verdict.word);
     html << "</h2>\n<ul>\n";
     for (const auto* sentences : {&verdict.doubts, &verdict.notes}) {

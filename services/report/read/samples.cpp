@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/phases/phases.hpp"
+#include "services/findings/flags.hpp"
 #include "services/report/chart/axis.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -53,7 +54,7 @@ std::vector<const PhaseFolder*> moving_samples(const Run& run) {
 }
 
 bool is_lower_bound(const Run& run, const std::string& quantity, double value) {
-    if (!phases::grows(quantity)) return false;
+    if (!findings::grows(quantity)) return false;
     const auto moving = moving_samples(run);
     return std::ranges::any_of(moving, [&](const PhaseFolder* each) {
         const json own = each->result.value(quantity, json());

@@ -1,21 +1,15 @@
-// What is to be known of a run's results before they are believed: the flags of its phases, which
-// soil still moved, and how each phase ended, in words.
+// The verdict of services/findings on a run that was read from a folder, laid out for the report, and how each phase ended
+// in words.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/fault/flag.hpp"
 #include "services/report/chart/chart.hpp"
 #include "services/report/chart/document.hpp"
 #include "services/report/read/run_folder.hpp"
 
 namespace breach::report {
-
-/// Nothing for a phase without a result, or with one that carries none to go by (an earlier
-/// version's): what may be wrong with it is not known.
-std::optional<std::vector<fault::Flag>> flags_of(const PhaseFolder& phase);
 
 /// Whether the soil of a runout still moved at its end, so that its distances are lower bounds.
 bool still_moves(const PhaseFolder& mpm);

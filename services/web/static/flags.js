@@ -2,44 +2,32 @@
 import { element } from "./dom.js";
 import { number } from "./format.js";
 
-const has = (flags, code) => (flags ?? []).some((flag) => flag.code === code);
 const is_doubt = (flag) => flag.severity === "questionable";
 const worded = (code) => code.replaceAll("_", " ");
 
-/// sound | questionable | unknown. Unknown is what carries no flags at all: an earlier version's result.
-export function trust_of({ questionable }) {
-    if (questionable === true) return "questionable";
-    return questionable === false ? "sound" : "unknown";
-}
+/// sound | questionable
+export const trust_of = ({ questionable }) => (questionable ? "questionable" : "sound");
 
-/// How a runout's marker looks, as class names: bound (it would run on), doubtful (questionable for another reason),
-/// unknown; "" is sound.
+/// How a runout's marker looks, as class names: bound (a lower bound), doubtful (questionable for another reason); "" is sound.
 export function look_of(row) {
-    const trust = trust_of(row);
-    if (trust !== "questionable") return trust === "sound" ? "" : trust;
-    const doubts = (row.flags ?? []).filter(is_doubt);
-    const moving = has(doubts, "still_moving");
-    const other = doubts.some(({ code }) => code !== "still_moving");
-    return [moving ? "bound" : "", other || !moving ? "doubtful" : ""].filter(Boolean).join(" ");
+    const other = row.questionable && (row.flags ?? []).some((flag) => is_doubt(flag) && flag.code !== "still_moving");
+    return [row.lower_bound ? "bound" : "", other || (row.questionable && !row.lower_bound) ? "doubtful" : ""].filter(Boolean).join(" ");
 }
 
 /// What the looks mean, for legends.
 export const looks = {
     bound: "still moving: the runout is a lower bound",
     doubtful: "questionable",
-    unknown: "without flags: not known",
 };
 
-/// "still moving; coarse cells (warning)"; "none", or "not known".
+/// "still moving; coarse cells (warning)"; "none".
 export function flag_codes(flags) {
-    if (!flags) return "not known";
-    return flags.map((flag) => worded(flag.code) + (is_doubt(flag) ? "" : " (warning)")).join("; ") || "none";
+    return (flags ?? []).map((flag) => worded(flag.code) + (is_doubt(flag) ? "" : " (warning)")).join("; ") || "none";
 }
 
 /// Every flag with its message, one line each.
 export function flag_note({ flags }) {
-    if (!flags) return "This result carries no flags (an earlier version made it): what may be wrong with it is not known.";
-    return flags.map((flag) => `${worded(flag.code)}: ${flag.message}`).join("\n");
+    return (flags ?? []).map((flag) => `${worded(flag.code)}: ${flag.message}`).join("\n");
 }
 
 /// Whether the soil had come to rest; how much of the released energy was still in its motion.

@@ -81,7 +81,7 @@ export class Results {
 
     /// Returns the rows, for those who want to draw other things of them.
     async show(run) {
-        const { rows, means, without_transfer: without, same_results: same } = await api.read_results(run.id);
+        const { rows, means, without_transfer: without, verdict } = await api.read_results(run.id);
         if (this.run?.id !== run.id) {
             this.of_mean = null;
             by_id("runout-draws").value = "means";
@@ -102,13 +102,11 @@ export class Results {
             : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
-        by_id("runout-without").hidden = !without?.length && !same?.length;
+        const explained = new Set(rows.flatMap(({ flags }) => (flags ?? []).map(({ code }) => code))); // beside their rows
+        const remarks = verdict.reasons.filter(({ code }) => !explained.has(code)).map(({ text }) => text);
+        by_id("runout-without").hidden = remarks.length === 0;
         const nothing = rows.length === 0 && without?.length > 0; // empty axes would say no more
         by_id("runout-plot").hidden = by_id("runout-table").parentElement.hidden = nothing;
-        const remarks = [
-            ...(without ?? []).map(({ variant, state, reason }) => `Nothing was transferred${variant ? ` of ${variant}` : ""} (${state.replaceAll("_", " ")}): ${reason}`),
-            ...(same ?? []).map((names) => `The same to the last digit: ${names.join(", ")}. What tells them apart has no part in the numbers of this table.`),
-        ];
         mirror(by_id("runout-without"), remarks, (text) => text, () => element("li"), (item, text) => set_text(item, text));
         return this.rows;
     }
@@ -287,10 +285,9 @@ function trust_note(rows, hidden) {
     const finished = rows.filter(is_finished);
     const looks = finished.map(look_of);
     const count = (part) => looks.filter((look) => look.includes(part)).length;
-    const [bounds, unknown] = [count("bound"), count("unknown")];
+    const bounds = count("bound");
     const doubtful = looks.filter((look) => look === "doubtful").length;
-    const parts = [bounds && `${bounds} still moving: lower bounds`, doubtful && `${doubtful} questionable for other reasons`,
-                   unknown && `${unknown} without flags: not known`].filter(Boolean);
+    const parts = [bounds && `${bounds} still moving: lower bounds`, doubtful && `${doubtful} questionable for other reasons`].filter(Boolean);
     if (parts.length === 0) return "";
     const what = finished.every((row) => Number.isFinite(row.runout)) ? "runouts" : "results";
     return `Of ${finished.length} ${what} ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
@@ -326,7 +323,6 @@ function fill_row(row, values) {
     look.title = "Show the particles";
     set_text(variant, values.variant);
     show_state(state.firstElementChild, values.reused && values.state === "succeeded" ? "cached" : values.state);
-    if (is_finished(values) && trust_of(values) === "unknown") state.firstElementChild.className = "state off";
     state.title = [values.reason, values.state === "questionable" ? flag_note(values) : ""].filter(Boolean).join("\n");
     for (const cell of row.querySelectorAll("[data-column]")) set_text(cell, cell_text(values, cell.dataset.column));
     const bound = is_finished(values) && look_of(values).includes("bound");

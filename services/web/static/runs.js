@@ -39,18 +39,17 @@ function fill_item(item, run, open_id) {
     progress.setAttribute("aria-label", `progress of ${run.name}`);
     set_text(time, `${clock(run.created)} · ${is_active(run.state) ? percent(run.progress) + " · " : ""}` +
                    `${run.tasks_done} of ${run.tasks_total} tasks${run.pinned ? " · pinned" : ""}`);
-    set_text(why, doubt_of(run));
+    const doubt = doubt_of(run);
+    set_text(why, doubt);
+    why.classList.toggle("unusable", run.verdict.usable === "no");
     why.hidden = why.textContent === "";
     link.title = [run.title || run.name, run.message].filter(Boolean).join("\n");
     if (run.id === open_id) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
 }
 
-/// In one line, why the results of a run are not simply fine; "" when nothing is known against them.
-function doubt_of(run) {
-    if (!run.questionable) return "";
-    return run.state === "questionable" && run.message ? run.message : `${run.questionable} questionable: ${counts_text(run.flag_counts)}`;
-}
+/// The verdict in one line where it is against the results of a run; "" otherwise.
+const doubt_of = ({ verdict, message }) => (["questionable", "no"].includes(verdict.usable) ? `${verdict.words}: ${message}` : "");
 
 export class RunHead {
     /// changed(): the run was given an order.
@@ -74,8 +73,9 @@ export class RunHead {
         show_state(by_id("run-state"), state_of(run));
         by_id("run-progress").value = run.progress ?? 0;
         set_text(by_id("run-summary"), summary(run));
-        set_text(by_id("run-message"), run.message ?? "");
-        by_id("run-message").className = ["questionable", "budget_exhausted"].includes(run.state) ? "notice warn" : "muted";
+        set_text(by_id("run-message"), doubt_of(run) || (run.message ?? ""));
+        by_id("run-message").className = run.verdict.usable === "no" ? "notice unusable"
+            : run.verdict.usable === "questionable" || run.state === "budget_exhausted" ? "notice warn" : "muted";
         const counts = counts_text(run.flag_counts);
         by_id("run-flags").hidden = !counts;
         set_text(by_id("run-flags"), `Flags of its results: ${counts}`);

@@ -19,9 +19,6 @@ const share = (value) => `${number(100 * value, 2)} %`;
 const has_result = (row) => Object.values(row.results ?? {}).some(Number.isFinite);
 const plural = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
-/// Soil that moves on only adds to these.
-const grows = (quantity) => /^(runout|area)/.test(quantity);
-
 export class Uncertainty {
     /// open_task(id), ask(sample): the task behind a sample; where its numbers come from.
     constructor({ open_task, ask }) {
@@ -63,7 +60,7 @@ export class Uncertainty {
 
     /// What does not grow while soil moves is no lower bound.
     look_of_quantity(row) {
-        return grows(this.quantity) ? this.look(row) : this.look(row).replace(/\bbound\b/, "").trim();
+        return this.grows ? this.look(row) : this.look(row).replace(/\bbound\b/, "").trim();
     }
 
     /// What a sample's number is worth; "" is sound.
@@ -78,7 +75,8 @@ export class Uncertainty {
         offer(by_id("uncertainty-quantity"), named.map(({ value, name, label }) => ({ value, text: name, title: label })), answer.quantity);
         offer(by_id("uncertainty-parameter"), answer.parameters.map(({ name }) => ({ value: name, text: name })), answer.parameters[0]?.name);
         this.quantity = by_id("uncertainty-quantity").value || answer.quantity;
-        this.moving = answer.rows.filter((row) => this.look(row).includes("bound")).map((row) => row.results[this.quantity]).filter(Number.isFinite);
+        const { grows = true, bound_from = null } = answer.quantities[this.quantity] ?? {}; // of a search: none
+        Object.assign(this, { grows, bound_from });
         for (const kind of ["csv", "hdf5"]) by_id(`uncertainty-${kind}`).href = api.uncertainty_file(this.run.id, kind);
         this.draw_counts();
         const quantity = named.find(({ value }) => value === this.quantity); // none: the samples are steps of a search
@@ -99,27 +97,12 @@ export class Uncertainty {
 
     /// How many there are, and what the numbers below do not say by themselves.
     draw_counts() {
-        const { samples, rows, sentences, until, inverse } = this.answer;
+        const { samples, sentences, cautions, until } = this.answer;
         set_text(by_id("uncertainty-counts"), `${samples.done} of ${plural(samples.planned, "sample")} ended with a result`);
-        const looks = rows.map((row) => this.look(row));
-        const doubtful = looks.filter((look) => look === "doubtful").length;
-        const unknown = looks.filter((look) => look === "unknown").length;
-        const doubts = [
-            samples.failed && `${samples.failed} of ${samples.planned} left no result and are in no number here: if they are the ones that run farthest, all percentiles are too small.`,
-            samples.no_transfer && `Of ${samples.no_transfer} of ${samples.planned} nothing was transferred: their FEM ended and its triggers had not fired. If the dam stands there, nothing runs out; ` +
-                "the numbers below are of those that were let go.",
-            samples.open && `${samples.open} have not ended: the numbers will change.`,
-            this.moving.length && grows(this.quantity) && `${this.moving.length} of ${samples.done} were stopped while their soil still moved: each is a lower bound` +
-                (inverse ? "." : ", and so are the mean, each percentile above the least of them (marked ≥) and the shaded part of the curve."),
-            doubtful && `${doubtful} are questionable for other reasons (hollow and dashed among the samples).`,
-            unknown && `${unknown} carry no flags: what may be wrong with them is not known.`,
-            until && !until.reached && `Asked was p${until.percentile} to ± ${share(until.half_width)} of its value; ` +
-                (Number.isFinite(until.now) ? `it is known to ± ${share(until.now)}.` : "so few samples do not tell it at all."),
-        ].filter(Boolean);
         const said = [...sentences,
                       ...(until?.reached ? [`p${until.percentile} is known to ± ${share(until.now)} of its value; ± ${share(until.half_width)} was asked.`] : [])];
-        by_id("uncertainty-doubts").hidden = doubts.length === 0;
-        for (const [id, lines] of [["uncertainty-doubts", doubts], ["uncertainty-said", said]]) {
+        by_id("uncertainty-doubts").hidden = cautions.length === 0;
+        for (const [id, lines] of [["uncertainty-doubts", cautions], ["uncertainty-said", said]]) {
             mirror(by_id(id), lines, (line) => line, () => element("li"), set_text);
         }
         by_id("uncertainty-left-out").hidden = samples.left_out.length === 0;
@@ -129,9 +112,9 @@ export class Uncertainty {
             set_text(item.lastElementChild, ` ${state}${reason ? `: ${reason}` : ""}`));
     }
 
-    /// A percentile is a lower bound as soon as one sample below it was stopped while it moved.
+    /// From the least lower bound among the samples on, a percentile is a lower bound, too.
     is_bound(value) {
-        return grows(this.quantity) && this.moving.some((each) => each <= value);
+        return this.bound_from !== null && this.bound_from <= value;
     }
 
     draw_percentiles({ percentiles, percentiles_lacking, unit, count, of, mean, sd }) {
@@ -154,16 +137,16 @@ export class Uncertainty {
 
     /// What is fitted or ranked takes bounds for values.
     bounds_note() {
-        return grows(this.quantity) && this.moving.length ? ` ${this.moving.length} of the samples behind it are lower bounds, taken as they are.` : "";
+        return this.bound_from === null ? "" : ` ${this.answer.samples.moving} of the samples behind it are lower bounds, taken as they are.`;
     }
 
     at_least(value, of_all = false) {
-        return `${(of_all ? grows(this.quantity) && this.moving.length > 0 : this.is_bound(value)) ? "≥ " : ""}${number(value)}`;
+        return `${(of_all ? this.bound_from !== null : this.is_bound(value)) ? "≥ " : ""}${number(value)}`;
     }
 
     draw_exceedance({ exceedance, count, of, ...quantity }) {
         const steps = in_steps(exceedance);
-        const bound = grows(this.quantity) && this.moving.length ? [{ from: Math.min(...this.moving), to: Math.max(...steps.x), label: "at least", kind: "lower-bound" }] : [];
+        const bound = this.bound_from !== null ? [{ from: this.bound_from, to: Math.max(...steps.x), label: "at least", kind: "lower-bound" }] : [];
         this.exceedance.labels.x_unit = quantity.unit;
         this.exceedance.show({
             series: [{ name: `${count} of ${of} samples`, ...steps }],
@@ -239,7 +222,7 @@ export class Uncertainty {
         this.envelope.show({ series: [part("p50", is_whole), ...(count.every((_, i) => is_whole(i)) ? [] : [fewer])], errors_name: "p10 to p90" });
         set_text(by_id("uncertainty-along-note"), `${most} of ${this.answer.samples.planned} samples. ` + (unit === "s"
             ? "A sample whose flow never came arrives after all others: a percentile ends where too few came." : "Where the flow of a sample never came it is 0 there.") +
-            (this.moving.length ? ` ${this.moving.length} still moved when stopped: beyond where they lay depths and velocities are lower bounds, and what was not reached may yet be.` : ""));
+            (this.answer.samples.moving ? ` ${this.answer.samples.moving} still moved when stopped: beyond where they lay depths and velocities are lower bounds, and what was not reached may yet be.` : ""));
     }
 
     draw_samples(quantity) {

@@ -63,7 +63,11 @@ class Service(http.server.ThreadingHTTPServer):
                 "tasks_total": 3, "tasks_done": 3 if over else 1,
                 "tasks_failed": 1 if over and self.end == "failed" else 0,
                 "questionable": 1 if over and self.end == "questionable" else 0,
-                "message": doubt if over and self.end == "questionable" else ""}
+                "verdict": self.verdict(), "message": doubt if over and self.end == "questionable" else ""}
+
+    def verdict(self):
+        usable = "questionable" if self.looks_left <= 0 and self.end == "questionable" else "yes"
+        return {"usable": usable, "words": usable, "reasons": []}
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
@@ -156,7 +160,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             if query.get("format") == "csv":
                 self.answer(200, b"transfer_time,runout\r\n0.5,12.5\r\n", "text/csv")
             else:
-                self.answer(200, {"run": run_id, "columns": columns, "rows": [
+                self.answer(200, {"run": run_id, "verdict": server.verdict(), "columns": columns, "rows": [
                     {"transfer_time": 0.5, "state": "succeeded", "runout": 12.5, "questionable": False, "flags": []}]})
         elif parts == ["runs", run_id, "telemetry"]:
             begin = int(query["from"])

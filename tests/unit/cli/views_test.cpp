@@ -75,7 +75,7 @@ TEST(ProgressLine, SaysWhenTheRunWillBeReady) {
 const json columns = json::parse(R"([
     {"name": "transfer_time", "kind": "number", "unit": "s", "title": "t_T", "meaning": ""},
     {"name": "state", "kind": "word", "unit": "", "title": "state", "meaning": ""},
-    {"name": "runout", "kind": "number", "unit": "m", "title": "runout", "meaning": ""},
+    {"name": "runout", "kind": "number", "unit": "m", "title": "runout", "meaning": "", "grows": true},
     {"name": "mpm_task", "kind": "word", "unit": "", "title": "", "meaning": ""},
     {"name": "variant", "kind": "word", "unit": "", "title": "variant", "meaning": ""},
     {"name": "at_rest", "kind": "yes_no", "unit": "", "title": "rest", "meaning": ""},
@@ -96,20 +96,16 @@ TEST(ResultTable, ShowsADashWhereThereIsNoRunoutAndTheReason) {
               "      1  failed     -              -             -  no memory\n");
 }
 
-TEST(ResultTable, NamesBelowItWhatNothingWasTransferredOf) {
-    EXPECT_EQ(as_list_without_transfer(json::parse(R"({"without_transfer": [
-        {"variant": "strong", "state": "not_reached", "reason": "window: never"},
-        {"variant": "", "state": "failed", "reason": "it broke"}]})")),
-              "no transfer of strong: not_reached, window: never\n"
-              "no transfer: failed, it broke\n");
-    EXPECT_EQ(as_list_without_transfer({{"rows", json::array()}}), "");
-}
-
-TEST(ResultTable, NamesBelowItVariantsThatCameToTheSame) {
-    EXPECT_EQ(as_list_of_same_results(json::parse(R"({"same_results": [["a", "b"]]})")),
-              "the same to the last digit: a, b; what tells them apart has no part in the numbers "
-              "of this table\n");
-    EXPECT_EQ(as_list_of_same_results({{"rows", json::array()}}), "");
+TEST(Verdict, GivesTheReasonsThatNoFlagOfARowExplains) {
+    EXPECT_EQ(as_verdict(json::parse(R"({
+        "verdict": {"usable": "no", "words": "not usable", "reasons": [
+            {"code": "does_not_stand", "text": "It falls."}, {"code": "still_moving", "text": "It moves."}]},
+        "rows": [{"flags": [{"code": "still_moving", "severity": "questionable"}]}]})")),
+              "Verdict: not usable\n  It falls.\n\n");
+    EXPECT_EQ(
+        as_verdict(json::parse(
+            R"({"verdict": {"usable": "yes", "words": "usable", "reasons": []}, "rows": []})")),
+        "");
 }
 
 TEST(MeanTable, TellsScatterAndWhatIsMissing) {
@@ -128,10 +124,9 @@ TEST(MeanTable, TellsScatterAndWhatIsMissing) {
 }
 
 TEST(ResultTable, NamesTheVariantMarksWhatMovesAndExplainsTheFlags) {
-    EXPECT_EQ(
-        table_of(R"([
-        {"transfer_time": 0.5, "state": "questionable", "runout": 12, "at_rest": false, "variant": "weak",
-         "questionable": true, "flags": [
+    EXPECT_EQ(table_of(R"([
+        {"transfer_time": 0.5, "state": "questionable", "runout": 12, "at_rest": false, "lower_bound": true,
+         "variant": "weak", "questionable": true, "flags": [
              {"code": "still_moving", "severity": "questionable", "message": "15 % left; lengthen", "pointer": ""},
              {"code": "implausible", "severity": "warning", "message": "1.9 kg/m3", "pointer": "/a"}]},
         {"transfer_time": 0.5, "state": "questionable", "runout": 11, "at_rest": false, "variant": "strong",
@@ -139,29 +134,28 @@ TEST(ResultTable, NamesTheVariantMarksWhatMovesAndExplainsTheFlags) {
              {"code": "still_moving", "severity": "questionable", "message": "3 % left; lengthen", "pointer": ""},
              {"code": "implausible", "severity": "warning", "message": "1.9 kg/m3", "pointer": "/a"}]},
         {"transfer_time": 1, "state": "succeeded", "runout": 9, "at_rest": true, "variant": "strong",
-         "questionable": null, "flags": null}])"),
-        "variant  t_T [s]  state         rest    runout [m]  volume ratio\n"
-        "weak         0.5  questionable  MOVING          12             -  a b\n"
-        "strong       0.5  questionable  MOVING          11             -  a b\n"
-        "strong         1  succeeded     yes              9             -  ?\n"
-        "\n"
-        "a  still_moving (questionable), 2 of 3 rows\n"
-        "   weak, t_T 0.5 s: 15 % left; lengthen\n"
-        "b  implausible (warning), 2 of 3 rows\n"
-        "   1.9 kg/m3\n"
-        "?  not known: made by an earlier version, which does not say whether it can be relied "
-        "on\n");
+         "questionable": false, "lower_bound": false, "flags": []}])"),
+              "variant  t_T [s]  state         rest    runout [m]  volume ratio\n"
+              "weak         0.5  questionable  MOVING        ≥ 12             -  a b\n"
+              "strong       0.5  questionable  MOVING          11             -  a b\n"
+              "strong         1  succeeded     yes              9             -\n"
+              "\n"
+              "a  still_moving (questionable), 2 of 3 rows\n"
+              "   weak, t_T 0.5 s: 15 % left; lengthen\n"
+              "b  implausible (warning), 2 of 3 rows\n"
+              "   1.9 kg/m3\n");
 }
 
 TEST(RunList, SaysWhyARunIsQuestionable) {
     json run = run_with(failed_task);
     run["state"] = "questionable";
     run["message"] = "7 of 8 runouts still moving: lower bounds";
-    run["questionable"] = 7;
-    EXPECT_NE(as_run_table(json::array({run})).find("7 of 8 runouts still moving: lower bounds\n"),
+    run["verdict"] = {{"usable", "questionable"}, {"words", "questionable"}};
+    EXPECT_NE(as_run_table(json::array({run}))
+                  .find("questionable: 7 of 8 runouts still moving: lower bounds\n"),
               std::string::npos);
     EXPECT_EQ(end_of(run), RunEnd::good);
-    EXPECT_TRUE(is_questionable(run));
+    EXPECT_TRUE(is_doubtful(run));
 }
 
 TEST(TransferBeyondTheFemsEnd, WasNotReachedAndHasNotFailed) {

@@ -169,16 +169,6 @@ TEST(ResultsThatMove, AreQuestionableWhereverTheyAreShown) {
     EXPECT_TRUE(service.get("/v1/runs?state=succeeded").body.at("runs").empty());
 }
 
-TEST(ResultsWithoutFlags, AreNotSaidToBeFine) {
-    const Sandbox sandbox;
-    Service service(sandbox);
-    const std::string run = service.submit(study("as_before=1", {0.25, 0.5}));
-    service.wait_for_end(run);
-    const json rows = service.get("/v1/runs/" + run + "/results").body.at("rows");
-    EXPECT_TRUE(rows[0].at("questionable").is_null());
-    EXPECT_TRUE(rows[0].at("flags").is_null());
-}
-
 TEST(Variants, KeepTheStudysOrderInEveryTable) {
     const Sandbox sandbox;
     Service service(sandbox);

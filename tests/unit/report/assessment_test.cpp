@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "services/findings/uncertainty.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/chart/draw.hpp"
 #include "services/report/chart/page.hpp"
@@ -38,6 +39,7 @@ class Sampled : public testing::Test {
         fs::remove_all(folder_);
         const json both = from_file();
         answer_ = both.at("uncertainty");
+        answer_["samples"].update({{"moving", 1}, {"doubtful", 0}, {"no_transfer", 0}});
         write(folder_ / "envelopes.json", both.at("envelopes"));
         write(folder_ / "run.json", {{"id", "01"}, {"name", "uncertain"}, {"title", "A slope"}});
         const json scene = {{"name", "slope"},
@@ -83,7 +85,9 @@ class Sampled : public testing::Test {
     }
 
     Document document() const {
-        write(folder_ / "uncertainty.json", answer_);
+        json answer = answer_;
+        answer["cautions"] = findings::cautions_of(answer);
+        write(folder_ / "uncertainty.json", answer);
         const auto run = read_run(folder_);
         const std::optional<Paper> paper;
         const Measures measures;
@@ -243,15 +247,14 @@ TEST_F(Sampled, CountsItsTransferTimesFromAShakingOnlyWhereThereIsOne) {
 TEST_F(Sampled, SaysWhatTheNumbersDoNot) {
     const std::string all = cautions(document());
     EXPECT_NE(all.find("2 samples of 64 left no result"), std::string::npos) << all;
-    EXPECT_NE(all.find("2 samples had not ended"), std::string::npos);
+    EXPECT_NE(all.find("2 samples have not ended"), std::string::npos);
     EXPECT_NE(all.find("1 of 60 samples were stopped while their soil still moved"),
               std::string::npos);
     EXPECT_NE(all.find("outside of the bounds given for residual strength"), std::string::npos);
     EXPECT_NE(
-        all.find("p90 of runout_beyond_toe is known to \u00b1 10 % of its value; it is known to "
-                 "\u00b1 13 %"),
+        all.find("p90 of runout_beyond_toe to \u00b1 10 % of its value. Reached: \u00b1 13 %."),
         std::string::npos);
-    EXPECT_EQ(all.find("Not told for lack of samples"), std::string::npos);
+    EXPECT_EQ(all.find("Too few samples"), std::string::npos);
 }
 
 TEST_F(Sampled, PercentilesAboveSoilThatStillMovedAreLowerBounds) {
@@ -312,11 +315,12 @@ TEST_F(Sampled, ThreeSamplesAreNotEnough) {
     quantity["count"] = 3;
     quantity["percentiles"] = {
         {"refused", "3 samples are not enough for the 50th percentile: 5 are needed"}};
+    quantity["percentiles_lacking"] = {{{"p", 50}, {"needs", 5}}, {{"p", 90}, {"needs", 29}}};
     const Document d = document();
     const auto far = row(d, "assessment", "Of what passed the toe");
     EXPECT_EQ(far[1], "3 samples are not enough for the 50th percentile: 5 are needed");
     EXPECT_NE(
-        cautions(d).find("Not told for lack of samples: p5, p10, p50, p90, p95. 3 have a result"),
+        cautions(d).find("Too few samples for p50 (needs 5), p90 (needs 29): 3 have a result."),
         std::string::npos);
 }
 

@@ -1,11 +1,11 @@
-#include "services/orchestrator/ensemble/sentences.hpp"
+#include "services/findings/uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-namespace breach::orchestrator {
+namespace breach::findings {
 
 using nlohmann::json;
 
@@ -34,18 +34,6 @@ std::string counts_in_words(const json& samples) {
         words += "; of " + samples.at("no_transfer").dump() + " nothing was transferred";
     if (samples.at("open") > 0) words += "; " + samples.at("open").dump() + " are open";
     words += ".";
-    if (samples.at("failed") > 0)
-        words +=
-            " What those without one would have given is in no number here: if they are the ones "
-            "that go farthest, every percentile is too small.";
-    if (samples.at("no_transfer") > 0)
-        words +=
-            " Where nothing was transferred the FEM ended and its triggers had not fired: if the "
-            "dam stands there, nothing runs out, and what is told here is told of dams that fail.";
-    if (samples.at("questionable") > 0)
-        words += " " + samples.at("questionable").dump() +
-                 " of the results carry a flag that forbids to rely on them (a runout that still "
-                 "moves is a lower bound); they are counted.";
     return words;
 }
 
@@ -75,11 +63,6 @@ std::string percentiles_in_words(const std::string& quantity, const json& statis
     if (const json* upper = percentile_in(statistics, 90))
         words += "; one in ten exceeds " + interval_in_words(*upper, statistics);
     words += ".";
-    for (const json& each : statistics.at("percentiles_lacking")) {
-        words += words.ends_with(".") ? " Not told for lack of samples: p" : ", p";
-        words += shown(each.at("p")) + " (needs " + each.at("needs").dump() + ")";
-    }
-    if (!words.ends_with(".")) words += ".";
     return words + rests;
 }
 
@@ -131,16 +114,90 @@ std::string probability_in_words(const json& stability, const std::string& when)
            counted(stability.at("count"), "sample") + ".";
 }
 
+std::string failed_caution(const json& samples) {
+    if (samples.at("failed") == 0) return "";
+    return counted(samples.at("failed"), "sample") + " of " + samples.at("planned").dump() +
+           " left no result and are in no number here. If they are the ones that run farthest, "
+           "every percentile is too small.";
+}
+
+std::string standing_caution(const json& samples) {
+    if (samples.at("no_transfer") == 0) return "";
+    return "No transfer from " + counted(samples.at("no_transfer"), "sample") + " of " +
+           samples.at("planned").dump() +
+           ": the FEM ended and no trigger fired. If the dam stands there, nothing runs out; every "
+           "number here is of the samples with a transfer.";
+}
+
+std::string moving_caution(const json& samples, bool one_value) {
+    if (samples.at("moving") == 0) return "";
+    std::string text =
+        samples.at("moving").dump() + " of " + counted(samples.at("done"), "sample") +
+        " were stopped while their soil still moved: their distances are lower bounds";
+    if (!one_value)
+        text +=
+            ", and so are the mean and every percentile at or above the least of them (marked "
+            "\u2265). Importance and tornado take them as values";
+    return text + ". Let them run longer (/mpm/duration).";
+}
+
+std::string doubt_caution(const json& samples) {
+    if (samples.at("doubtful") == 0) return "";
+    return counted(samples.at("doubtful"), "sample") +
+           " are questionable for other reasons than motion (see their flags); they are counted.";
+}
+
+std::string few_caution(const json& answer) {
+    const json& quantities = answer.at("quantities");
+    const std::string quantity = answer.at("quantity");
+    if (!quantities.contains(quantity)) return "";
+    std::string lacking;
+    for (const json& each : quantities.at(quantity).at("percentiles_lacking"))
+        lacking += (lacking.empty() ? "p" : ", p") + shown(each.at("p")) + " (needs " +
+                   each.at("needs").dump() + ")";
+    if (lacking.empty()) return "";
+    return "Too few samples for " + lacking + ": " + quantities.at(quantity).at("count").dump() +
+           " have a result.";
+}
+
+std::string cut_caution(const json& parameters) {
+    std::string cut;
+    for (const json& each : parameters)
+        if (each.value("between", json()).is_array())
+            cut += (cut.empty() ? "" : ", ") + each.at("name").get<std::string>();
+    if (cut.empty()) return "";
+    return "No value is drawn outside of the bounds given for " + cut +
+           ": what lies beyond them is impossible here, not rare.";
+}
+
+std::string until_caution(const json& until) {
+    if (!until.is_object() || until.at("reached") == true) return "";
+    const json& now = until.at("now");
+    const auto percent = [](const json& share) {
+        return shown(100.0 * share.get<double>()) + " %";
+    };
+    return "Wanted: p" + shown(until.at("percentile")) + " of " +
+           until.at("quantity").get<std::string>() + " to \u00b1 " +
+           percent(until.at("half_width")) + " of its value. " +
+           (now.is_number() ? "Reached: \u00b1 " + percent(now) + "."
+                            : "Too few samples to tell how near it is.");
+}
+
+std::string open_caution(const json& samples) {
+    if (samples.at("open") == 0) return "";
+    return counted(samples.at("open"), "sample") + " have not ended: the numbers will change.";
+}
+
 }  // namespace
 
-std::vector<std::string> sentences_of(const json& findings) {
-    std::vector<std::string> sentences{counts_in_words(findings.at("samples"))};
-    if (findings.at("inverse").is_object()) {
-        sentences.push_back(inverse_in_words(findings.at("inverse")));
+std::vector<std::string> sentences_of(const json& answer) {
+    std::vector<std::string> sentences{counts_in_words(answer.at("samples"))};
+    if (answer.at("inverse").is_object()) {
+        sentences.push_back(inverse_in_words(answer.at("inverse")));
         return sentences;
     }
-    const std::string quantity = findings.at("quantity");
-    const json& quantities = findings.at("quantities");
+    const std::string quantity = answer.at("quantity");
+    const json& quantities = answer.at("quantities");
     if (quantities.contains(quantity)) {
         const json& statistics = quantities.at(quantity);
         sentences.push_back(percentiles_in_words(quantity, statistics));
@@ -157,7 +214,7 @@ std::vector<std::string> sentences_of(const json& findings) {
     if (liquefies)
         sentences.push_back(probability_in_words(quantities.at("factor_of_safety_liquefied"),
                                                  " with every layer liquefied that may"));
-    const json& parameters = findings.at("parameters");
+    const json& parameters = answer.at("parameters");
     const auto of_kind = [&](const char* kind) {
         return std::ranges::any_of(parameters,
                                    [&](const json& each) { return each.at("kind") == kind; });
@@ -177,4 +234,18 @@ std::vector<std::string> sentences_of(const json& findings) {
     return sentences;
 }
 
-}  // namespace breach::orchestrator
+std::vector<std::string> cautions_of(const json& answer) {
+    const json& samples = answer.at("samples");
+    std::vector<std::string> said{failed_caution(samples),
+                                  standing_caution(samples),
+                                  moving_caution(samples, answer.at("inverse").is_object()),
+                                  doubt_caution(samples),
+                                  few_caution(answer),
+                                  cut_caution(answer.at("parameters")),
+                                  until_caution(answer.at("until")),
+                                  open_caution(samples)};
+    std::erase(said, "");
+    return said;
+}
+
+}  // namespace breach::findings

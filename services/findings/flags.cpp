@@ -1,0 +1,57 @@
+#include "services/findings/flags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace breach::findings {
+
+using fault::Flag;
+using fault::Severity;
+using nlohmann::json;
+
+std::vector<Flag> flags_of(const json& result) {
+    std::vector<Flag> flags;
+    if (!result.is_object()) return flags;
+    for (const json& each : result.value("flags", json::array()))
+        flags.push_back({each.at("code"),
+                         each.at("severity") == name_of(Severity::questionable)
+                             ? Severity::questionable
+                             : Severity::warning,
+                         each.at("message"), each.value("pointer", "")});
+    return flags;
+}
+
+std::string worded(std::string code) {
+    std::ranges::replace(code, '_', ' ');
+    return code;
+}
+
+std::string listed(const std::vector<Flag>& flags, Severity severity) {
+    std::vector<std::string> codes;
+    for (const Flag& each : flags)
+        if (each.severity == severity && std::ranges::find(codes, each.code) == codes.end())
+            codes.push_back(each.code);
+    std::string text;
+    for (const std::string& each : codes) text += (text.empty() ? "" : ", ") + worded(each);
+    return text;
+}
+
+bool grows(std::string_view quantity) {
+    constexpr std::array growing{"runout", "runout_beyond_toe", "runout_largest",
+                                 "area_beyond_toe"};
+    return std::ranges::find(growing, quantity) != growing.end();
+}
+
+bool still_moves(const json& at_rest, const json& flags) {
+    return at_rest == json(false) || std::ranges::any_of(flags, [](const json& each) {
+               return each.at("code") == "still_moving";
+           });
+}
+
+bool still_moves(const json& result) {
+    return result.is_object() &&
+           still_moves(result.value("at_rest", json()), result.value("flags", json::array()));
+}
+
+}  // namespace breach::findings

@@ -1,0 +1,96 @@
+// Whether the results of a run can be used, and the reasons in sentences, the worst first. Store and report gather the
+// facts; nobody but this file judges them.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/flag.hpp"
+
+namespace breach::findings {
+
+/// One flag of one phase, with all results that carry it.
+struct Raised {
+    fault::Flag flag;  ///< of the first of them
+    std::string phase;
+    std::int64_t results = 1;
+    std::int64_t of_results = 1;  ///< that the phase gave
+    std::string first = {};       ///< label of the first
+};
+
+/// Stability analyses with a factor of safety below 1 before any layer liquefies.
+struct Unstable {
+    std::int64_t analyses;
+    std::int64_t of_analyses;
+    double least;
+    std::string variant;  ///< of the least; empty: the scene itself
+};
+
+/// A variant whose FEM ended and whose triggers never fired.
+struct NoTransfer {
+    std::string variant;
+    bool stood;  ///< the FEM ended without a failure
+    std::string reason;
+};
+
+/// Transfers before the liquefied zone had most of the depth that it came to in the same FEM (its milestone "liquefied").
+struct Early {
+    std::int64_t transfers;
+    std::int64_t of_transfers;
+    double first;         ///< transfer time of the first of them [s]
+    double liquefied_at;  ///< that milestone [s]
+};
+
+/// What no result came of.
+struct Broken {
+    std::string phase;
+    std::int64_t results;
+    std::int64_t of_results;
+    std::string why;  ///< of the first
+};
+
+struct Facts {
+    std::string state;  ///< of the run
+    std::vector<Raised> raised = {};
+    std::optional<Unstable> unstable =
+        {};  ///< nothing: of samples, or of a section that is known to have failed
+    std::vector<NoTransfer> without_transfer = {};
+    bool has_runout = false;
+    std::optional<Early> early = {};
+    std::vector<Broken> broken = {};
+    std::vector<std::vector<std::string>> same_results = {};  ///< groups of variants
+};
+
+/// From the best to the worst.
+enum class Usable { yes, with_remarks, not_known, not_finished, in_part, questionable, no };
+/// "yes", "with_remarks", ...
+const char* name_of(Usable usable);
+/// For people: "usable", "not usable", ...
+const char* phrase_of(Usable usable);
+
+struct Reason {
+    Usable usable;  ///< what it makes of the run
+    std::string
+        code;  ///< a flag's, or that of a judgement: does_not_stand, early_transfer, no_transfer, ...
+    std::string brief;  ///< "7 of 8 runouts still moving: lower bounds"
+    std::string text;   ///< one or two sentences
+    std::string pointer = {};
+};
+
+struct Verdict {
+    Usable usable = Usable::yes;
+    std::vector<Reason> reasons = {};  ///< worst first
+};
+
+Verdict verdict_of(const Facts& facts);
+
+/// What makes a run less than usable, in one line; empty where nothing does.
+std::string line_of(const Verdict& verdict);
+
+/// {"usable", "words", "reasons": [{"usable", "code", "brief", "text", "pointer"}]}
+nlohmann::json as_json(const Verdict& verdict);
+
+}  // namespace breach::findings

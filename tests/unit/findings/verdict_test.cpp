@@ -1,0 +1,111 @@
+// The rules of services/findings, each once.
+#include "services/findings/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "services/findings/flags.hpp"
+
+namespace breach::findings::verdict_test {
+
+using fault::Severity;
+using nlohmann::json;
+
+Raised raised(const std::string& code, Severity severity, std::int64_t results, std::int64_t of) {
+    return {{code, severity, "its message", "/mpm/cell_size"}, "mpm_solver", results, of, "mpm_1"};
+}
+
+TEST(Verdict, IsUsableWhereNothingIsAgainstIt) {
+    const Verdict verdict = verdict_of({.state = "succeeded"});
+    EXPECT_EQ(verdict.usable, Usable::yes);
+    EXPECT_TRUE(verdict.reasons.empty());
+    EXPECT_EQ(line_of(verdict), "");
+}
+
+TEST(Verdict, IsNoOfASectionThatDoesNotStandAsBuilt) {
+    const Verdict verdict = verdict_of({.state = "succeeded", .unstable = Unstable{1, 1, 0.054, ""}});
+    EXPECT_EQ(verdict.usable, Usable::no);
+    ASSERT_EQ(verdict.reasons.size(), 1u);
+    EXPECT_EQ(verdict.reasons[0].code, "does_not_stand");
+    EXPECT_NE(verdict.reasons[0].text.find("0.054"), std::string::npos);
+}
+
+TEST(Verdict, IsQuestionableWhereSomeVariantsDoNotStand) {
+    const Verdict verdict =
+        verdict_of({.state = "succeeded", .unstable = Unstable{2, 5, 0.9, "wet"}});
+    EXPECT_EQ(verdict.usable, Usable::questionable);
+    EXPECT_NE(line_of(verdict).find("2 of 5 variants"), std::string::npos);
+}
+
+TEST(Verdict, IsNoOfImplausibleEntriesThoughTheyAreWarnings) {
+    EXPECT_EQ(verdict_of({.state = "succeeded",
+                          .raised = {raised("implausible", Severity::warning, 1, 1)}})
+                  .usable,
+              Usable::no);
+    EXPECT_EQ(verdict_of({.state = "succeeded",
+                          .raised = {raised("far_crest", Severity::warning, 1, 1)}})
+                  .usable,
+              Usable::with_remarks);
+}
+
+TEST(Verdict, IsNoWhereNothingWasTransferred) {
+    Facts facts{.state = "partial", .without_transfer = {{"", true, "window: not met"}}};
+    EXPECT_EQ(verdict_of(facts).usable, Usable::no);
+    facts.has_runout = true;
+    EXPECT_EQ(verdict_of(facts).usable, Usable::with_remarks) << "another variant has one, and this dam may stand";
+    facts.without_transfer[0].stood = false;
+    EXPECT_EQ(verdict_of(facts).usable, Usable::questionable);
+}
+
+TEST(Verdict, IsNoWhereAllTransfersCameBeforeLiquefactionHadEnded) {
+    EXPECT_EQ(verdict_of({.state = "succeeded", .early = Early{2, 2, 1.0, 3.9}}).usable, Usable::no);
+    EXPECT_EQ(verdict_of({.state = "succeeded", .early = Early{2, 9, 1.0, 3.9}}).usable,
+              Usable::questionable);
+}
+
+TEST(Verdict, GivesTheWorstReasonFirst) {
+    const Verdict verdict =
+        verdict_of({.state = "questionable",
+                    .raised = {raised("far_crest", Severity::warning, 1, 2),
+                               raised("still_moving", Severity::questionable, 1, 2)},
+                    .unstable = Unstable{1, 1, 0.8, ""},
+                    .same_results = {{"a", "b"}}});
+    std::vector<std::string> codes;
+    for (const Reason& each : verdict.reasons) codes.push_back(each.code);
+    EXPECT_EQ(codes, (std::vector<std::string>{"does_not_stand", "still_moving", "far_crest",
+                                               "same_results"}));
+    EXPECT_NE(line_of(verdict).find("; 1 of 2 runouts still moving: lower bounds"),
+              std::string::npos)
+        << line_of(verdict);
+}
+
+TEST(Verdict, SaysOnceWhatSeveralPhasesSayOfOneScene) {
+    Raised fem = raised("implausible", Severity::warning, 1, 1);
+    fem.phase = "fem_solver";
+    const Verdict verdict = verdict_of(
+        {.state = "succeeded", .raised = {fem, raised("implausible", Severity::warning, 3, 4)}});
+    ASSERT_EQ(verdict.reasons.size(), 1u);
+    EXPECT_NE(verdict.reasons[0].text.find("the FEM, 3 of 4 runouts"), std::string::npos)
+        << verdict.reasons[0].text;
+}
+
+TEST(Verdict, IsNotFinishedWhileTheRunGoesOn) {
+    EXPECT_EQ(verdict_of({.state = "running"}).usable, Usable::not_finished);
+    EXPECT_EQ(verdict_of({.state = "failed", .broken = {{"fem_solver", 1, 1, "fem: full disk"}}})
+                  .usable,
+              Usable::in_part);
+}
+
+TEST(Flags, MakeDistancesLowerBoundsWhereTheSoilStillMoves) {
+    const json moving = json::array({{{"code", "still_moving"}}});
+    EXPECT_TRUE(still_moves(json(false), json::array()));
+    EXPECT_TRUE(still_moves(json(true), moving));
+    EXPECT_FALSE(still_moves(json(true), json::array()));
+    EXPECT_FALSE(still_moves(json()));
+    EXPECT_TRUE(grows("runout_beyond_toe"));
+    EXPECT_TRUE(grows("area_beyond_toe"));
+    EXPECT_FALSE(grows("factor_of_safety"));
+}
+
+}  // namespace breach::findings::verdict_test
