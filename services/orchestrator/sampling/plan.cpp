@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/statistics/points.hpp"
 #include "core/words/words.hpp"
-#include "services/orchestrator/sampling/points.hpp"
 
 namespace breach::orchestrator {
 
@@ -143,29 +143,29 @@ class ParameterReader {
 
     std::string meaning() const {
         switch (parameter_.distribution.kind) {
-            case DistributionKind::uniform:
-            case DistributionKind::log_uniform:
+            case statistics::DistributionKind::uniform:
+            case statistics::DistributionKind::log_uniform:
                 return "from and to are the ends";
-            case DistributionKind::normal:
+            case statistics::DistributionKind::normal:
                 return "mean, and sd, the standard deviation";
-            case DistributionKind::lognormal:
+            case statistics::DistributionKind::lognormal:
                 return "median, and cov, the coefficient of variation";
-            case DistributionKind::triangular:
+            case statistics::DistributionKind::triangular:
                 break;
         }
         return "from and to are the ends, mode is the likeliest value";
     }
 
-    static std::vector<std::string> keys_of(DistributionKind kind) {
+    static std::vector<std::string> keys_of(statistics::DistributionKind kind) {
         switch (kind) {
-            case DistributionKind::uniform:
-            case DistributionKind::log_uniform:
+            case statistics::DistributionKind::uniform:
+            case statistics::DistributionKind::log_uniform:
                 return {"from", "to"};
-            case DistributionKind::normal:
+            case statistics::DistributionKind::normal:
                 return {"mean", "sd"};
-            case DistributionKind::lognormal:
+            case statistics::DistributionKind::lognormal:
                 return {"median", "cov"};
-            case DistributionKind::triangular:
+            case statistics::DistributionKind::triangular:
                 break;
         }
         return {"from", "mode", "to"};
@@ -178,8 +178,8 @@ class ParameterReader {
             return;
         }
         const json& entry = entry_.at("distribution");
-        Distribution& distribution = parameter_.distribution;
-        distribution.kind = distribution_named(entry.at("type").get<std::string>());
+        statistics::Distribution& distribution = parameter_.distribution;
+        distribution.kind = statistics::distribution_named(entry.at("type").get<std::string>());
         const std::vector<std::string> keys = keys_of(distribution.kind);
         bool complete = true;
         for (std::size_t i = 0; i < keys.size(); ++i)
@@ -193,7 +193,7 @@ class ParameterReader {
         if (complete && check_numbers(distribution)) read_between();
     }
 
-    bool check_numbers(const Distribution& distribution) {
+    bool check_numbers(const statistics::Distribution& distribution) {
         const std::size_t before = faults_.size();
         const auto [a, b, c] = distribution.numbers;
         const auto ends = [&](double from, double to) {
@@ -209,21 +209,21 @@ class ParameterReader {
                       "is " + spelt_short(value) + ", and " + why, "give a number above 0");
         };
         switch (distribution.kind) {
-            case DistributionKind::uniform:
+            case statistics::DistributionKind::uniform:
                 ends(a, b);
                 break;
-            case DistributionKind::log_uniform:
+            case statistics::DistributionKind::log_uniform:
                 positive("from", a, "a logarithm needs positive ends");
                 ends(a, b);
                 break;
-            case DistributionKind::normal:
+            case statistics::DistributionKind::normal:
                 positive("sd", b, "a spread is positive");
                 break;
-            case DistributionKind::lognormal:
+            case statistics::DistributionKind::lognormal:
                 positive("median", a, "a lognormal number is positive");
                 positive("cov", b, "a spread is positive");
                 break;
-            case DistributionKind::triangular:
+            case statistics::DistributionKind::triangular:
                 ends(a, c);
                 if (a < c && (b < a || b > c))
                     fault("/distribution/mode", "lies outside of from and to",
@@ -243,7 +243,7 @@ class ParameterReader {
             return;
         }
         parameter_.distribution.between = ends;
-        const double share = share_between(parameter_.distribution);
+        const double share = statistics::share_between(parameter_.distribution);
         if (share < least_share_between)
             fault(
                 "/between",
@@ -399,7 +399,7 @@ std::optional<Until> read_until(const json& entry, const UncertaintyPlan& plan) 
 
 void check_correlations(const UncertaintyPlan& plan, std::vector<Fault>& faults) {
     if (plan.correlations.empty()) return;
-    if (!cholesky(correlation_matrix(plan)))
+    if (!statistics::cholesky(correlation_matrix(plan)))
         faults.push_back({"/uncertainty/correlation",
                           "these correlations contradict each other: their matrix is not positive "
                           "definite",
@@ -439,11 +439,12 @@ UncertaintyPlan read_uncertainty(const json& entry, const json& scene, std::vect
     check_companions(plan.parameters, faults);
     plan.correlations = read_correlations(entry.at("correlation"), plan.parameters, faults);
     check_correlations(plan, faults);
-    if (plan.sampling == Sampling::sobol && plan.parameters.size() > most_sobol_dimensions)
-        faults.push_back(
-            {"/uncertainty/parameters",
-             "the Sobol sequence here has " + std::to_string(most_sobol_dimensions) + " dimensions",
-             "draw fewer parameters, or use latin_hypercube"});
+    if (plan.sampling == Sampling::sobol &&
+        plan.parameters.size() > statistics::most_sobol_dimensions)
+        faults.push_back({"/uncertainty/parameters",
+                          "the Sobol sequence here has " +
+                              std::to_string(statistics::most_sobol_dimensions) + " dimensions",
+                          "draw fewer parameters, or use latin_hypercube"});
     return plan;
 }
 
@@ -452,9 +453,9 @@ bool gives(const Parameter& parameter, const std::string& pointer) {
                                [&](const std::string& each) { return meet(each, pointer); });
 }
 
-Matrix correlation_matrix(const UncertaintyPlan& plan) {
+statistics::Matrix correlation_matrix(const UncertaintyPlan& plan) {
     const std::size_t n = plan.parameters.size();
-    Matrix matrix(n, std::vector<double>(n, 0.0));
+    statistics::Matrix matrix(n, std::vector<double>(n, 0.0));
     for (std::size_t i = 0; i < n; ++i) matrix[i][i] = 1.0;
     for (const AskedCorrelation& each : plan.correlations)
         matrix[each.a][each.b] = matrix[each.b][each.a] = each.rank;

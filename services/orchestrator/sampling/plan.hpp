@@ -1,5 +1,5 @@
 // The study's entry "uncertainty": which settings are not known, how they are distributed, and how many
-// samples are drawn of them. What the samples say of a result is in uncertainty/.
+// samples are drawn of them. What the samples say of a result is in ensemble/.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/fault/fault.hpp"
-#include "services/orchestrator/sampling/distribution.hpp"
-#include "services/orchestrator/sampling/rank_correlation.hpp"
+#include "core/statistics/distribution.hpp"
+#include "core/statistics/rank_correlation.hpp"
 
 namespace breach::orchestrator {
 
@@ -31,10 +31,10 @@ struct Choice {
 struct Parameter {
     std::string name;
     ParameterKind kind = ParameterKind::value;
-    std::vector<std::string> entries;  ///< pointers into the scene
-    Distribution distribution;         ///< of factor and value
-    std::vector<Choice> choices;       ///< of choice
-    std::size_t lattices = 1;          ///< of numerical: drawn from those numbered 0, 1, ...
+    std::vector<std::string> entries;       ///< pointers into the scene
+    statistics::Distribution distribution;  ///< of factor and value
+    std::vector<Choice> choices;            ///< of choice
+    std::size_t lattices = 1;               ///< of numerical: drawn from those numbered 0, 1, ...
 };
 
 enum class Sampling { latin_hypercube, sobol };
@@ -75,6 +75,6 @@ UncertaintyPlan read_uncertainty(const nlohmann::json& entry, const nlohmann::js
 bool gives(const Parameter& parameter, const std::string& pointer);
 
 /// The rank correlations that are asked for, 1 on the diagonal, 0 where nothing is said.
-Matrix correlation_matrix(const UncertaintyPlan& plan);
+statistics::Matrix correlation_matrix(const UncertaintyPlan& plan);
 
 }  // namespace breach::orchestrator

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "services/orchestrator/sampling/points.hpp"
+#include "core/statistics/points.hpp"
 
 namespace breach::orchestrator {
 
@@ -26,19 +24,20 @@ double place_of_choice(const std::vector<Choice>& choices, double u) {
     return static_cast<double>(choices.size() - 1);
 }
 
-Points points_of(const UncertaintyPlan& plan, std::size_t count) {
+statistics::Points points_of(const UncertaintyPlan& plan, std::size_t count) {
     const std::size_t dimensions = plan.parameters.size();
-    const Matrix wanted = correlation_matrix(plan);
+    const statistics::Matrix wanted = correlation_matrix(plan);
     if (plan.sampling == Sampling::sobol) {
-        Points points = sobol_points(count, dimensions, plan.seed);
-        if (!plan.correlations.empty()) couple(points, wanted);
+        statistics::Points points = statistics::sobol_points(count, dimensions, plan.seed);
+        if (!plan.correlations.empty()) statistics::couple(points, wanted);
         return points;
     }
-    const std::vector<std::size_t> ends = blocks_of(count, plan.first);
-    Points points = latin_hypercube(ends.back(), plan.first, dimensions, plan.seed);
+    const std::vector<std::size_t> ends = statistics::blocks_of(count, plan.first);
+    statistics::Points points =
+        statistics::latin_hypercube(ends.back(), plan.first, dimensions, plan.seed);
     std::size_t from = 0;
     for (const std::size_t to : ends) {
-        correlate(points, from, to, wanted);
+        statistics::correlate(points, from, to, wanted);
         from = to;
     }
     points.resize(count);
@@ -46,12 +45,6 @@ Points points_of(const UncertaintyPlan& plan, std::size_t count) {
 }
 
 }  // namespace
-
-double in_six_digits(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return std::strtod(text, nullptr);
-}
 
 double draw_at(const Parameter& parameter, double u) {
     switch (parameter.kind) {
@@ -64,7 +57,7 @@ double draw_at(const Parameter& parameter, double u) {
         case ParameterKind::value:
             break;
     }
-    const double value = in_six_digits(quantile(parameter.distribution, u));
+    const double value = statistics::in_six_digits(statistics::quantile(parameter.distribution, u));
     const auto& between = parameter.distribution.between;
     return between ? std::clamp(value, (*between)[0], (*between)[1]) : value;
 }
@@ -110,7 +103,8 @@ std::vector<std::string> overrides_of(const Parameter& parameter, double draw, c
     for (const std::string& each : parameter.entries) {
         double value = draw;
         if (parameter.kind == ParameterKind::factor)
-            value = in_six_digits(draw * scene.at(json::json_pointer(each)).get<double>());
+            value =
+                statistics::in_six_digits(draw * scene.at(json::json_pointer(each)).get<double>());
         overrides.push_back(each + "=" + json(value).dump());
     }
     return overrides;

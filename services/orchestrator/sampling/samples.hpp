@@ -31,9 +31,6 @@ using Lattice = std::function<std::vector<std::string>(std::size_t number)>;
 std::vector<std::string> overrides_of(const Parameter& parameter, double draw,
                                       const nlohmann::json& scene, const Lattice& lattice);
 
-/// As text shows it: what is stored, set and shown is one number.
-double in_six_digits(double value);
-
 /// The draw at the share u of the parameter's probability, 0 < u < 1.
 double draw_at(const Parameter& parameter, double u);
 

@@ -15,26 +15,26 @@ namespace {
 constexpr std::size_t usual_lattices = 3;
 
 /// Where the search begins: "between", or the ends of the distribution itself.
-std::optional<std::array<double, 2>> ends_of(const Distribution& distribution) {
+std::optional<std::array<double, 2>> ends_of(const statistics::Distribution& distribution) {
     if (distribution.between) return distribution.between;
     switch (distribution.kind) {
-        case DistributionKind::uniform:
-        case DistributionKind::log_uniform:
+        case statistics::DistributionKind::uniform:
+        case statistics::DistributionKind::log_uniform:
             return std::array{distribution.numbers[0], distribution.numbers[1]};
-        case DistributionKind::triangular:
+        case statistics::DistributionKind::triangular:
             return std::array{distribution.numbers[0], distribution.numbers[2]};
-        case DistributionKind::normal:
-        case DistributionKind::lognormal:
+        case statistics::DistributionKind::normal:
+        case statistics::DistributionKind::lognormal:
             break;
     }
     return std::nullopt;
 }
 
 bool is_logarithmic(const Parameter& parameter, double low) {
-    const DistributionKind kind = parameter.distribution.kind;
-    return low > 0.0 &&
-           (parameter.kind == ParameterKind::factor || kind == DistributionKind::log_uniform ||
-            kind == DistributionKind::lognormal);
+    const statistics::DistributionKind kind = parameter.distribution.kind;
+    return low > 0.0 && (parameter.kind == ParameterKind::factor ||
+                         kind == statistics::DistributionKind::log_uniform ||
+                         kind == statistics::DistributionKind::lognormal);
 }
 
 /// Of a choice the likeliest option.

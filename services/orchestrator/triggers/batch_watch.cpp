@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/fault/fault.hpp"
+#include "core/statistics/percentiles.hpp"
 #include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
-#include "services/orchestrator/uncertainty/percentiles.hpp"
 
 namespace breach::orchestrator {
 
@@ -48,7 +48,7 @@ json as_json(const Narrowness& narrowness, const json& spec) {
 
 std::optional<TriggerPlan> batches_of(const Study& study) {
     if (study.target) {
-        const InverseQuestion& question = study.target->question;
+        const statistics::InverseQuestion& question = study.target->question;
         return TriggerPlan{name_of_trigger,
                            "criterion",
                            {{"when", question.quantity + " = " + json(question.target).dump()},
@@ -68,8 +68,8 @@ std::optional<TriggerPlan> batches_of(const Study& study) {
 Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
     Narrowness narrowness{.samples = results.size(), .value = {}};
     const double p = spec.at("percentile");
-    if (results.size() < samples_needed(p)) return narrowness;
-    const Interval interval = percentile(results, p);
+    if (results.size() < statistics::samples_needed(p)) return narrowness;
+    const statistics::Interval interval = statistics::percentile(results, p);
     narrowness.value = interval.value;
     if (interval.value != 0.0)
         narrowness.half_width = 0.5 * (interval.high - interval.low) / std::abs(interval.value);
@@ -143,7 +143,7 @@ bool BatchWatch::draw_on(const Trigger& trigger, const json& study) {
 bool BatchWatch::search_on(const Trigger& trigger) {
     const auto ensemble = ensemble_of(store_, trigger.run);
     const json scene = json::parse(store_.scene_of(trigger.run).value());
-    const InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
+    const statistics::InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
     if (advice.run_next.empty()) {
         const TriggerEvent event = advice.found ? TriggerEvent::fire : TriggerEvent::expire;
         end(trigger, event, {{"value", advice.found ? json(advice.found->value) : json()}},
