@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/statistics/quantiles.hpp"
+
 namespace breach::statistics {
 
 namespace {

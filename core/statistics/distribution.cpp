@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 
+#include "core/statistics/quantiles.hpp"
 #include "core/words/words.hpp"
 
 namespace breach::statistics {
@@ -20,20 +20,6 @@ static constexpr auto words_of(DistributionKind) {
 }
 
 namespace {
-
-/// Of p <= 1/2.
-double lower_normal_quantile(double p) {
-    const double t = std::sqrt(-2.0 * std::log(p));
-    double z = (2.515517 + t * (0.802853 + t * 0.010328)) /
-                   (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308))) -
-               t;
-    for (int step = 0; step < 3; ++step) {
-        const double excess =
-            (normal_cdf(z) - p) * std::sqrt(2.0 * std::numbers::pi) * std::exp(0.5 * z * z);
-        z -= excess / (1.0 + 0.5 * z * excess);
-    }
-    return z;
-}
 
 /// Of the logarithm.
 double lognormal_deviation(double cov) { return std::sqrt(std::log1p(cov * cov)); }
@@ -75,12 +61,6 @@ std::string_view name_of(DistributionKind kind) { return words::name_of(kind); }
 
 DistributionKind distribution_named(std::string_view name) {
     return words::named<DistributionKind>(name);
-}
-
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
-double normal_quantile(double p) {
-    return p > 0.5 ? -lower_normal_quantile(1.0 - p) : lower_normal_quantile(p);
 }
 
 double share_below(const Distribution& distribution, double x) {

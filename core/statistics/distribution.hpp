@@ -8,12 +8,6 @@
 
 namespace breach::statistics {
 
-/// Phi(z) of the standard normal distribution; relative error below 1e-14 in the lower tail as well.
-double normal_cdf(double z);
-/// Its inverse, 0 < p < 1. |z| is right to 1e-14 (1 + |z|): Abramowitz & Stegun 26.2.23 begins, three of
-/// Halley's steps on normal_cdf end it.
-double normal_quantile(double p);
-
 enum class DistributionKind { uniform, log_uniform, normal, lognormal, triangular };
 std::string_view name_of(DistributionKind kind);
 /// Of a word that the schema has checked.

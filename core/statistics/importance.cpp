@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/statistics/quantiles.hpp"
 #include "core/statistics/rank_correlation.hpp"
 
 namespace breach::statistics {
@@ -17,7 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double z_of_tail = 1.6448536269514722;  // 95th percentile of the standard normal
 constexpr std::size_t least_samples = 5;
 
 double mean_of(std::span<const double> values) {
@@ -38,7 +38,7 @@ VectorXd ranked(std::span<const double> values) {
 /// In Fisher's z = atanh(r), with the variance of Bonett & Wright (2000); degrees: of freedom, n - 3
 /// less one for each column that was taken out.
 Interval in_fishers_z(double r, double degrees) {
-    const double half = z_of_tail * std::sqrt((1.0 + 0.5 * r * r) / degrees);
+    const double half = normal_quantile_of_95 * std::sqrt((1.0 + 0.5 * r * r) / degrees);
     const double z = std::atanh(std::clamp(r, -1.0 + 1e-15, 1.0 - 1e-15));
     return {r, std::tanh(z - half), std::tanh(z + half)};
 }
@@ -126,7 +126,7 @@ Interval jackknifed(double value, std::span<const double> without_one) {
     const double mean = mean_of(without_one);
     double squares = 0.0;
     for (const double each : without_one) squares += (each - mean) * (each - mean);
-    const double half = z_of_tail * std::sqrt((n - 1.0) / n * squares);
+    const double half = normal_quantile_of_95 * std::sqrt((n - 1.0) / n * squares);
     const auto share = [](double number) { return std::clamp(number, 0.0, 1.0); };
     return {share(value), share(value - half), share(value + half)};
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/statistics/quantiles.hpp"
+
 namespace breach::statistics {
 
 double promised_error(double bias, const Repeats& measured, double reference, std::size_t draws) {

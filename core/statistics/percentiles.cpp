@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/statistics/incomplete_beta.hpp"
+#include "core/statistics/quantiles.hpp"
 
 namespace breach::statistics {
 
@@ -43,7 +43,7 @@ double rank_below(double share, std::size_t n, double probability) {
 
 /// Wilson's interval of a share k / n: the probabilities that a normal test does not refuse.
 Interval wilson(double k, double n) {
-    constexpr double z = 1.6448536269514722;  // 95th percentile of the standard normal
+    constexpr double z = normal_quantile_of_95;
     const double share = k / n;
     const double spread = 1.0 + z * z / n;
     const double centre = (share + z * z / (2.0 * n)) / spread;

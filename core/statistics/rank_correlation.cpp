@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/statistics/distribution.hpp"
+#include "core/statistics/quantiles.hpp"
 
 namespace breach::statistics {
 

@@ -2,7 +2,8 @@
 
 #include <cassert>
 #include <cmath>
-#include <numbers>
+
+#include "core/statistics/quantiles.hpp"
 
 namespace breach::statistics {
 
@@ -28,38 +29,6 @@ std::optional<Noise> pooled_noise(std::span<const Repeats> settings) {
     }
     if (freedom == 0) return std::nullopt;
     return Noise{std::sqrt(squares / static_cast<double>(freedom)), freedom};
-}
-
-namespace {
-
-/// Probability that |T| <= t: finite sums over powers of cos^2 of the angle atan(t / sqrt(freedom)).
-double share_within(double t, std::size_t freedom) {
-    const auto nu = static_cast<double>(freedom);
-    const double angle = std::atan(t / std::sqrt(nu));
-    const double cosine = std::cos(angle);
-    const bool odd = freedom % 2 == 1;
-    double term = odd ? cosine : 1.0;
-    double sum = freedom == 1 ? 0.0 : term;
-    for (double k = odd ? 3.0 : 2.0; k < nu - 1.0; k += 2.0) {
-        term *= cosine * cosine * (k - 1.0) / k;
-        sum += term;
-    }
-    if (!odd) return std::sin(angle) * sum;
-    return 2.0 / std::numbers::pi * (angle + std::sin(angle) * sum);
-}
-
-}  // namespace
-
-double student_factor(double share, std::size_t freedom) {
-    assert(share > 0.0 && share < 1.0 && freedom > 0);
-    double low = 0.0;
-    double high = 1.0;
-    while (share_within(high, freedom) < share) high *= 2.0;
-    for (;;) {
-        const double middle = 0.5 * (low + high);
-        if (middle <= low || middle >= high) return middle;
-        (share_within(middle, freedom) < share ? low : high) = middle;
-    }
 }
 
 double half_width_of_mean(const Noise& noise, std::size_t count) {

@@ -28,10 +28,6 @@ std::optional<Noise> pooled_noise(std::span<const Repeats> settings);
 /// Of the means, so many are to keep what is promised of them.
 constexpr double confidence = 0.9;
 
-/// t such that |T| <= t with probability `share` for Student's distribution with `freedom` >= 1
-/// degrees of freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). 0 < share < 1.
-double student_factor(double share, std::size_t freedom);
-
 /// t s / sqrt(count): so far the mean of all repeats may be from that of `count`, in nine of ten times.
 double half_width_of_mean(const Noise& noise, std::size_t count);
 /// The same of these repeats alone: so far the mean of all lattices may be from that of these, in nine of ten times;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/statistics/distribution.hpp"
+#include "core/statistics/quantiles.hpp"
 #include "core/statistics/rank_correlation.hpp"
 
 namespace breach::statistics {

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "core/statistics/quantiles.hpp"
+
 namespace breach::statistics::mean_of_draws_test {
 namespace {
 

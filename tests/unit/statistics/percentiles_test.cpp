@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/statistics/incomplete_beta.hpp"
+#include "core/statistics/quantiles.hpp"
 
 namespace breach::statistics::percentiles_test {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/statistics/distribution.hpp"
 #include "core/statistics/points.hpp"
+#include "core/statistics/quantiles.hpp"
 #include "core/statistics/rank_correlation.hpp"
 
 namespace breach::statistics::sampling_test {
