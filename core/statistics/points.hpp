@@ -26,7 +26,8 @@ std::vector<std::size_t> blocks_of(std::size_t points, std::size_t first);
 inline constexpr std::size_t most_sobol_dimensions = 64;
 
 /// The Sobol sequence with the direction numbers new-joe-kuo-6 (Joe & Kuo 2008,
-/// doi:10.1137/070709359), 32 bits, in Gray-code order from the origin: [points][dimensions].
+/// doi:10.1137/070709359; by Boost.Random), 32 bits, in Gray-code order from the origin:
+/// [points][dimensions].
 std::vector<std::vector<std::uint32_t>> sobol_sequence(std::size_t points, std::size_t dimensions);
 
 /// That sequence, moved by a digital shift of the seed (each dimension's numbers exclusive-or one

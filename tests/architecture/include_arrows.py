@@ -63,7 +63,7 @@ one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {
-    "boost/": ["core/statistics/quantiles."],
+    "boost/": ["core/statistics/quantiles.", "core/statistics/sobol."],
     "hdf5.h": ["core/exchange/"],
     "sqlite3.h": ["services/orchestrator/store/"],
     "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],
