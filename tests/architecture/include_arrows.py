@@ -50,7 +50,7 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}, {"element_bench"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"access", "records", "sampling"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"ensemble"}, {"triggers"},
+    "services/orchestrator": [{"access", "records"}, {"files", "programs"}, {"study", "executors", "store"}, {"ensemble", "triggers"},
                               {"dispatch", "accuracy", "audit"},
                               {"http"}],
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],

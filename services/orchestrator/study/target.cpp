@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "services/orchestrator/records/result_columns.hpp"
-#include "services/orchestrator/sampling/samples.hpp"
+#include "services/orchestrator/study/samples.hpp"
 
 namespace breach::orchestrator {
 
 using fault::Fault;
 using nlohmann::json;
+using statistics::DistributionKind;
 
 namespace {
 
@@ -18,23 +19,23 @@ constexpr std::size_t usual_lattices = 3;
 std::optional<std::array<double, 2>> ends_of(const statistics::Distribution& distribution) {
     if (distribution.between) return distribution.between;
     switch (distribution.kind) {
-        case statistics::DistributionKind::uniform:
-        case statistics::DistributionKind::log_uniform:
+        case DistributionKind::uniform:
+        case DistributionKind::log_uniform:
             return std::array{distribution.numbers[0], distribution.numbers[1]};
-        case statistics::DistributionKind::triangular:
+        case DistributionKind::triangular:
             return std::array{distribution.numbers[0], distribution.numbers[2]};
-        case statistics::DistributionKind::normal:
-        case statistics::DistributionKind::lognormal:
+        case DistributionKind::normal:
+        case DistributionKind::lognormal:
             break;
     }
     return std::nullopt;
 }
 
 bool is_logarithmic(const Parameter& parameter, double low) {
-    const statistics::DistributionKind kind = parameter.distribution.kind;
-    return low > 0.0 && (parameter.kind == ParameterKind::factor ||
-                         kind == statistics::DistributionKind::log_uniform ||
-                         kind == statistics::DistributionKind::lognormal);
+    const DistributionKind kind = parameter.distribution.kind;
+    return low > 0.0 &&
+           (parameter.kind == ParameterKind::factor || kind == DistributionKind::log_uniform ||
+            kind == DistributionKind::lognormal);
 }
 
 /// Of a choice the likeliest option.

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/statistics/inverse.hpp"
-#include "services/orchestrator/sampling/plan.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
+#include "services/orchestrator/study/uncertainty.hpp"
 
 namespace breach::orchestrator {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "services/orchestrator/sampling/samples.hpp"
+#include "services/orchestrator/study/samples.hpp"
 
 namespace breach::orchestrator::sampling_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "services/orchestrator/triggers/batch_watch.hpp"
+#include "services/orchestrator/ensemble/batch_watch.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -1,4 +1,4 @@
-#include "services/orchestrator/sampling/plan.hpp"
+#include "services/orchestrator/study/uncertainty.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@ namespace breach::orchestrator {
 
 using fault::Fault;
 using nlohmann::json;
+using statistics::DistributionKind;
 
 static constexpr auto words_of(ParameterKind) {
     using enum ParameterKind;
@@ -42,6 +43,27 @@ std::string names_of(const std::vector<Parameter>& parameters) {
     for (const Parameter& each : parameters)
         names.append(names.empty() ? "" : ", ").append(in_quotes(each.name));
     return names;
+}
+
+struct DistributionWords {
+    std::vector<std::string> keys;  ///< of Distribution::numbers
+    std::string meaning;
+};
+
+DistributionWords distribution_words(DistributionKind kind) {
+    switch (kind) {
+        case DistributionKind::normal:
+            return {{"mean", "sd"}, "mean, and sd, the standard deviation"};
+        case DistributionKind::lognormal:
+            return {{"median", "cov"}, "median, and cov, the coefficient of variation"};
+        case DistributionKind::triangular:
+            return {{"from", "mode", "to"},
+                    "from and to are the ends, mode is the likeliest value"};
+        case DistributionKind::uniform:
+        case DistributionKind::log_uniform:
+            break;
+    }
+    return {{"from", "to"}, "from and to are the ends"};
 }
 
 /// Reads one entry of the list of parameters; what is wrong is told below `at`.
@@ -136,39 +158,10 @@ class ParameterReader {
 
     double number(const json& distribution, const std::string& key, bool& complete) {
         if (distribution.contains(key)) return distribution.at(key);
-        fault("/distribution", "lacks " + in_quotes(key), "add it: " + meaning());
+        fault("/distribution", "lacks " + in_quotes(key),
+              "add it: " + distribution_words(parameter_.distribution.kind).meaning);
         complete = false;
         return 0.0;
-    }
-
-    std::string meaning() const {
-        switch (parameter_.distribution.kind) {
-            case statistics::DistributionKind::uniform:
-            case statistics::DistributionKind::log_uniform:
-                return "from and to are the ends";
-            case statistics::DistributionKind::normal:
-                return "mean, and sd, the standard deviation";
-            case statistics::DistributionKind::lognormal:
-                return "median, and cov, the coefficient of variation";
-            case statistics::DistributionKind::triangular:
-                break;
-        }
-        return "from and to are the ends, mode is the likeliest value";
-    }
-
-    static std::vector<std::string> keys_of(statistics::DistributionKind kind) {
-        switch (kind) {
-            case statistics::DistributionKind::uniform:
-            case statistics::DistributionKind::log_uniform:
-                return {"from", "to"};
-            case statistics::DistributionKind::normal:
-                return {"mean", "sd"};
-            case statistics::DistributionKind::lognormal:
-                return {"median", "cov"};
-            case statistics::DistributionKind::triangular:
-                break;
-        }
-        return {"from", "mode", "to"};
     }
 
     void read_distribution() {
@@ -180,7 +173,7 @@ class ParameterReader {
         const json& entry = entry_.at("distribution");
         statistics::Distribution& distribution = parameter_.distribution;
         distribution.kind = statistics::distribution_named(entry.at("type").get<std::string>());
-        const std::vector<std::string> keys = keys_of(distribution.kind);
+        const auto [keys, meaning] = distribution_words(distribution.kind);
         bool complete = true;
         for (std::size_t i = 0; i < keys.size(); ++i)
             distribution.numbers.at(i) = number(entry, keys[i], complete);
@@ -189,7 +182,7 @@ class ParameterReader {
                 fault("/distribution/" + key,
                       "has no meaning in a " + std::string(name_of(distribution.kind)) +
                           " distribution",
-                      "remove it: " + meaning());
+                      "remove it: " + meaning);
         if (complete && check_numbers(distribution)) read_between();
     }
 
@@ -209,21 +202,21 @@ class ParameterReader {
                       "is " + spelt_short(value) + ", and " + why, "give a number above 0");
         };
         switch (distribution.kind) {
-            case statistics::DistributionKind::uniform:
+            case DistributionKind::uniform:
                 ends(a, b);
                 break;
-            case statistics::DistributionKind::log_uniform:
+            case DistributionKind::log_uniform:
                 positive("from", a, "a logarithm needs positive ends");
                 ends(a, b);
                 break;
-            case statistics::DistributionKind::normal:
+            case DistributionKind::normal:
                 positive("sd", b, "a spread is positive");
                 break;
-            case statistics::DistributionKind::lognormal:
+            case DistributionKind::lognormal:
                 positive("median", a, "a lognormal number is positive");
                 positive("cov", b, "a spread is positive");
                 break;
-            case statistics::DistributionKind::triangular:
+            case DistributionKind::triangular:
                 ends(a, c);
                 if (a < c && (b < a || b > c))
                     fault("/distribution/mode", "lies outside of from and to",

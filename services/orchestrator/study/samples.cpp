@@ -1,9 +1,8 @@
-#include "services/orchestrator/sampling/samples.hpp"
+#include "services/orchestrator/study/samples.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "core/statistics/points.hpp"
 

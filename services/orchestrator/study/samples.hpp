@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "services/orchestrator/sampling/plan.hpp"
+#include "services/orchestrator/study/uncertainty.hpp"
 
 namespace breach::orchestrator {
 
