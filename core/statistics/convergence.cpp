@@ -5,8 +5,19 @@
 #include <cmath>
 
 #include "core/statistics/quantiles.hpp"
+#include "core/words/words.hpp"
 
 namespace breach::statistics {
+
+static constexpr auto words_of(Course) {
+    using enum Course;
+    return words::in_order<Course>({{too_few, "too_few"},
+                                    {monotone, "monotone"},
+                                    {oscillating, "oscillating"},
+                                    {not_falling, "not_falling"},
+                                    {below_noise, "below_noise"},
+                                    {no_effect, "no_effect"}});
+}
 
 namespace {
 
@@ -35,23 +46,7 @@ double spread_of(std::span<const Rung> rungs) {
 
 }  // namespace
 
-std::string_view name_of(Course course) {
-    switch (course) {
-        case Course::too_few:
-            return "too_few";
-        case Course::monotone:
-            return "monotone";
-        case Course::oscillating:
-            return "oscillating";
-        case Course::not_falling:
-            return "not_falling";
-        case Course::no_effect:
-            return "no_effect";
-        case Course::below_noise:
-            break;
-    }
-    return "below_noise";
-}
+std::string_view name_of(Course course) { return words::name_of(course); }
 
 bool rests_on_sizes(Course course) {
     return course != Course::oscillating && course != Course::no_effect;

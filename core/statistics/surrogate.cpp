@@ -2,7 +2,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -10,6 +9,7 @@
 
 #include "core/statistics/quantiles.hpp"
 #include "core/statistics/rank_correlation.hpp"
+#include "core/words/words.hpp"
 
 namespace breach::statistics {
 
@@ -21,18 +21,10 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 enum class Form { linear, squares, products };
-constexpr std::array forms{Form::linear, Form::squares, Form::products};
-
-std::string name_of(Form form) {
-    switch (form) {
-        case Form::linear:
-            return "linear";
-        case Form::squares:
-            return "squares";
-        case Form::products:
-            break;
-    }
-    return "squares and products";
+constexpr auto words_of(Form) {
+    return words::in_order<Form>({{Form::linear, "linear"},
+                                  {Form::squares, "squares"},
+                                  {Form::products, "squares and products"}});
 }
 
 VectorXd normal_scores(std::span<const double> values) {
@@ -121,7 +113,7 @@ std::optional<Fit> fitted(const Inputs& inputs, const VectorXd& y, Form form) {
 
 std::optional<Fit> best_fit(const Inputs& inputs, const VectorXd& y) {
     std::optional<Fit> best;
-    for (const Form form : forms) {
+    for (const Form form : words::values<Form>) {
         std::optional<Fit> fit = fitted(inputs, y, form);
         if (fit && (!best || fit->q2 > best->q2)) best = std::move(fit);
     }
@@ -198,7 +190,7 @@ Tornado tornado_of(std::span<const Drawn> parameters, std::span<const double> re
         return tornado;
     }
     tornado.q2 = fit->q2;
-    tornado.form = name_of(fit->form);
+    tornado.form = words::name_of(fit->form);
     if (fit->q2 < least_q2) {
         tornado.refused =
             "Q2 is " + two_decimals(fit->q2) + "; " + two_decimals(least_q2) + " is needed";
