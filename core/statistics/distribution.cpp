@@ -6,18 +6,8 @@
 #include <cstdlib>
 
 #include "core/statistics/quantiles.hpp"
-#include "core/words/words.hpp"
 
 namespace breach::statistics {
-
-static constexpr auto words_of(DistributionKind) {
-    using enum DistributionKind;
-    return words::in_order<DistributionKind>({{uniform, "uniform"},
-                                              {log_uniform, "log_uniform"},
-                                              {normal, "normal"},
-                                              {lognormal, "lognormal"},
-                                              {triangular, "triangular"}});
-}
 
 namespace {
 
@@ -56,12 +46,6 @@ bool is_of_normal(DistributionKind kind) {
 }
 
 }  // namespace
-
-std::string_view name_of(DistributionKind kind) { return words::name_of(kind); }
-
-DistributionKind distribution_named(std::string_view name) {
-    return words::named<DistributionKind>(name);
-}
 
 double share_below(const Distribution& distribution, double x) {
     const auto [a, b, c] = distribution.numbers;

@@ -4,14 +4,20 @@
 
 #include <array>
 #include <optional>
-#include <string_view>
+
+#include "core/words/words.hpp"
 
 namespace breach::statistics {
 
 enum class DistributionKind { uniform, log_uniform, normal, lognormal, triangular };
-std::string_view name_of(DistributionKind kind);
-/// Of a word that the schema has checked.
-DistributionKind distribution_named(std::string_view name);
+constexpr auto words_of(DistributionKind) {
+    using enum DistributionKind;
+    return words::in_order<DistributionKind>({{uniform, "uniform"},
+                                              {log_uniform, "log_uniform"},
+                                              {normal, "normal"},
+                                              {lognormal, "lognormal"},
+                                              {triangular, "triangular"}});
+}
 
 /// What the numbers mean hangs on the kind:
 ///     uniform, log_uniform   from, to

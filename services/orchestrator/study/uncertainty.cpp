@@ -172,7 +172,7 @@ class ParameterReader {
         }
         const json& entry = entry_.at("distribution");
         statistics::Distribution& distribution = parameter_.distribution;
-        distribution.kind = statistics::distribution_named(entry.at("type").get<std::string>());
+        distribution.kind = words::word_at<DistributionKind>(entry, "type");
         const auto [keys, meaning] = distribution_words(distribution.kind);
         bool complete = true;
         for (std::size_t i = 0; i < keys.size(); ++i)
@@ -180,7 +180,7 @@ class ParameterReader {
         for (const auto& [key, value] : entry.items())
             if (key != "type" && std::ranges::find(keys, key) == keys.end())
                 fault("/distribution/" + key,
-                      "has no meaning in a " + std::string(name_of(distribution.kind)) +
+                      "has no meaning in a " + std::string(words::name_of(distribution.kind)) +
                           " distribution",
                       "remove it: " + meaning);
         if (complete && check_numbers(distribution)) read_between();

@@ -56,7 +56,8 @@ TEST(Distribution, ShareBelowIsTheQuantilesInverse) {
                                      Distribution{DistributionKind::triangular, {2, 2, 5}, {}},
                                      Distribution{DistributionKind::triangular, {2, 5, 5}, {}}})
         for (const double u : {0.001, 0.2, 0.5, 0.77, 0.999})
-            EXPECT_NEAR(share_below(each, quantile(each, u)), u, 1e-13) << name_of(each.kind);
+            EXPECT_NEAR(share_below(each, quantile(each, u)), u, 1e-13)
+                << words::name_of(each.kind);
 }
 
 TEST(Sobol, IsThatOfJoeAndKuoInAllDimensions) {
