@@ -7,7 +7,6 @@
 #include <numeric>
 #include <set>
 
-#include "core/statistics/quantiles.hpp"
 #include "core/statistics/rank_correlation.hpp"
 
 namespace breach::statistics {

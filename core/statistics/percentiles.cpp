@@ -4,13 +4,11 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/statistics/quantiles.hpp"
-
 namespace breach::statistics {
 
 namespace {
 
-constexpr double tail = 0.5 * (1.0 - share_covered);
+constexpr double tail = 0.5 * (1.0 - confidence);
 
 std::vector<double> in_order(std::span<const double> values) {
     std::vector<double> sorted(values.begin(), values.end());

@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "core/statistics/quantiles.hpp"
+
 namespace breach::statistics {
 
-/// An estimate and the interval that covers what it estimates in `share_covered` of studies.
+/// An estimate and the interval that covers what it estimates with `confidence`.
 struct Interval {
     double value, low, high;
 };
-constexpr double share_covered = 0.9;
 
 /// The fewest samples that a percentile p [%] is told of: with probability 0.95 it then lies above
 /// the smallest and, likewise, below the largest of them (Wilks 1941), so that a two-sided 90 %

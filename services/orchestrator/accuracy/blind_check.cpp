@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/statistics/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 #include "services/orchestrator/records/or_null.hpp"

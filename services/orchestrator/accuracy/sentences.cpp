@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/statistics/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 
 namespace breach::orchestrator {
 

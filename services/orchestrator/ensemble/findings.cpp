@@ -252,7 +252,7 @@ json findings_of(const Ensemble& ensemble, const json& scene, const std::string&
         {"quantity", quantity.empty() ? first_quantity(ensemble) : quantity},
         {"sampling", ensemble.entry.value("sampling", json())},
         {"seed", ensemble.entry.value("seed", json())},
-        {"confidence", statistics::share_covered},
+        {"confidence", statistics::confidence},
         {"samples", counts_of(ensemble)},
         {"parameters", parameters_of(ensemble.entry)},
         {"rows", rows_of(ensemble)},

@@ -1,4 +1,4 @@
-#include "core/statistics/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/accuracy/blind_check.hpp"
 #include "services/orchestrator/http/answers.hpp"

@@ -1,5 +1,5 @@
 // Student's factor against published tables, and how many draws a mean needs.
-#include "core/statistics/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/statistics/quantiles.hpp"
 
-namespace breach::statistics::mean_of_draws_test {
+namespace breach::statistics::repeats_test {
 namespace {
 
 TEST(StudentFactor, IsThatOfTheTables) {
@@ -121,4 +121,4 @@ TEST(MeanOfDraws, OverSeveralLaddersKeepsItsPromise) {
 }
 
 }  // namespace
-}  // namespace breach::statistics::mean_of_draws_test
+}  // namespace breach::statistics::repeats_test
