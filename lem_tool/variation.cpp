@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/numerics/blocks.hpp"
+#include "core/statistics/distribution.hpp"
+#include "core/statistics/points.hpp"
+#include "core/statistics/repeats.hpp"
 #include "lem_tool/answer.hpp"
 #include "lem_tool/facts.hpp"
-#include "lem_tool/hypercube.hpp"
 #include "lem_tool/limit_scene.hpp"
 
 namespace breach::lem {
@@ -176,31 +179,30 @@ std::vector<Strength> strengths_of(const Varied& of_scene, std::size_t layers) {
 
 json or_null(double F) { return std::isfinite(F) ? json(F) : json(nullptr); }
 
+/// Of the parameter over its mean.
+statistics::Distribution distribution_of(const scene::RandomVariable& variable) {
+    const double cov = variable.variation;
+    if (variable.distribution == scene::Distribution::normal)
+        return {statistics::DistributionKind::normal, {1.0, cov}};
+    return {statistics::DistributionKind::lognormal, {1.0 / std::sqrt(1.0 + cov * cov), cov}};
+}
+
 json statistics_of(const std::vector<double>& factors) {
-    double sum = 0.0;
-    double squares = 0.0;
-    std::size_t driven = 0;
-    std::size_t failed = 0;
-    for (const double F : factors) {
-        if (!std::isfinite(F)) continue;
-        ++driven;
-        sum += F;
-        squares += F * F;
-        if (F < 1.0) ++failed;
-    }
-    const auto n = static_cast<double>(driven);
-    const double mean = driven > 0 ? sum / n : 0.0;
-    const double deviation =
-        driven > 1 ? std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1.0))) : 0.0;
+    std::vector<double> driven;
+    std::ranges::copy_if(factors, std::back_inserter(driven),
+                         [](double F) { return std::isfinite(F); });
+    const auto failed = std::ranges::count_if(driven, [](double F) { return F < 1.0; });
+    const auto repeats = driven.empty() ? statistics::Repeats{} : statistics::repeats_of(driven);
+    const double deviation = repeats.deviation.value_or(0.0);
     json facts{{"samples", factors.size()},
-               {"mean", mean},
+               {"mean", repeats.mean},
                {"standard_deviation", deviation},
                {"failures", failed},
-               {"not_driven", factors.size() - driven},
+               {"not_driven", factors.size() - driven.size()},
                {"probability_of_failure",
                 static_cast<double>(failed) / static_cast<double>(factors.size())},
                {"reliability_index", nullptr}};
-    if (deviation > 0.0) facts["reliability_index"] = (mean - 1.0) / deviation;
+    if (deviation > 0.0) facts["reliability_index"] = (repeats.mean - 1.0) / deviation;
     return facts;
 }
 
@@ -237,12 +239,16 @@ Samples add_probability(const scene::Scene& scene, int threads, json& result) {
     const scene::Probability& asked = *scene.lem->probability;
     const Variations variations(of_scene.limit, asked.surface, asked.layers_liquefied, threads);
     const auto count = static_cast<std::size_t>(asked.samples);
+    const statistics::Points cube =
+        statistics::latin_hypercube(count, count, asked.variables.size(), asked.seed);
     Samples samples{{}, {}, std::vector<double>(count)};
     for (std::size_t v = 0; v < asked.variables.size(); ++v) {
         const scene::RandomVariable& variable = asked.variables[v];
         samples.names.push_back(name_of(of_scene, variable.parameter, variable.of));
-        std::vector<double> column = hypercube_column(count, asked.seed, v);
-        for (double& x : column) x = factor_at(variable, x);
+        const statistics::Distribution distribution = distribution_of(variable);
+        std::vector<double> column;
+        for (const auto& point : cube)
+            column.push_back(std::max(0.0, statistics::quantile(distribution, point[v])));
         samples.factors.push_back(std::move(column));
     }
     numerics::run_blocks((count + block - 1) / block, threads, [&](std::size_t n) {

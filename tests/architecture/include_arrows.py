@@ -20,6 +20,7 @@ core = {
     "core/mechanics": set(),
     "core/geometry": {"core/mechanics"},
     "core/numerics": set(),
+    "core/statistics": {"core/words"},
     "core/telemetry": {"core/fault"},
     "core/materials": {"core/mechanics"},
     "core/grid": {"core/materials"},
@@ -41,7 +42,7 @@ arrows = {
     "services/estimate": {"core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
     "services/findings": {"core/fault", "core/phases", "core/words"},
-    "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/telemetry", "core/version", "core/words"},
+    "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
     "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
@@ -51,7 +52,7 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"access", "records", "sampling"}, {"uncertainty"}, {"files"}, {"programs"}, {"study", "executors", "store"}, {"ensemble"}, {"triggers"},
+    "services/orchestrator": [{"access", "records"}, {"files", "programs"}, {"study", "executors", "store"}, {"ensemble", "triggers"},
                               {"dispatch", "accuracy", "audit"},
                               {"http"}],
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
@@ -64,6 +65,7 @@ one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {
+    "boost/": ["core/statistics/quantiles.", "core/statistics/sobol."],
     "hdf5.h": ["core/exchange/"],
     "sqlite3.h": ["services/orchestrator/store/"],
     "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "services/orchestrator/accuracy/convergence.hpp"
+#include "core/statistics/convergence.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
 
@@ -22,12 +22,12 @@ struct MeanOfDraws {
 struct AccuracyRow {
     Setting setting;
     std::optional<double> size = {};
-    std::optional<Repeats> value = {};  ///< of the draws that have one
-    std::optional<Cost> cost = {};      ///< mean over the draws; of memory the most
-    std::optional<double> error = {};   ///< of the mean of the draws, relative to the reference
+    std::optional<statistics::Repeats> value = {};  ///< of the draws that have one
+    std::optional<Cost> cost = {};                  ///< mean over the draws; of memory the most
+    std::optional<double> error = {};  ///< of the mean of the draws, relative to the reference
     /// What its own ladder says it is off: with the finest rung as reference the difference from
     /// that, and what that one is off itself
-    std::optional<Share> of_own_ladder = {};
+    std::optional<statistics::Share> of_own_ladder = {};
     /// What the base's rungs of the other ladders are off, together: what this row shares with them
     double error_of_other_ladders = 0.0;
     /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
@@ -46,12 +46,12 @@ struct AccuracyRow {
 };
 
 struct LadderSummary {
-    Convergence convergence;
+    statistics::Convergence convergence;
     std::optional<double> reference;
     bool reference_is_questionable = false;  ///< its rung carries such a flag
     std::string message;                     ///< the course in a sentence
     /// What the rung is off that is the base; nothing: no rung is the base, or its error is not known
-    std::optional<Share> of_base;
+    std::optional<statistics::Share> of_base;
     /// Errors are measured from its finest rung, and what that one is off is not known without sizes
     bool lacks_sizes = false;
     bool base_lacks_sizes = false;  ///< such a ladder has the base, too

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/phases/phases.hpp"
-#include "services/orchestrator/accuracy/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 #include "services/orchestrator/records/or_null.hpp"
@@ -59,15 +59,15 @@ AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
         if (draws.back().value) values.push_back(*draws.back().value);
         row.questionable |= draws.back().questionable;
     }
-    if (!values.empty()) row.value = repeats_of(values);
+    if (!values.empty()) row.value = statistics::repeats_of(values);
     row.cost = mean_cost(draws);
     row.reason = worst_reason(draws);
     return row;
 }
 
 /// Rungs without a known size are taken as halved; what rests on that is then not told.
-Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
-    std::vector<Rung> rungs;
+statistics::Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
+    std::vector<statistics::Rung> rungs;
     bool sized = true;
     for (const AccuracyRow* each : rows) {
         if (!each->value) continue;
@@ -75,16 +75,17 @@ Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
         const auto halvings = static_cast<double>(each->setting.step);
         rungs.push_back({each->size.value_or(std::exp2(-halvings)), *each->value});
     }
-    Convergence found = convergence_of(rungs);
+    statistics::Convergence found = statistics::convergence_of(rungs);
     if (!sized) {
         found.order = found.limit = found.gci = std::nullopt;
         found.order_by_noise = std::nullopt;
-        if (rests_on_sizes(found.course)) found.error_of_finest = std::nullopt;
+        if (statistics::rests_on_sizes(found.course)) found.error_of_finest = std::nullopt;
     }
     return found;
 }
 
-std::optional<double> reference_of(const Reference& reference, const Convergence& convergence,
+std::optional<double> reference_of(const Reference& reference,
+                                   const statistics::Convergence& convergence,
                                    const AccuracyRow& finest) {
     switch (reference.kind) {
         case ReferenceKind::given:
@@ -119,7 +120,8 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
             const double off = std::abs(row->value->mean - *ladder.reference);
             row->error = off / std::abs(*ladder.reference);
             const auto& noise = ladder.convergence.noise;
-            row->below_noise = noise && off < smallest_told_difference(*noise, row->value->count);
+            row->below_noise =
+                noise && off < statistics::smallest_told_difference(*noise, row->value->count);
         }
         if (ladder.lacks_sizes)
             add_reason(*row, "what the finest rung is off is not known: give the ladder \"sizes\"");
@@ -128,15 +130,15 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
 
 /// What a rung is off by what its own ladder says: with the finest rung as reference its difference
 /// from that, and what that one is off itself.
-std::optional<Share> share_of(const AccuracyRow& row, const LadderSummary& ladder,
-                              ReferenceKind reference) {
+std::optional<statistics::Share> share_of(const AccuracyRow& row, const LadderSummary& ladder,
+                                          ReferenceKind reference) {
     const std::optional<double>& of_finest = ladder.convergence.error_of_finest;
-    const bool finest_is_told = ladder.convergence.course != Course::below_noise;
-    if (row.is_reference && of_finest) return Share{*of_finest, finest_is_told};
+    const bool finest_is_told = ladder.convergence.course != statistics::Course::below_noise;
+    if (row.is_reference && of_finest) return statistics::Share{*of_finest, finest_is_told};
     if (!row.error) return std::nullopt;
-    if (reference != ReferenceKind::finest) return Share{*row.error, !row.below_noise};
+    if (reference != ReferenceKind::finest) return statistics::Share{*row.error, !row.below_noise};
     if (!of_finest) return std::nullopt;
-    return Share{*row.error + *of_finest, !row.below_noise || finest_is_told};
+    return statistics::Share{*row.error + *of_finest, !row.below_noise || finest_is_told};
 }
 
 /// Whether the row's share of another ladder is not known for want of that ladder's sizes.
@@ -163,15 +165,15 @@ void tell_errors_of_runs(AccuracyTable& table) {
     }
     for (AccuracyRow& row : table.rows) {
         const LadderSummary& own = table.ladders[row.setting.ladder];
-        std::vector<Share> shares;
+        std::vector<statistics::Share> shares;
         for (const LadderSummary& each : table.ladders)
             if (&each != &own && each.of_base) shares.push_back(*each.of_base);
-        row.error_of_other_ladders = sum_of(shares);
+        row.error_of_other_ladders = statistics::sum_of(shares);
         row.of_own_ladder = share_of(row, own, reference);
         if (!row.of_own_ladder || rests_on_unsized(table, row)) continue;
         shares.push_back(*row.of_own_ladder);
-        row.bias = sum_of(shares);
-        row.error_of_a_run = error_of_one_run(*row.bias, *row.value, *own.reference);
+        row.bias = statistics::sum_of(shares);
+        row.error_of_a_run = statistics::error_of_one_run(*row.bias, *row.value, *own.reference);
     }
 }
 
@@ -182,7 +184,7 @@ MeanOfDraws mean_of(const AccuracyRow& row, Redrawn drawn, double reference, std
     const bool shares = drawn == Redrawn::points && fem != by_phase.end();
     const double shared = shares ? fem->second : 0.0;
     const double own = row.cost->cpu_seconds - shared;
-    return {draws, promised_error(*row.bias, *row.value, reference, draws),
+    return {draws, statistics::promised_error(*row.bias, *row.value, reference, draws),
             shared + static_cast<double>(draws) * own};
 }
 
@@ -191,15 +193,15 @@ void tell_means(AccuracyTable& table) {
         if (!row.bias || !row.cost) continue;
         const double reference = *table.ladders[row.setting.ladder].reference;
         if (const auto draws =
-                draws_within(table.plan.asked_error, *row.bias, *row.value, reference))
+                statistics::draws_within(table.plan.asked_error, *row.bias, *row.value, reference))
             row.mean_within_asked = mean_of(row, table.plan.draws_of, reference, *draws);
     }
 }
 
 void choose(AccuracyTable& table) {
-    std::vector<Offer> offers;
+    std::vector<statistics::Offer> offers;
     std::vector<std::size_t> rows;
-    std::vector<Offer> means;
+    std::vector<statistics::Offer> means;
     std::vector<std::size_t> rows_of_means;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const AccuracyRow& row = table.rows[i];
@@ -210,9 +212,9 @@ void choose(AccuracyTable& table) {
         means.push_back({row.mean_within_asked->cpu_seconds, row.mean_within_asked->error});
         rows_of_means.push_back(i);
     }
-    const std::vector<bool> front = pareto_front(offers);
+    const std::vector<bool> front = statistics::pareto_front(offers);
     for (std::size_t k = 0; k < rows.size(); ++k) table.rows[rows[k]].on_front = front[k];
-    if (const auto best = cheapest_within(means, table.plan.asked_error))
+    if (const auto best = statistics::cheapest_within(means, table.plan.asked_error))
         table.recommended = rows_of_means[*best];
     table.recommendation = recommendation_in_words(table);
 }
@@ -236,10 +238,11 @@ std::vector<json> softening_soils(const AccuracyPlan& plan, const json& study_sc
 
 /// Softening without a length of its own goes on in one element or cell, however small it is.
 std::string softening_in_words(const AccuracyPlan& plan, const json& scene, const Ladder& ladder,
-                               Course course) {
+                               statistics::Course course) {
     const bool of_fem = plan.quantity.reach == Reach::fem || plan.quantity.reach == Reach::chain;
-    const bool mesh = of_fem && changes(ladder, "/section/") &&
-                      (course == Course::not_falling || course == Course::oscillating);
+    const bool mesh =
+        of_fem && changes(ladder, "/section/") &&
+        (course == statistics::Course::not_falling || course == statistics::Course::oscillating);
     const bool cells = has_lattice(plan.quantity.reach) && changes(ladder, "/mpm/cell_size");
     if (!mesh && !cells) return "";
     const std::vector<json> soils = softening_soils(plan, scene);
@@ -265,7 +268,7 @@ void judge(AccuracyTable& table, const json& scene) {
         ladder.reference = reference_of(table.plan.reference, ladder.convergence, *rows.back());
         ladder.lacks_sizes = table.plan.reference.kind == ReferenceKind::finest &&
                              table.plan.ladders[i].sizes.empty() &&
-                             rests_on_sizes(ladder.convergence.course);
+                             statistics::rests_on_sizes(ladder.convergence.course);
         ladder.reference_is_questionable =
             table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
         ladder.message = course_in_words(ladder.convergence, table.plan, i);
@@ -285,7 +288,7 @@ json as_json(const MeanOfDraws& mean) {
     return {{"draws", mean.draws}, {"error", mean.error}, {"cpu_seconds", mean.cpu_seconds}};
 }
 
-std::optional<double> error_of(const std::optional<Share>& share) {
+std::optional<double> error_of(const std::optional<statistics::Share>& share) {
     return share ? std::optional(share->error) : std::nullopt;
 }
 
@@ -329,12 +332,12 @@ json as_json(const AccuracyRow& row, const AccuracyPlan& plan) {
     return answer;
 }
 
-json as_json(const std::optional<Range>& range) {
+json as_json(const std::optional<statistics::Range>& range) {
     return range ? json{range->low, range->high} : json();
 }
 
 json as_json(const LadderSummary& ladder, const std::string& name) {
-    const Convergence& c = ladder.convergence;
+    const statistics::Convergence& c = ladder.convergence;
     return {{"name", name},
             {"course", name_of(c.course)},
             {"message", ladder.message},
@@ -398,7 +401,7 @@ json as_json(const AccuracyTable& table) {
             {"base", table.plan.base},
             {"reference", reference_in_words(table.plan.reference)},
             {"asked_error", table.plan.asked_error},
-            {"confidence", confidence},
+            {"confidence", statistics::confidence},
             {"rows", std::move(rows)},
             {"ladders", std::move(ladders)},
             {"recommended", std::move(recommended)},

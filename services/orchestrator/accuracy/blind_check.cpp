@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/orchestrator/accuracy/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 #include "services/orchestrator/accuracy/measured.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 #include "services/orchestrator/records/or_null.hpp"
@@ -65,7 +65,7 @@ BlindMean judged(const BlindCheckPlan& plan, std::vector<std::string> variants,
         mean.questionable |= found->second.questionable;
     }
     if (values.size() < mean.variants.size()) return mean;
-    mean.value = repeats_of(values).mean;
+    mean.value = statistics::repeats_of(values).mean;
     mean.error = std::abs(*mean.value - plan.reference) / std::abs(plan.reference);
     mean.kept = *mean.error <= plan.asked_error;
     return mean;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/statistics/neighbours.hpp"
 #include "core/words/number.hpp"
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
-#include "services/orchestrator/accuracy/neighbours.hpp"
 #include "services/orchestrator/accuracy/sentences.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 
@@ -184,7 +184,7 @@ class Scatter {
     std::optional<Estimate> estimate(const ResultRow& row) const {
         const auto found = runouts_.find(place_of(row));
         if (found == runouts_.end() || found->second.size() < 2) return std::nullopt;
-        return Estimate{repeats_of(found->second).deviation,
+        return Estimate{statistics::repeats_of(found->second).deviation,
                         "scatter of " + std::to_string(found->second.size()) + " draws: " + noise_};
     }
 
@@ -193,7 +193,7 @@ class Scatter {
         const auto found = runouts_.find(place);
         if (found == runouts_.end() || found->second.size() < 2)
             return {std::nullopt, "fewer than two draws have a runout"};
-        return {half_width_of_mean(repeats_of(found->second)),
+        return {statistics::half_width_of_mean(statistics::repeats_of(found->second)),
                 "scatter of the mean of " + std::to_string(found->second.size()) +
                     " draws, Student's 90 %: " + noise_};
     }
@@ -203,7 +203,7 @@ class Scatter {
         double sum = 0.0, places = 0.0;
         for (const auto& [place, runouts] : runouts_) {
             if (runouts.size() < 2) continue;
-            sum += std::pow(repeats_of(runouts).deviation.value_or(0.0), 2.0);
+            sum += std::pow(statistics::repeats_of(runouts).deviation.value_or(0.0), 2.0);
             ++places;
         }
         return places > 0.0 ? std::optional(std::sqrt(sum / places)) : std::nullopt;
@@ -240,9 +240,9 @@ class OverTransferTime {
                 curves[value_of(row, "variant")].emplace(time, value_of(row, "runout"));
         }
         for (const auto& [variant, curve] : curves) {
-            std::vector<CurvePoint> samples;
+            std::vector<statistics::CurvePoint> samples;
             for (const auto& [time, runout] : curve) samples.push_back({time, runout});
-            const auto scatter = scatter_among_neighbours(samples);
+            const auto scatter = statistics::scatter_among_neighbours(samples);
             for (std::size_t i = 0; i < samples.size(); ++i)
                 if (scatter[i]) scatter_.emplace(Place{variant, samples[i].x}, *scatter[i]);
         }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "services/orchestrator/accuracy/mean_of_draws.hpp"
+#include "core/statistics/repeats.hpp"
 
 namespace breach::orchestrator {
 
@@ -32,7 +32,7 @@ std::string what_tells_the_noise(const AccuracyPlan& plan) {
                : "";
 }
 
-std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& plan) {
+std::string noise_in_words(const statistics::Convergence& convergence, const AccuracyPlan& plan) {
     if (convergence.noise)
         return "; one run scatters by " + with_unit(convergence.noise->deviation, plan.quantity);
     const std::string remedy = what_tells_the_noise(plan);
@@ -40,7 +40,7 @@ std::string noise_in_words(const Convergence& convergence, const AccuracyPlan& p
 }
 
 /// Where the noise leaves the order open: what else it could be, and what would tell it.
-std::string order_in_words(const Convergence& convergence) {
+std::string order_in_words(const statistics::Convergence& convergence) {
     std::string words = "order " + shown(*convergence.order, "%.2g");
     if (!convergence.order_by_noise) return words;
     const auto [low, high] = *convergence.order_by_noise;
@@ -84,7 +84,8 @@ std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     if (table.plan.reference.kind == ReferenceKind::given) return "";
     constexpr double told = 0.05;  // of the whole
     std::string words;
-    const auto tell = [&](const std::string& ladder, const std::optional<Share>& share) {
+    const auto tell = [&](const std::string& ladder,
+                          const std::optional<statistics::Share>& share) {
         if (!share || share->error < told * *row.error_of_a_run) return;
         words += (words.empty() ? " It is off by " : ", ") + percent(share->error) + " by " +
                  ladder + (share->told ? "" : " (within the noise)");
@@ -97,8 +98,9 @@ std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
 
 /// What the mean of as many draws as are ever averaged is off.
 double error_of_means(const AccuracyTable& table, const AccuracyRow& row) {
-    return promised_error(*row.bias, *row.value, *table.ladders[row.setting.ladder].reference,
-                          most_draws_of_a_mean);
+    return statistics::promised_error(*row.bias, *row.value,
+                                      *table.ladders[row.setting.ladder].reference,
+                                      statistics::most_draws_of_a_mean);
 }
 
 /// The row whose means come nearest to what is asked; nothing: none can be offered.
@@ -138,30 +140,30 @@ std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& 
 
 }  // namespace
 
-std::string course_in_words(const Convergence& convergence, const AccuracyPlan& plan,
+std::string course_in_words(const statistics::Convergence& convergence, const AccuracyPlan& plan,
                             std::size_t ladder) {
     std::string words;
     switch (convergence.course) {
-        case Course::too_few:
+        case statistics::Course::too_few:
             words = "fewer than three rungs have a value: no order";
             break;
-        case Course::oscillating:
+        case statistics::Course::oscillating:
             words = "the three finest rungs go up and down: no order";
             break;
-        case Course::not_falling:
+        case statistics::Course::not_falling:
             words =
                 "the differences of the three finest rungs do not fall towards a limit: no "
                 "order";
             break;
-        case Course::no_effect:
+        case statistics::Course::no_effect:
             return "all rungs give the same to the last digit: what the ladder changes has no part "
                    "in the quantity";
-        case Course::below_noise:
+        case statistics::Course::below_noise:
             words =
                 "the two finest rungs differ by no more than the noise of the repeats: no "
                 "order";
             break;
-        case Course::monotone:
+        case statistics::Course::monotone:
             if (plan.ladders[ladder].sizes.empty()) {
                 words = "the three finest rungs fall monotonically: no order";
                 break;
@@ -171,9 +173,9 @@ std::string course_in_words(const Convergence& convergence, const AccuracyPlan& 
             if (convergence.gci)
                 words += ", grid convergence index of the finest " + percent(*convergence.gci);
     }
-    if (convergence.spread && convergence.course != Course::monotone)
+    if (convergence.spread && convergence.course != statistics::Course::monotone)
         words += "; spread " + with_unit(*convergence.spread, plan.quantity);
-    if (plan.ladders[ladder].sizes.empty() && rests_on_sizes(convergence.course))
+    if (plan.ladders[ladder].sizes.empty() && statistics::rests_on_sizes(convergence.course))
         words += "; what the finest is off is not known without \"sizes\": how coarse each rung is";
     return words + noise_in_words(convergence, plan);
 }
@@ -199,7 +201,7 @@ std::string recommendation_in_words(const AccuracyTable& table) {
                sizes_to_give(table) + ".";
     std::string words = "No setting meets " + asked;
     if (best->value->deviation)
-        words += ", nor the mean of " + std::to_string(most_draws_of_a_mean) + " draws";
+        words += ", nor the mean of " + std::to_string(statistics::most_draws_of_a_mean) + " draws";
     words += "; the nearest is " + setting_in_words(table, *best) + " (";
     if (best->value->deviation && *best->bias > table.plan.asked_error)
         words += "its own error is " + percent(*best->bias) + ", whatever is averaged; ";

@@ -8,7 +8,7 @@
 namespace breach::orchestrator {
 
 /// "order 1.4, limit 30.9 m, the finest within 2.1 % of it (grid convergence index)"
-std::string course_in_words(const Convergence& convergence, const AccuracyPlan& plan,
+std::string course_in_words(const statistics::Convergence& convergence, const AccuracyPlan& plan,
                             std::size_t ladder);
 /// "the finest rung of each ladder"
 std::string reference_in_words(const Reference& reference);

@@ -16,11 +16,11 @@
 #include "services/orchestrator/dispatch/clock_of_day.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/dispatch/registrar.hpp"
+#include "services/orchestrator/ensemble/batch_watch.hpp"
 #include "services/orchestrator/executors/executor.hpp"
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/files/folder_watch.hpp"
 #include "services/orchestrator/store/store.hpp"
-#include "services/orchestrator/triggers/batch_watch.hpp"
 #include "services/orchestrator/triggers/trigger_watch.hpp"
 
 namespace breach::orchestrator {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "core/statistics/percentiles.hpp"
+#include "core/statistics/repeats.hpp"
+#include "core/statistics/surrogate.hpp"
 #include "services/findings/flags.hpp"
 #include "services/findings/uncertainty.hpp"
 #include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
-#include "services/orchestrator/records/repeats.hpp"
-#include "services/orchestrator/uncertainty/percentiles.hpp"
-#include "services/orchestrator/uncertainty/surrogate.hpp"
 
 namespace breach::orchestrator {
 
@@ -68,10 +68,11 @@ Measured measured(const Ensemble& ensemble, std::string_view quantity) {
 }
 
 /// Options are numbered as their names sort.
-Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& samples) {
-    Drawn drawn{.name = parameter.at("name"),
-                .is_choice = kind_of(parameter) == "choice" || kind_of(parameter) == "numerical",
-                .values = {}};
+statistics::Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& samples) {
+    statistics::Drawn drawn{
+        .name = parameter.at("name"),
+        .is_choice = kind_of(parameter) == "choice" || kind_of(parameter) == "numerical",
+        .values = {}};
     std::set<json> options;
     for (const SampleRow* each : samples) options.insert(each->drawn.at(drawn.name));
     for (const SampleRow* each : samples) {
@@ -83,14 +84,14 @@ Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& sampl
     return drawn;
 }
 
-void add(json& into, const std::optional<Interval>& found, const char* name, const char* low,
-         const char* high) {
+void add(json& into, const std::optional<statistics::Interval>& found, const char* name,
+         const char* low, const char* high) {
     into[name] = found ? json(found->value) : json();
     into[low] = found ? json(found->low) : json();
     into[high] = found ? json(found->high) : json();
 }
 
-json as_json(const Importance& found, const json& parameter) {
+json as_json(const statistics::Importance& found, const json& parameter) {
     const std::string kind = kind_of(parameter);
     const bool ranked = kind == "factor" || kind == "value";
     json made{{"parameter", parameter.at("name")},
@@ -102,10 +103,10 @@ json as_json(const Importance& found, const json& parameter) {
     return made;
 }
 
-json as_json(const Tornado& tornado) {
+json as_json(const statistics::Tornado& tornado) {
     if (!tornado.refused.empty()) return {{"refused", tornado.refused}, {"q2", tornado.q2}};
     json bars = json::array();
-    for (const TornadoBar& each : tornado.bars)
+    for (const statistics::TornadoBar& each : tornado.bars)
         bars.push_back({{"parameter", each.name}, {"p10", each.p10}, {"p90", each.p90}});
     return {{"q2", tornado.q2},
             {"form", tornado.form},
@@ -117,18 +118,18 @@ json as_json(const Tornado& tornado) {
 json percentiles_of(const std::vector<double>& results) {
     json list = json::array();
     for (const double p : shown_percentiles) {
-        if (results.size() < samples_needed(p)) continue;
-        const Interval found = percentile(results, p);
+        if (results.size() < statistics::samples_needed(p)) continue;
+        const statistics::Interval found = statistics::percentile(results, p);
         list.push_back(
             {{"p", p}, {"value", found.value}, {"low", found.low}, {"high", found.high}});
     }
-    if (list.empty()) return {{"refused", not_enough(results.size(), 50.0)}};
+    if (list.empty()) return {{"refused", statistics::not_enough(results.size(), 50.0)}};
     return list;
 }
 
 json exceedance_of(const std::vector<double>& results) {
     json list = json::array();
-    for (const Exceedance& each : exceedance(results))
+    for (const statistics::Exceedance& each : statistics::exceedance(results))
         list.push_back({{"value", each.value},
                         {"probability", each.probability.value},
                         {"low", each.probability.low},
@@ -139,11 +140,11 @@ json exceedance_of(const std::vector<double>& results) {
 /// The lattice is the method's own scatter: it has a share of the variance, but is no parameter that
 /// others are freed from, or that a surrogate could know.
 void add_importance(json& into, const json& parameters, const Measured& measured) {
-    std::vector<Drawn> physical;
+    std::vector<statistics::Drawn> physical;
     json importance = json::array();
     for (const json& each : parameters)
         if (kind_of(each) != "numerical") physical.push_back(drawn_of(each, measured.samples));
-    const auto found = importance_of(physical, measured.results);
+    const auto found = statistics::importance_of(physical, measured.results);
     std::size_t next = 0;
     for (const json& each : parameters) {
         if (kind_of(each) != "numerical") {
@@ -151,15 +152,16 @@ void add_importance(json& into, const json& parameters, const Measured& measured
             continue;
         }
         const std::array lattice{drawn_of(each, measured.samples)};
-        importance.push_back(as_json(importance_of(lattice, measured.results).front(), each));
+        importance.push_back(
+            as_json(statistics::importance_of(lattice, measured.results).front(), each));
     }
     into["importance"] = std::move(importance);
-    into["tornado"] = as_json(tornado_of(physical, measured.results));
+    into["tornado"] = as_json(statistics::tornado_of(physical, measured.results));
 }
 
 json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
     const Measured found = measured(ensemble, quantity.name);
-    const Repeats repeats = repeats_of(found.results);
+    const statistics::Repeats repeats = statistics::repeats_of(found.results);
     json made{{"label", quantity.meaning},
               {"unit", quantity.unit},
               {"grows", findings::grows(quantity.name)},
@@ -172,11 +174,11 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
               {"exceedance", exceedance_of(found.results)}};
     json lacking = json::array();
     for (const double p : shown_percentiles)
-        if (found.results.size() < samples_needed(p))
-            lacking.push_back({{"p", p}, {"needs", samples_needed(p)}});
+        if (found.results.size() < statistics::samples_needed(p))
+            lacking.push_back({{"p", p}, {"needs", statistics::samples_needed(p)}});
     made["percentiles_lacking"] = std::move(lacking);
     if (std::string_view(quantity.name).starts_with("factor_of_safety")) {
-        const Interval failed = share_below(found.results, 1.0);
+        const statistics::Interval failed = statistics::share_below(found.results, 1.0);
         made["probability_of_failure"] = {
             {"value", failed.value}, {"low", failed.low}, {"high", failed.high}};
     }
@@ -234,8 +236,8 @@ json until_of(const Ensemble& ensemble) {
     made["now"] = nullptr;
     const Measured found = measured(ensemble, made["quantity"].get<std::string>());
     const double p = until.at("percentile");
-    if (found.results.size() < samples_needed(p)) return made;
-    const Interval now = percentile(found.results, p);
+    if (found.results.size() < statistics::samples_needed(p)) return made;
+    const statistics::Interval now = statistics::percentile(found.results, p);
     if (now.value == 0.0) return made;
     const double half = 0.5 * (now.high - now.low) / std::abs(now.value);
     made["now"] = half;
@@ -258,7 +260,7 @@ json findings_of(const Ensemble& ensemble, const json& scene, const std::string&
         {"quantity", quantity.empty() ? first_quantity(ensemble) : quantity},
         {"sampling", ensemble.entry.value("sampling", json())},
         {"seed", ensemble.entry.value("seed", json())},
-        {"confidence", share_covered},
+        {"confidence", statistics::confidence},
         {"samples", counts_of(ensemble)},
         {"parameters", parameters_of(ensemble.entry)},
         {"rows", rows_of(ensemble)},

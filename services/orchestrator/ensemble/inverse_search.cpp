@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/statistics/repeats.hpp"
 #include "services/orchestrator/records/or_null.hpp"
-#include "services/orchestrator/records/repeats.hpp"
 
 namespace breach::orchestrator {
 
@@ -26,7 +26,7 @@ std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json
     const std::string& quantity = search.target.question.quantity;
     const std::string& vary = plan.parameters.at(search.target.parameter).name;
     for (const double value : search.target.values) {
-        InverseStep step{.value = value, .results = {}};
+        statistics::InverseStep step{.value = value, .results = {}};
         for (const SampleRow& each : ensemble.samples) {
             if (each.drawn.at(vary) != value) continue;
             step.open |= each.fate == Fate::open && !ensemble.run.finished;
@@ -41,28 +41,29 @@ std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json
         }
         search.steps.push_back(std::move(step));
     }
-    std::ranges::sort(search.steps, {}, &InverseStep::value);
-    search.advice = advise_inverse(search.target.question, search.steps);
+    std::ranges::sort(search.steps, {}, &statistics::InverseStep::value);
+    search.advice = statistics::advise_inverse(search.target.question, search.steps);
     return search;
 }
 
 json as_json(const InverseSearch& search, const std::string& vary) {
-    const InverseAdvice& advice = search.advice;
+    const statistics::InverseAdvice& advice = search.advice;
     json steps = json::array();
-    for (const InverseStep& each : search.steps) {
+    for (const statistics::InverseStep& each : search.steps) {
         const bool failed = each.results.empty() && !each.open;
         steps.push_back(
             {{"value", each.value},
              {"results", each.results},
              {"lower_bounds", each.moving},
-             {"result", each.results.empty() ? json() : json(repeats_of(each.results).mean)},
+             {"result",
+              each.results.empty() ? json() : json(statistics::repeats_of(each.results).mean)},
              {"state", each.open ? "open"
                        : failed  ? "failed"
                                  : "done"}});
     }
-    const char* bound = advice.bound == Bound::at_least  ? "at_least"
-                        : advice.bound == Bound::at_most ? "at_most"
-                                                         : nullptr;
+    const char* bound = advice.bound == statistics::Bound::at_least  ? "at_least"
+                        : advice.bound == statistics::Bound::at_most ? "at_most"
+                                                                     : nullptr;
     const bool interval = advice.found && advice.has_interval;
     return {{"quantity", search.target.question.quantity},
             {"unit", search.target.question.unit},

@@ -8,8 +8,8 @@ namespace breach::orchestrator {
 
 struct InverseSearch {
     Target target;
-    std::vector<InverseStep> steps;  ///< ascending in the value
-    InverseAdvice advice;
+    std::vector<statistics::InverseStep> steps;  ///< ascending in the value
+    statistics::InverseAdvice advice;
 };
 
 /// Nothing: the study has no target. scene: of the run.

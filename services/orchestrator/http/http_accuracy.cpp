@@ -1,6 +1,6 @@
+#include "core/statistics/repeats.hpp"
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/accuracy/blind_check.hpp"
-#include "services/orchestrator/accuracy/mean_of_draws.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
@@ -49,7 +49,7 @@ void draw_check(Service& service, Call& call) {
     wish.repeats = count_in(call, "repeats", most_repeats_of_a_check).value_or(wish.repeats);
     wish.ladder = call.parameter("ladder");
     wish.step = count_in(call, "step", most_repeats_of_a_check);
-    wish.mean_of = count_in(call, "mean_of", most_draws_of_a_mean);
+    wish.mean_of = count_in(call, "mean_of", statistics::most_draws_of_a_mean);
     const AccuracyTable table = wanted_table(service, call, run);
     const std::string check =
         accept_made_study(service, call, study_of_check(service.store, run.id, table, wish));

@@ -6,11 +6,11 @@
 #include "core/exchange/provenance.hpp"
 #include "core/phases/phases.hpp"
 #include "core/scene/file_paths.hpp"
+#include "services/orchestrator/ensemble/batch_watch.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/http/stored_scene.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
-#include "services/orchestrator/triggers/batch_watch.hpp"
 
 namespace breach::orchestrator {
 

@@ -104,7 +104,7 @@ struct NewRun {
     std::vector<Recipe> recipes = {};
     std::vector<TriggerPlan> triggers = {};   ///< to be watched, on each FEM of the run
     std::vector<TaskPlan> firing_plan = {};   ///< of one more transfer (firing_plan.hpp)
-    std::optional<TriggerPlan> batches = {};  ///< draws more samples (triggers/batch_watch.hpp)
+    std::optional<TriggerPlan> batches = {};  ///< draws more samples (ensemble/batch_watch.hpp)
     std::int64_t priority = 0;                ///< higher goes first
     bool sweep = false;                       ///< several points, or asked for as a sweep
     std::optional<SceneSource> made_of = {};  ///< a stored scene

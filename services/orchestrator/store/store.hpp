@@ -128,7 +128,7 @@ class Store {
     std::vector<Trigger> open_triggers() const;
     /// Whether the run knows which tasks one more transfer from this FEM makes.
     bool plans_transfers_of(const Task& fem) const;
-    /// Those that draw more samples (triggers/batch_watch.hpp).
+    /// Those that draw more samples (ensemble/batch_watch.hpp).
     std::vector<Trigger> open_batches() const;
     std::vector<Trigger> triggers_of(const std::string& run) const;
     std::vector<FiringRow> firings_of(const std::string& run) const;

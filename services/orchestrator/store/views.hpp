@@ -13,7 +13,7 @@ void make_views(Connection& database);
 /// The SQL condition on a task by which it makes a row of sweep_results: an MPM, or the stability
 /// analysis of a run that has nothing else.
 std::string makes_a_row(const std::string& task);
-/// The SQL condition on a trigger's spec by which it draws more samples (triggers/batch_watch.hpp) and
+/// The SQL condition on a trigger's spec by which it draws more samples (ensemble/batch_watch.hpp) and
 /// watches no FEM.
 std::string draws_samples(const std::string& spec);
 /// In the order of the run's plan.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "services/orchestrator/sampling/samples.hpp"
+#include "services/orchestrator/study/samples.hpp"
 
 namespace breach::orchestrator {
 

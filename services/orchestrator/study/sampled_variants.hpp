@@ -1,8 +1,8 @@
 // A study's samples as its variants, and what an uncertainty study cannot ask for.
 #pragma once
 
-#include "services/orchestrator/sampling/plan.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
+#include "services/orchestrator/study/uncertainty.hpp"
 
 namespace breach::orchestrator {
 

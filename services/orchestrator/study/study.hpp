@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "services/orchestrator/records/records.hpp"
-#include "services/orchestrator/sampling/plan.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/target.hpp"
+#include "services/orchestrator/study/uncertainty.hpp"
 
 namespace breach::orchestrator {
 

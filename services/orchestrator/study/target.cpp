@@ -3,19 +3,20 @@
 #include <algorithm>
 
 #include "services/orchestrator/records/result_columns.hpp"
-#include "services/orchestrator/sampling/samples.hpp"
+#include "services/orchestrator/study/samples.hpp"
 
 namespace breach::orchestrator {
 
 using fault::Fault;
 using nlohmann::json;
+using statistics::DistributionKind;
 
 namespace {
 
 constexpr std::size_t usual_lattices = 3;
 
 /// Where the search begins: "between", or the ends of the distribution itself.
-std::optional<std::array<double, 2>> ends_of(const Distribution& distribution) {
+std::optional<std::array<double, 2>> ends_of(const statistics::Distribution& distribution) {
     if (distribution.between) return distribution.between;
     switch (distribution.kind) {
         case DistributionKind::uniform:

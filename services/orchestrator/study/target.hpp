@@ -1,16 +1,16 @@
 // The entry "target" of an uncertainty study: instead of samples, values of one parameter until a
 // result is a given number, the other parameters at their medians. How the values are chosen is in
-// uncertainty/inverse.hpp; here they become variants.
+// core/statistics/inverse.hpp; here they become variants.
 #pragma once
 
-#include "services/orchestrator/sampling/plan.hpp"
+#include "core/statistics/inverse.hpp"
 #include "services/orchestrator/study/accuracy.hpp"
-#include "services/orchestrator/uncertainty/inverse.hpp"
+#include "services/orchestrator/study/uncertainty.hpp"
 
 namespace breach::orchestrator {
 
 struct Target {
-    InverseQuestion question;
+    statistics::InverseQuestion question;
     std::size_t parameter;       ///< that is varied, in the plan
     std::size_t lattices = 1;    ///< each value is run on so many lattices of points
     std::vector<double> values;  ///< so far, in the order in which they were asked for

@@ -11,13 +11,13 @@
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
+#include "core/statistics/bisection.hpp"
+#include "core/statistics/repeats.hpp"
 #include "core/words/number.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/records/identity.hpp"
-#include "services/orchestrator/records/repeats.hpp"
 #include "services/orchestrator/study/graph.hpp"
-#include "services/orchestrator/triggers/bisection.hpp"
 
 namespace breach::orchestrator {
 
@@ -95,16 +95,17 @@ std::string never_met(const criteria::Criterion& criterion, double hold,
 
 /// Decided by a mean that may lie on the other side of the level: its own scatter and that of the
 /// largest, of which the level is a share.
-bool straddles(const Repeats& sample, const Repeats& largest, double share) {
-    const double half = half_width_of_mean(sample).value_or(0.0);
-    const double of_level = share * half_width_of_mean(largest).value_or(0.0);
+bool straddles(const statistics::Repeats& sample, const statistics::Repeats& largest,
+               double share) {
+    const double half = statistics::half_width_of_mean(sample).value_or(0.0);
+    const double of_level = share * statistics::half_width_of_mean(largest).value_or(0.0);
     return std::abs(sample.mean - share * largest.mean) <= std::hypot(half, of_level);
 }
 
 /// Where the study has draws: which times were decided by a mean whose band straddles the level,
 /// and which by fewer draws than were asked for.
 void tell_draws(const std::vector<Sample>& samples, double share,
-                const std::optional<Plateau>& plateau, json& result) {
+                const std::optional<statistics::Plateau>& plateau, json& result) {
     const auto repeated = std::ranges::max_element(samples, {}, &Sample::draws);
     if (repeated == samples.end() || repeated->draws < 2) return;
     result["draws"] = repeated->draws;
@@ -115,15 +116,15 @@ void tell_draws(const std::vector<Sample>& samples, double share,
             result["with_fewer_draws"].push_back(each.transfer_time);
     if (!plateau) return;
     const auto top = std::ranges::find(samples, plateau->largest_at, &Sample::transfer_time);
-    const Repeats largest = repeats_of(top->runouts);
+    const statistics::Repeats largest = statistics::repeats_of(top->runouts);
     for (const Sample& each : samples) {
         if (each.runouts.empty() || &each == &*top) continue;
-        const Repeats sample = repeats_of(each.runouts);
+        const statistics::Repeats sample = statistics::repeats_of(each.runouts);
         if (straddles(sample, largest, share))
             result["straddling"].push_back(
                 {{"transfer_time", each.transfer_time},
                  {"runout", sample.mean},
-                 {"half_width", half_width_of_mean(sample).value_or(0)}});
+                 {"half_width", statistics::half_width_of_mean(sample).value_or(0)}});
     }
 }
 
@@ -441,7 +442,8 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
         const auto found = std::ranges::find(times, each.transfer_time);
         if (found != times.end())
             runouts[static_cast<std::size_t>(found - times.begin())] =
-                each.runouts.empty() ? no_runout : repeats_of(each.runouts).mean;
+                each.runouts.empty() ? statistics::no_runout
+                                     : statistics::repeats_of(each.runouts).mean;
     }
     const auto is_lost = [](const Sample& each) { return each.lost_by.has_value(); };
     if (const auto lost = std::ranges::find_if(samples, is_lost); lost != samples.end()) {
@@ -453,7 +455,8 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
         move(armed, TriggerEvent::expire, {{"why", "no snapshot lies in the range"}});
         return;
     }
-    const Advice advice = advise(times, runouts, bisect.share, bisect.seeds);
+    const statistics::Advice advice =
+        statistics::advise(times, runouts, bisect.share, bisect.seeds);
     const bool enough = samples.size() >= static_cast<std::size_t>(bisect.most_runs);
     if (!advice.run_next.empty() && !enough) {
         if (armed.trigger.state == TriggerState::armed) move(armed, TriggerEvent::cross, {});
@@ -471,7 +474,7 @@ void TriggerWatch::settle_work(Fem& fem, Armed& armed, Bisect& bisect) {
                 {"complete", advice.run_next.empty()}};
     tell_draws(samples, bisect.share, advice.plateau, result);
     if (advice.plateau) {
-        const auto edge = [](const Edge& each) {
+        const auto edge = [](const statistics::Edge& each) {
             return json{{"off", each.off ? json(*each.off) : json(nullptr)}, {"on", each.on}};
         };
         result["lower"] = edge(advice.plateau->lower);

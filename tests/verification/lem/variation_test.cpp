@@ -5,9 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
-#include "lem_tool/hypercube.hpp"
 #include "tests/unit/lem/small_scenes.hpp"
 
 namespace breach::lem::variation_test {
@@ -24,24 +22,6 @@ json clay_slope(const json& lem) {
 }
 
 double Phi(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
-
-TEST(Hypercube, HasOneValueInEveryIntervalAndTheSameOnesForTheSameSeed) {
-    const auto column = hypercube_column(500, 7, 2);
-    std::set<int> intervals;
-    for (const double x : column) intervals.insert(static_cast<int>(500.0 * x));
-    EXPECT_EQ(intervals.size(), 500u);
-    EXPECT_EQ(column, hypercube_column(500, 7, 2));
-    EXPECT_NE(column, hypercube_column(500, 7, 1));
-    EXPECT_NE(column, hypercube_column(500, 8, 2));
-}
-
-TEST(NormalQuantile, InvertsTheDistribution) {
-    EXPECT_NEAR(standard_normal_quantile(0.975), 1.959963984540054, 1e-12);
-    EXPECT_NEAR(standard_normal_quantile(0.5), 0.0, 1e-12);
-    for (const double z : {-6.0, -3.0, 1.0, 4.0}) {
-        EXPECT_NEAR(standard_normal_quantile(Phi(z)), z, 1e-9);
-    }
-}
 
 TEST(Sensitivity, OfTheCohesionIsProportionalWithoutFriction) {
     json result;

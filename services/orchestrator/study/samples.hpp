@@ -1,0 +1,37 @@
+// The samples of a plan: numbers drawn, and what they change in the scene.
+#pragma once
+
+#include <functional>
+
+#include "services/orchestrator/study/uncertainty.hpp"
+
+namespace breach::orchestrator {
+
+/// One sample. draws: one per parameter: the factor or value, rounded to six digits; the place of the
+/// option; the number of the lattice.
+struct DrawnSample {
+    std::size_t number;  ///< from 1
+    std::vector<double> draws;
+};
+
+/// The first so many samples of the plan: a function of its parameters, correlations, seed, sampling
+/// and first hypercube, never of how many are asked for.
+std::vector<DrawnSample> samples_of(const UncertaintyPlan& plan, std::size_t count);
+
+/// "s0001"
+std::string name_of_sample(std::size_t number);
+
+/// By the parameter's name: the number, the option's name, the lattice's number.
+nlohmann::json values_of(const UncertaintyPlan& plan, const DrawnSample& sample);
+
+/// Changes that move the points to this lattice.
+using Lattice = std::function<std::vector<std::string>(std::size_t number)>;
+
+/// What one draw of one parameter changes in the scene. scene: completed, for what factors multiply.
+std::vector<std::string> overrides_of(const Parameter& parameter, double draw,
+                                      const nlohmann::json& scene, const Lattice& lattice);
+
+/// The draw at the share u of the parameter's probability, 0 < u < 1.
+double draw_at(const Parameter& parameter, double u);
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,80 @@
+// The study's entry "uncertainty": which settings are not known, how they are distributed, and how many
+// samples are drawn of them. What the samples say of a result is in ensemble/.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fault/fault.hpp"
+#include "core/statistics/distribution.hpp"
+#include "core/statistics/rank_correlation.hpp"
+
+namespace breach::orchestrator {
+
+enum class ParameterKind {
+    factor,     ///< on what the scene says of its entries
+    value,      ///< of its entries
+    choice,     ///< one of several lists of overrides
+    numerical,  ///< the lattice of material points: what no reader can know, but the method's own
+};
+std::string_view name_of(ParameterKind kind);
+
+struct Choice {
+    std::string name;
+    std::vector<std::string> overrides;
+    double weight = 1.0;
+};
+
+struct Parameter {
+    std::string name;
+    ParameterKind kind = ParameterKind::value;
+    std::vector<std::string> entries;       ///< pointers into the scene
+    statistics::Distribution distribution;  ///< of factor and value
+    std::vector<Choice> choices;            ///< of choice
+    std::size_t lattices = 1;               ///< of numerical: drawn from those numbered 0, 1, ...
+};
+
+enum class Sampling { latin_hypercube, sobol };
+std::string_view name_of(Sampling sampling);
+
+/// Spearman's, between two parameters by their places.
+struct AskedCorrelation {
+    std::size_t a, b;
+    double rank;
+};
+
+/// Samples are added in batches until the percentile's interval is narrow enough.
+struct Until {
+    std::string quantity;
+    double percentile;  ///< 0 to 100
+    double half_width;  ///< of its interval, over its value
+    std::size_t batch;  ///< so many samples at a time
+};
+
+struct UncertaintyPlan {
+    std::string quantity;     ///< what is looked at first
+    std::size_t samples = 1;  ///< that are asked for
+    std::size_t drawn = 1;    ///< so far: fewer than asked for where `until` stands
+    std::size_t first = 1;    ///< size of the first hypercube
+    std::uint64_t seed = 0;
+    Sampling sampling = Sampling::latin_hypercube;
+    std::vector<Parameter> parameters;
+    std::vector<AskedCorrelation> correlations;
+    std::optional<Until> until;
+};
+
+/// The entry, which the schema has found sound; faults have the study's pointers ("/uncertainty/...").
+/// `scene`: completed, with the study's own overrides.
+UncertaintyPlan read_uncertainty(const nlohmann::json& entry, const nlohmann::json& scene,
+                                 std::vector<fault::Fault>& faults);
+
+/// Whether the parameter gives this entry of the scene, a part of it, or what holds it.
+bool gives(const Parameter& parameter, const std::string& pointer);
+
+/// The rank correlations that are asked for, 1 on the diagonal, 0 where nothing is said.
+statistics::Matrix correlation_matrix(const UncertaintyPlan& plan);
+
+}  // namespace breach::orchestrator
