@@ -45,6 +45,13 @@ Symmetry symmetry_for(const Stage& stage, const std::vector<materials::Law>& law
     return general ? Symmetry::general : Symmetry::symmetric;
 }
 
+/// Loads and pore pressure, without the reactions of supports [N].
+Eigen::VectorXd loads_of(const Model& model, const Motion& motion) {
+    Eigen::VectorXd loads = model.external_force;
+    add_pressure_force(model, motion.p, loads);
+    return loads;
+}
+
 }  // namespace
 
 Analysis::Analysis(process::Session& session, Model model)
@@ -144,6 +151,7 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
 void Analysis::begin_stage(const Stage& stage) {
     laws_ = laws_for(model_, stage.laws);
     const bool is_static = stage.kind == StageKind::static_equilibrium;
+    const Eigen::VectorXd loads_before = loads_of(model_, motion_);
     set_softening(stage, model_, laws_);
     if (!newton_) make_newton(stage, counts_);
     set_permeability(session_.scene(), stage.permeability, model_);
@@ -164,6 +172,10 @@ void Analysis::begin_stage(const Stage& stage) {
     if (is_static) {
         position_.load_step = 1.0 / stage.load_steps;
         stage_force_ = motion_.force;
+        // What a support gave an edge that now moves is part of the edge's own force from the start.
+        if (position_.stage > 0)
+            for (const Model::Driven& each : model_.driven)
+                stage_force_[each.dof] = loads_before[each.dof];
         if (drains) return;
         Eigen::VectorXd of_water = Eigen::VectorXd::Zero(model_.dofs());
         add_pressure_force(model_, motion_.p, of_water);
