@@ -7,7 +7,7 @@
 namespace breach::lem {
 
 /// Raised when the numbers change for the same input: the cache takes no result of another one.
-inline constexpr int numerics = 7;
+inline constexpr int numerics = 8;
 
 process::Plan plan(const scene::Scene& scene);
 
