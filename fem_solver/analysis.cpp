@@ -171,6 +171,7 @@ void Analysis::begin_stage(const Stage& stage) {
     if (fem_.changes_the_body()) settle_stresses(*newton_, laws_, motion_, trial_);
     if (is_static) {
         position_.load_step = 1.0 / stage.load_steps;
+        position_.at_limit = false;
         stage_force_ = motion_.force;
         // What a support gave an edge that now moves is part of the edge's own force from the start.
         if (position_.stage > 0)
@@ -351,22 +352,21 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
 
 /// Soil that an edge pushes yields everywhere at once when its limit state is reached exactly. Its
 /// tangent is singular there: the step is tried again with a part of the elastic stiffness and a wider
-/// tolerance. The residual enters the next step, so it does not add up. Load steps keep their tolerance:
-/// beyond its limit a load has no equilibrium.
+/// tolerance, and so are the steps behind it until one fails. The residual enters the next step, so it
+/// does not add up. Load steps keep their tolerance: beyond its limit a load has no equilibrium.
 NewtonOutcome Analysis::static_balance(double load) {
-    constexpr double elastic_share = 0.05;
-    constexpr double grace = 100.0;  // times the tolerance
     const auto step = [&] {
         return static_step(*newton_, model_, laws_, load, stage_force_, motion_, prediction_,
                            trial_);
     };
-    NewtonOutcome outcome = step();
-    if (outcome.end == End::converged || model_.driven.empty()) return outcome;
-    newton_->stiffen(elastic_share);
-    outcome = step();
-    newton_->stiffen(0.0);
-    if (outcome.end == End::not_converged && outcome.residual <= grace * fem_.force_tolerance)
-        outcome.end = End::converged;
+    if (!position_.at_limit) {
+        const NewtonOutcome outcome = step();
+        if (outcome.end == End::converged || model_.driven.empty()) return outcome;
+    }
+    newton_->take(Newton::Tangent::stiffened);
+    const NewtonOutcome outcome = step();
+    newton_->take(Newton::Tangent::of_the_laws);
+    position_.at_limit = outcome.end == End::converged;
     return outcome;
 }
 
