@@ -557,6 +557,11 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
         position_.dt = std::min(stage.time_step, growth * position_.dt);
         position_.easy_steps = 0;
     }
+    // A step cut short to meet a stop: its velocities may be those of an instant, too.
+    if (growth * dt < (1.0 - 1e-9) * position_.dt) {
+        position_.dt = growth * dt;
+        position_.easy_steps = 0;
+    }
     keep_largest_excess_pressure();
     write_due_outputs(dt, outcome);
     session_.progress(position_.time / span_,
