@@ -168,9 +168,10 @@ double strips_of(const scene::Scene& scene) {
 
 /// Strength of a region under 100 kPa [Pa].
 double strength_of(const scene::Scene& scene, const scene::Region& region) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (region.material >= scene.materials.size()) return unknown;
     const auto strength = limit_strength(scene.materials[region.material]);
-    return strength ? strength->c + 1e5 * strength->tan_phi
-                    : std::numeric_limits<double>::infinity();
+    return strength ? strength->c + 1e5 * strength->tan_phi : unknown;
 }
 
 /// Layers thinner than a tenth of their depth and weaker than all thicker soil: each is searched along.
